@@ -142,8 +142,8 @@ def sympy_polynomials(order: int = 7, size: int = 9) -> Prepared:
 
 def commutator_free(explicit: bool) -> Prepared:
     """CF conditions to order 4 as polynomials, 5 stages with 5 exponentials each, as has the update."""
+    from orderconds import families
     from orderconds.derivation import derive
-    from orderconds.families import cf
     from orderconds.ring.polynomials import Polynomials
     from orderconds.tableau import CommutatorFree, Stage
 
@@ -159,7 +159,7 @@ def commutator_free(explicit: bool) -> Prepared:
         ]
         update = tuple(tuple(at[f"beta_{J}_{j}"] for j in size) for J in size)
         method = CommutatorFree(tuple(Stage(None, row) for row in rows), Stage(None, update))
-        return len(cf.create().evaluate(method, ring, derive("cf", 4).conditions))
+        return len(families.get("cf").evaluate(method, ring, derive("cf", 4).conditions))
 
     return work
 

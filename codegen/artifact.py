@@ -1,9 +1,9 @@
 """An emitted module: its files and its manifest entry, and the folder they are written to and read from.
 
-A folder's ``manifest.json`` lists its modules, one a (module, target), with the digest of each file. Files
-take their final names only when they are whole, the manifest last: a write that is killed between two files
-leaves a folder in which the digests show it, and the same write repairs it. One process at a time writes to
-a folder.
+``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Files
+are written completely before they get their final names, the manifest last. If a write is killed between two
+files, the digests show it, and repeating the write repairs the folder. One process at a time writes to a
+folder.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True)
 class Artifact:
-    """One module in one target: ``files`` maps names to texts, ``manifest`` is its entry in the folder's."""
+    """One module in one target: ``files`` maps names to texts, ``manifest`` is its entry in the manifest."""
 
     files: Mapping[str, str]
     manifest: Mapping[str, Any]
@@ -37,10 +37,10 @@ class Artifact:
         return self.manifest["module"], self.manifest["target"]
 
     def write(self, directory: str | Path) -> list[Path]:
-        """Write files and manifest into a folder, made where missing; return their paths.
+        """Write files and manifest into a folder, which is created if it is missing; return their paths.
 
-        Other modules of the folder stay. An InputError where the folder cannot be written to, or another
-        method has the names of these files.
+        Other modules of the folder are kept. InputError if the folder cannot be written to, or if files of
+        another method have the same names.
         """
         folder = Path(directory)
         try:
@@ -76,9 +76,9 @@ class Artifact:
 
 @contextmanager
 def writing(folder: Path) -> Iterator[None]:
-    """Be the only writer in a folder, and remove what writers that were killed have left there."""
+    """Be the only writer in a folder; remove temporary files of writers that were killed."""
     with locked(folder) as held:
-        if held:  # else a temporary file may be another writer's
+        if held:  # without the lock, a temporary file may belong to another writer
             for path in folder.iterdir():
                 if is_temporary(path.name):
                     path.unlink(missing_ok=True)
@@ -91,13 +91,13 @@ def digest(text: str) -> str:
 
 
 def manifest_text(entries: list[dict[str, Any]]) -> str:
-    """Return the manifest of some modules: sorted, and the same bytes for the same modules."""
+    """Return the text of a manifest: sorted, so that the same modules give the same bytes."""
     ordered = sorted(entries, key=lambda e: (e["module"], e["target"]))
     return json.dumps({"modules": ordered}, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
 
 
 def entries_of(folder: Path) -> list[dict[str, Any]]:
-    """Return the entries of a folder's manifest, none where there is no manifest."""
+    """Return the entries of a folder's manifest, none without a manifest."""
     path = folder / MANIFEST
     try:
         entries = json.loads(content_of(path, limit=MAX_WRITTEN_BYTES))["modules"]
@@ -115,14 +115,14 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
 
 
 def _is_entry(entry: Mapping[str, Any]) -> bool:
-    """Return whether an entry has what every reader of a manifest needs, of the right types."""
+    """Whether an entry has the required keys, of the right types."""
     files = entry["files"]
     plain = [entry["module"], entry["target"], *files, *files.values()]
     return all(isinstance(x, str) for x in plain) and not any("/" in name or "\\" in name for name in files)
 
 
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
-    """Return a module from a folder; ``module`` and ``target`` choose where the folder holds several.
+    """Return a module from a folder; ``module`` and ``target`` choose if it has several.
 
     InputError: no such module, more than one, a file that is missing or not as it was emitted.
     """
@@ -130,7 +130,7 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     try:
         with locked(folder, shared=True):
             return _read(folder, entries_of(folder), module, target)
-    except OSError:  # no folder, or none that can be opened; its manifest tells why
+    except OSError:  # the folder cannot be opened; reading the manifest reports why
         return _read(folder, entries_of(folder), module, target)
 
 
@@ -139,7 +139,7 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
     if len(chosen) != 1:
         known = ", ".join(f"{e['module']} ({e['target']})" for e in entries)
         raise InputError(
-            f"{len(chosen)} modules answer to {module or 'any name'} ({target or 'any target'})",
+            f"{len(chosen)} modules match {module or 'any name'} ({target or 'any target'})",
             where=str(folder),
             expected=f"one of {known}" if known else "a folder that emit wrote",
         )
@@ -160,11 +160,11 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
 
 
 def write_text(path: Path, text: str) -> Path:
-    """Write a file whole or not at all; return its path."""
+    """Write a file atomically; return its path."""
     return write_texts({path: text})[0]
 
 
 def write_texts(texts: Mapping[Path, str]) -> list[Path]:
-    """Write files whole or not at all, in the order given; return their paths."""
+    """Write files in order, each atomically; return their paths."""
     write_files({path: text.encode() for path, text in texts.items()})
     return list(texts)

@@ -1,7 +1,8 @@
-"""Compile emitted C to a shared object, once: results are kept by content and compiler identity.
+"""Compile emitted C to a shared object; results are cached by content and compiler.
 
-Nothing half built ever carries its final name: the compiler writes into a folder of its own inside the
-cache, and the finished file is renamed (:mod:`codegen.cache_entry`); two processes may build the same thing.
+The compiler writes into a temporary folder inside the cache, and the finished file is renamed
+(:mod:`codegen.cache_entry`). So no incomplete file has the final name, and two processes may build the same
+module.
 """
 
 from __future__ import annotations
@@ -24,29 +25,29 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""Errors of a cache that this process cannot write to; a temporary folder serves instead."""
+"""Errors of a cache that this process cannot write to; a temporary folder is used instead."""
 
 
 class CompilerMissing(InputError):
-    """There is no C compiler, or the one that $CC names is not there."""
+    """There is no C compiler, or the compiler in $CC does not exist."""
 
 
 class CompileError(InputError):
-    """The compiler refused the source; its message is part of ours."""
+    """The compiler rejected the source; the error contains its message."""
 
 
 @dataclass(frozen=True)
 class Compiler:
-    """A C compiler: its command line words and the first line with which it tells its version."""
+    """A C compiler: the words of its command and the first line of its ``--version``."""
 
     command: tuple[str, ...]
     version: str
 
 
 def find_compiler() -> Compiler:
-    """Return the C compiler: $CC if it is set, else the first of cc, gcc and clang that is there.
+    """Return the C compiler: $CC if it is set, else the first of cc, gcc and clang that exists.
 
-    A CompilerMissing says what was looked for.
+    CompilerMissing if there is none.
     """
     return _find(os.environ.get("CC", ""), os.environ.get("PATH", os.defpath))
 
@@ -88,10 +89,10 @@ def build(
     *,
     again: bool = False,
 ) -> Path:
-    """Return the path of a shared object made of C files (name -> text).
+    """Return the path of a shared object compiled from C files (name -> text).
 
-    One in the cache is taken if its content has the digest that was recorded for it; ``again`` builds it in
-    any case. Errors: CompilerMissing, CompileError, InputError where the result cannot be written.
+    A cached file is used if its content has the recorded digest; ``again`` compiles in any case. Errors:
+    CompilerMissing, CompileError, InputError if the result cannot be written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"
@@ -125,10 +126,8 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    environment = {
-        **os.environ,
-        "TMPDIR": str(directory),
-    }  # files of a compiler that is killed go with the rest
+    # If the compiler is killed, its temporary files are removed together with this folder.
+    environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = subprocess.run(
             command,

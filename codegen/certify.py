@@ -17,16 +17,16 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 DOUBLE_BITS = 53
-"""A double has this many bits: rounding moves a number by at most its 2^-53th part."""
+"""Bits of a double: rounding changes a number by a relative error of at most 2^-53."""
 
 
 @dataclass(frozen=True)
 class CertifiedOrder:
-    """An order with how it is known, and the conditions of the next order that fail.
+    """An order, its certificate, and the conditions of the next order that fail.
 
-    ``bound`` says that the search ended before a condition failed; ``classical`` names the family that the
-    method is on an abelian group, where the order was found for that one. ``radius`` says how far the
-    coefficients are known, where that is less than a double holds: then there is no certificate.
+    ``bound``: the search ended before a condition failed, so the order may be higher. ``classical`` is the
+    family of the method on an abelian group, if the order is that of the classical method. ``radius`` is the
+    uncertainty of the coefficients if it exceeds double precision; then there is no certificate.
     """
 
     order: int
@@ -37,12 +37,12 @@ class CertifiedOrder:
     radius: str = ""
 
     def text(self) -> str:
-        """Say it in words."""
+        """Return the order and its certificate for a header."""
         how = {
             "exact": "every order condition up to it is zero in exact arithmetic",
             "ball": "interval arithmetic proves a method of this order within the last digit of the decimals",
-            "decimal": "what the printed digits of the coefficients support",
-            "none": f"the coefficients are known to {self.radius} only, less than double precision",
+            "decimal": "the conditions hold up to the printed digits of the coefficients",
+            "none": f"the coefficients are known to {self.radius} only, which is less than double precision",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
@@ -51,7 +51,7 @@ class CertifiedOrder:
 
 
 def family_of(method: Method) -> Family:
-    """Return the family whose order conditions hold for what is compiled."""
+    """Return the family whose order conditions apply to the compiled method."""
     from orderconds import families
 
     if method.family in names():
@@ -60,9 +60,10 @@ def family_of(method: Method) -> Family:
 
 
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
-    """Return the order of a method in its family; a MethodError where it cannot be decided.
+    """Return the order of a method in its family; a MethodError if it cannot be decided.
 
-    On a ``scene`` whose group is abelian it is the order of the classical family that the method is there.
+    On a ``scene`` with an abelian group the method is one of a classical family, and the order is that of
+    this family.
     """
     from orderconds.checking import check
 

@@ -1,7 +1,7 @@
-"""From scene and method to emitted files and a manifest entry; also from a bare kernel.
+"""From scene and method, or from a kernel, to emitted files and a manifest entry.
 
-The whole line of the compiler stands in :func:`compile_method`: lowering, passes, kernel. What is emitted
-says how it was made, so the same scene, method and options give the same bytes.
+:func:`compile_method` runs the whole compiler: lowering, passes, kernel. Emitted files depend on scene,
+method and options only, so the same arguments give the same bytes.
 """
 
 from __future__ import annotations
@@ -41,30 +41,29 @@ from codegen.scene.run_time import with_inputs, with_runtime
 from orderconds import __version__
 from orderconds.errors import InputError
 
-SINGLE_IS = "single: constants are rounded once, implicit stages converge to its rounding"
+SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
 
 COUNTED = "; sweeps above are those in double precision"
-"""What a header says where trials were made in another precision."""
+"""A remark in the header if the solvers were compared in double precision."""
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5}
-"""What a step is taken to cost where two forms of it are compared: other functions cost twelve additions."""
+"""The cost model for comparing two forms of a step, in additions; other functions cost twelve."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""What emitted files and their examples include or import; no emitted file may take such a name."""
+"""Headers and modules that emitted files or their examples include; no emitted file may have their names."""
 
 
 @dataclass(frozen=True)
 class Optimised:
     """A method on a scene, ready to be interpreted: the program before and after each pass.
 
-    ``view`` is the scene as the method's family sees it; ``solvers`` tells how each implicit block is solved,
-    ``asked`` what was asked for.
+    ``problem`` is the scene in the form that the method's family takes.
     """
 
     scene: Problem
     method: Method
-    view: Problem
+    problem: Problem
     lowered: Program
     program: Program
     trace: tuple[PassReport, ...]
@@ -72,7 +71,10 @@ class Optimised:
 
 @dataclass(frozen=True)
 class Compiled(Optimised):
-    """A method on a scene, ready to be printed: with the kernel."""
+    """A method on a scene, ready to be printed: with the kernel.
+
+    ``solvers`` are the solvers of the implicit blocks; ``asked`` is the option that was given.
+    """
 
     kernel: Kernel
     solvers: tuple[Choice, ...] = ()
@@ -81,9 +83,9 @@ class Compiled(Optimised):
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
     """Return a method on a scene lowered and optimised, for groups without closed forms as well."""
-    view, lowered = problem_for(scene, method), lower(scene, method)
-    program, trace = optimise(lowered, view, composed=lower_composed(scene, method))
-    return Optimised(scene, method, view, lowered, program, trace)
+    problem, lowered = problem_for(scene, method), lower(scene, method)
+    program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
+    return Optimised(scene, method, problem, lowered, program, trace)
 
 
 def compile_method(
@@ -97,14 +99,13 @@ def compile_method(
     solver: str = AUTO,
     jacobian: bool = False,
 ) -> Compiled:
-    """Return a method on a scene (or their names) lowered, optimised and made a kernel.
+    """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
     ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
-    folded at the scene's values; ``inputs`` are signals to be taken at run time, ``frame`` that of
-    momenta (:func:`codegen.scene.momentum_frame.with_frame`); ``solver`` is for implicit blocks
-    (:mod:`codegen.run.solver_choice`). SceneError, MethodError, UnknownName or TableauError for what cannot
-    be read or does not fit. ``adaptive`` asks for the estimate of an embedded row, ``jacobian`` for the
-    derivative of a step.
+    folded at the scene's values; ``inputs`` are signals that become run-time inputs, ``frame`` is the frame
+    of momenta (:func:`codegen.scene.momentum_frame.with_frame`); ``solver`` is for implicit blocks
+    (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded method,
+    ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -117,19 +118,19 @@ def compile_method(
         method = parse(method, families_for(scene))
     if adaptive:
         method = replace(method, adaptive=True)
-    view = problem_for(scene, method)
+    problem = problem_for(scene, method)
     lowered = lower(scene, method)
-    passes = Optimiser(lowered, view, lower_composed(scene, method))
+    passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates = []
-    for program, trace in (passes.plain(), *([passes.framed()] if view.has_body else [])):
-        kernel = fastest(program, view)
-        candidates.append(Compiled(scene, method, view, lowered, program, trace, kernel))
+    for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
+        kernel = fastest(program, problem)
+        candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel))
     best = min(candidates, key=lambda c: work(c.kernel))
     if known_solver(solver) and best.kernel.loops:
-        kernel, choices = solved(best.program, view, start_of(scene), solver, best.kernel)
+        kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
         best = replace(best, kernel=kernel, solvers=choices, asked=solver)
     if jacobian:
-        vary = to_kernel(best.program, view, variations=Variations.of(view))
+        vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
     embedded, estimate = method.embedded(), best.kernel.estimate
     if embedded is None or estimate is None:
@@ -139,7 +140,7 @@ def compile_method(
 
 
 def work(kernel: Kernel) -> int:
-    """Return about what a step costs, in additions: five sweeps over each block and the rest once."""
+    """Estimate the cost of a step in additions: SWEEPS sweeps of each block, and the rest once."""
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in operations(arrange(kernel)).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
@@ -163,13 +164,13 @@ def emit(
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
-    ``scene`` is a name of the gallery, the path of a Python file, or a problem; ``method`` is spelled
+    ``scene`` is a name of the gallery, the path of a Python file, or a problem; ``method`` is
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
-    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that are taken at run time,
-    ``frame`` is that of momenta, ``space`` or ``body``; ``adaptive`` adds a run that chooses its steps,
-    ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``chord``,
-    ``fixed-point`` or ``auto``, the cheapest.
-    Errors as :func:`compile_method`, UnknownName for a target, InputError for a prefix that C cannot take.
+    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that become run-time
+    inputs, ``frame`` is the frame of momenta, ``space`` or ``body``; ``adaptive`` adds a run with step
+    control, ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``chord``,
+    ``fixed-point`` or ``auto``, the cheapest. Errors as :func:`compile_method`, UnknownName for a target,
+    InputError for a prefix that C cannot take.
     """
     printer_of(target)
     known_precision(precision)
@@ -192,8 +193,8 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module of a target.
 
-    ``named`` spells scene and method for the command; ``order`` is what :func:`certified_order` found, for a
-    caller that has asked already.
+    ``named`` has the names of scene and method for the command; ``order`` is the result of
+    :func:`certified_order`, if the caller has it already.
     """
     scene, method = compiled.scene, compiled.method
     named = named or {"scene": scene.name, "method": method.label}
@@ -224,7 +225,7 @@ def emit_compiled(
 
 
 def options_of(compiled: Compiled, precision: str) -> list[str]:
-    """Return the options, but for the prefix, that the command of a module needs."""
+    """Return the options of the command that regenerates a module, except the prefix."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
@@ -237,7 +238,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
 
 
 def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, single: bool) -> Recipe:
-    """Return what the header of a module says."""
+    """Return the content of the header of a module."""
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     return Recipe(
@@ -247,7 +248,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, single: b
             ("source", method.tableau.source),
             ("order", order.text()),
             ("scene", f"{scene.title}, group {scene.group.name}"),
-            *((("flows", flows_of(compiled.view)),) if compiled.view.flows else ()),
+            *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
             *((("precision", SINGLE_IS + COUNTED * bool(compiled.solvers)),) if single else ()),
@@ -271,9 +272,9 @@ def emit_kernel(
     about: Mapping[str, Any] | None = None,
     precision: str = DOUBLE.name,
 ) -> Artifact:
-    """Return a kernel as a module of a target; ``about`` adds to the manifest entry what only a caller knows.
+    """Return a kernel as a module of a target; ``about`` is added to the manifest entry.
 
-    The prefix starts every external C name and names the files. UnknownName for a target that is not there.
+    The prefix starts every external C name and names the files. UnknownName for an unknown target.
     """
     interface = Interface.of(kernel, prefix, precision)
     files = printer_of(target)(kernel, interface, recipe)
@@ -293,22 +294,22 @@ def emit_kernel(
 
 
 def steps_of(kernel: Kernel) -> str:
-    """Say how a run chooses its steps."""
+    """Describe the step control of a run."""
     assert kernel.estimate is not None
     return (
-        f"of one size, or chosen by the embedded row, whose estimate is O(h^{kernel.estimate.order}), and a "
-        "proportional-integral controller"
+        f"constant, or chosen by a proportional-integral controller with an error estimate "
+        f"of order O(h^{kernel.estimate.order}) by the embedded method"
     )
 
 
 def substeps_of(kernel: Kernel) -> str:
-    """Say which shorter steps make a step."""
+    """Describe the substeps of a step."""
     each = ", ".join(f"{float(step.fraction):.6g}" for step in kernel.substeps)
-    return f"{len(kernel.substeps)}, all made by one function, of {each} times h"
+    return f"{len(kernel.substeps)} calls of one function, with step sizes {each} times h"
 
 
 def start_of(scene: Problem) -> tuple[float, ...]:
-    """Return the initial state as emitted code takes it."""
+    """Return the initial state in the format of emitted code."""
     domain = FloatDomain(0.0)
     state = tuple(float(x) for x in scene.initial(domain))
     if scene.body_group is None:
@@ -318,7 +319,7 @@ def start_of(scene: Problem) -> tuple[float, ...]:
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Say what the emitted step does not hold because this scene and method do not need it."""
+    """Return the simplifications that this scene and method allow."""
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
@@ -330,13 +331,13 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):
-        lines.append("equation solving: every stage is explicit here")
+        lines.append("equation solving: every stage is explicit")
     return tuple(lines)
 
 
-def flows_of(view: Problem) -> str:
-    """Say which exact flows a splitting composes."""
-    return "; ".join(f"{name}, {flow.text()}" for name, flow in view.flows.items())
+def flows_of(problem: Problem) -> str:
+    """Describe the exact flows that a splitting composes."""
+    return "; ".join(f"{name}, {flow.text()}" for name, flow in problem.flows.items())
 
 
 def bare(name: str) -> str:
@@ -371,7 +372,7 @@ def default_prefix(scene: Problem, method: Method) -> str:
 
 
 def prefix_of(name: str, hint: str = "") -> str:
-    """Return a prefix that ends in one underscore; an InputError for what C or Python cannot take.
+    """Return a prefix that ends in one underscore; an InputError if it is no identifier of C and Python.
 
     The prefix names the files too, so it may not be a keyword, under which Python imports nothing, nor a
     header or module that emitted code includes.

@@ -1,4 +1,7 @@
-"""Emitted modules as Python objects: compiled C through cffi (ABI mode), or emitted Python, with one face."""
+"""Emitted modules as Python objects with one interface: compiled C through cffi (ABI mode), or Python.
+
+:data:`LOADERS` has a line for each target.
+"""
 
 from __future__ import annotations
 
@@ -20,14 +23,14 @@ from codegen.printers.interface import Interface
 from orderconds.errors import InputError
 
 State = Any
-"""A sequence of floats; a numpy array is answered by a numpy array, anything else by a list."""
+"""A sequence of floats. Results are numpy arrays if the argument is one, else lists."""
 
 Signals = Callable[[float], Sequence[float]]
 """A function from the time to the run-time inputs."""
 
 
 class Status(IntEnum):
-    """Why a step was not made; the numbers are those of emitted code."""
+    """The result of a step, with the numbers of emitted code."""
 
     OK = 0
     NOT_CONVERGED = 1
@@ -37,7 +40,7 @@ class Status(IntEnum):
 
 
 class StepFailed(ArithmeticError):
-    """A step that could not be made: its status, how many steps were made before it, the last good state."""
+    """A step failed: its status, the number of steps completed before it, the last good state."""
 
     def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
         super().__init__(f"step {step + 1}: {reason}")
@@ -46,7 +49,7 @@ class StepFailed(ArithmeticError):
 
 @dataclass(frozen=True)
 class Arrival:
-    """Where a run that chose its steps ended: the size to go on with, steps made and steps refused."""
+    """The end of an adaptive run: state, time, size of the next step, accepted and rejected steps."""
 
     state: State
     t: float
@@ -57,9 +60,9 @@ class Arrival:
 
 @dataclass
 class Statistics:
-    """Sweeps by block, the most one block took in one step, and 1 + the block that failed.
+    """Sweeps by block, the most sweeps of one block in one step, and 1 + the block that failed.
 
-    ``matrices`` is how often a matrix of Newton's method was made.
+    ``matrices`` is the number of Newton matrices that were computed.
     """
 
     sweeps: list[int] = field(default_factory=list)
@@ -70,7 +73,7 @@ class Statistics:
 
 @dataclass(frozen=True)
 class _Begun:
-    """What a call begins with: the state as it was given and as numbers, parameter values, inputs, counts."""
+    """The checked arguments of a call: state, its numbers, parameter values, inputs, statistics."""
 
     state: State
     numbers: list[float]
@@ -79,12 +82,12 @@ class _Begun:
     statistics: Statistics | None = None
 
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
-        """Return the error of a step that could not be made, its state of the kind that was given."""
+        """Return the error of a failed step; its state has the type of the caller's state."""
         return StepFailed(Status(status), step, like(self.state, state), reason)
 
 
 class Integrator(ABC):
-    """A loaded step: ``interface`` tells its arguments, ``defaults`` the scene's parameter values."""
+    """A loaded module: ``interface`` lists its arguments, ``defaults`` the scene's parameter values."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
         self.interface, self.defaults = interface, dict(defaults)
@@ -98,7 +101,7 @@ class Integrator(ABC):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after one step of size h; a StepFailed if it cannot be made.
+        """Return the state after one step of size h; a StepFailed if it fails.
 
         ``inputs`` are the run-time inputs, in the interface's order, held over the step.
         """
@@ -116,7 +119,7 @@ class Integrator(ABC):
         inputs: Signals | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after that many steps of size h from time t; a StepFailed if one fails.
+        """Return the state after ``steps`` steps of size h from time t; a StepFailed if one fails.
 
         ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
         """
@@ -156,17 +159,17 @@ class Integrator(ABC):
         inputs: Signals | None = None,
         **parameters: float,
     ) -> Arrival:
-        """Return where steps from t to end lead, as large as the tolerances allow; ``h`` is the first.
+        """Integrate from t to end with steps as large as the tolerances allow; the first has size ``h``.
 
         TypeError for a module without an estimate of the error (``emit --adaptive``), StepFailed as
-        :meth:`run`, and with the status ``LIMIT`` where the end is not reached.
+        :meth:`run`, and with the status ``LIMIT`` if the end is not reached.
         """
         if not self.interface.adaptive:
-            raise TypeError("this module has no run that chooses its steps; emit it with --adaptive")
+            raise TypeError("this module has no adaptive run; emit it with --adaptive")
         span, tolerances = (float(t), float(end), float(h)), (float(rtol), float(atol))
         begun = self._begin(state, parameters, inputs, statistics)
-        found = self._adapt(begun, span, tolerances, operator.index(limit))
-        return replace(found, state=like(state, found.state))
+        arrival = self._adapt(begun, span, tolerances, operator.index(limit))
+        return replace(arrival, state=like(state, arrival.state))
 
     def jacobian(
         self,
@@ -195,7 +198,7 @@ class Integrator(ABC):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> _Begun:
-        """Return what was given, checked: TypeError for names and inputs, ValueError for the state."""
+        """Return the checked arguments: TypeError for names and inputs, ValueError for the state."""
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
@@ -225,7 +228,7 @@ class Integrator(ABC):
         return [float(values[name]) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Add what emitted code counted."""
+        """Add the counts of emitted code to the caller's."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -247,11 +250,11 @@ class Integrator(ABC):
     def _adapt(
         self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
     ) -> Arrival:
-        """Run with chosen steps; ``span`` is (t, end, h)."""
+        """Run with step control; ``span`` is (t, end, h)."""
 
 
 class CompiledIntegrator(Integrator):
-    """A step in a shared object; calls let go of the interpreter lock."""
+    """A module in a shared object; calls release the interpreter lock."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
         from cffi import FFI
@@ -263,7 +266,7 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            self._ffi.dlclose(self._library)  # a library that stays open hides its successor of the same name
+            self._ffi.dlclose(self._library)  # an open library would hide a rebuilt one of the same name
             raise
 
     def _call(
@@ -303,7 +306,7 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: _Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Hand over the arguments for inputs and for counts; raise after the call what an input raised."""
+        """Yield the arguments for inputs and statistics; afterwards raise the error of an input function."""
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
         counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
@@ -313,24 +316,24 @@ class CompiledIntegrator(Integrator):
         self._count(counted[0] if counted else None, begun.statistics)
 
     def _block(self, counted: list[Any]) -> str:
-        """Return the name of the block that failed, empty where none did."""
+        """Return the label of the block that failed, empty if none failed."""
         failed = counted[0].failed if counted else 0
         return self.interface.blocks[failed - 1] if failed else ""
 
     def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
         real, size = self.interface.format.c_type, self.interface.variations
-        found = self._ffi.new(f"{real}[]", size * size)
+        matrix = self._ffi.new(f"{real}[]", size * size)
         time, inputs = [t] if self.interface.time else [], [] if held is None else [held]
         derive = getattr(self._library, f"{self.interface.prefix}jacobian")
-        status = derive(begun.numbers, *time, h, *begun.values, *inputs, found)
+        status = derive(begun.numbers, *time, h, *begun.values, *inputs, matrix)
         if status != Status.OK:
             raise begun.failed(status, 0, begun.numbers, reason(status, "an implicit block", h))
-        flat = self._ffi.unpack(found, size * size)
+        flat = self._ffi.unpack(matrix, size * size)
         return [flat[i : i + size] for i in range(0, size * size, size)]
 
 
 class _Callback:
-    """A function of time that C may call; what it raises is kept, and the step that asked for it fails."""
+    """A function of time that C may call. If it raises, the error is stored, and NaNs make the step fail."""
 
     def __init__(self, ffi: Any, interface: Interface, function: Signals) -> None:
         self.function, self.count = function, len(interface.inputs)
@@ -339,20 +342,20 @@ class _Callback:
         self.pointer = ffi.callback(f"void({real}, {real} *, void *)", self._write)
 
     def _write(self, t: float, values: Any, context: Any) -> None:
-        found = [math.nan] * self.count
+        inputs = [math.nan] * self.count
         try:
             if self.failure is None:
-                found = [float(x) for x in self.function(t)]
-            if len(found) != self.count:
-                raise TypeError(f"expected {self.count} inputs, found {len(found)}")
-        except BaseException as error:  # nothing may be raised through C
-            self.failure, found = error, [math.nan] * self.count
-        for k, x in enumerate(found):
+                inputs = [float(x) for x in self.function(t)]
+            if len(inputs) != self.count:
+                raise TypeError(f"expected {self.count} inputs, found {len(inputs)}")
+        except BaseException as error:  # an exception must not cross C frames
+            self.failure, inputs = error, [math.nan] * self.count
+        for k, x in enumerate(inputs):
             values[k] = x
 
 
 class InterpretedIntegrator(Integrator):
-    """A step in an emitted Python module."""
+    """An emitted Python module."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], source: str) -> None:
         super().__init__(interface, defaults)
@@ -365,8 +368,8 @@ class InterpretedIntegrator(Integrator):
         time, sampled = [t] if self.interface.time else [], [] if begun.inputs is None else [begun.inputs]
         with self._observed(begun) as counted:
             arguments = [begun.numbers, *time, h, steps, *sampled, *begun.values]
-            found = self.module.run(*arguments, stride=stride, **counted)
-        return (found[-1], found) if stride else (found, [])
+            answer = self.module.run(*arguments, stride=stride, **counted)
+        return (answer[-1], answer) if stride else (answer, [])
 
     def _adapt(
         self, begun: _Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
@@ -389,7 +392,7 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: _Begun) -> Iterator[dict[str, Any]]:
-        """Hand over the argument for counts; raise a failed step as ours."""
+        """Yield the argument for statistics; convert the module's StepFailed to this module's."""
         counts = self.module.Statistics() if self.interface.blocks else None
         try:
             yield {} if counts is None else {"statistics": counts}
@@ -400,7 +403,7 @@ class InterpretedIntegrator(Integrator):
 
 
 def reason(status: int, block: str, h: float) -> str:
-    """Say in words why a step failed."""
+    """Return the reason for a failed step, for an error message."""
     match status:
         case Status.BAD_STEP:
             return f"the step size h = {h} is not finite"
@@ -424,8 +427,8 @@ def like(state: State, values: Sequence[Any]) -> State:
 def load(source: Artifact | str | Path, module: str = "", target: str = "") -> Integrator:
     """Return the integrator of an artifact, or of a module in a folder that holds a manifest.
 
-    ``module`` and ``target`` choose among the folder's modules where it has several. C is compiled, or taken
-    from the cache. Errors: CompilerMissing, CompileError, InputError for a folder without such a module.
+    ``module`` and ``target`` choose a module if the folder has several. C is compiled, or taken from the
+    cache. Errors: CompilerMissing, CompileError, InputError for a folder without such a module.
     """
     artifact = source if isinstance(source, Artifact) else read(Path(source), module, target)
     try:
@@ -435,10 +438,25 @@ def load(source: Artifact | str | Path, module: str = "", target: str = "") -> I
         raise InputError(
             f"the manifest's entry for {artifact.key[0]} is not as emit wrote it", hint="emit it again"
         ) from None
-    if artifact.manifest["target"] == "c":
-        try:
-            return CompiledIntegrator(interface, defaults, build(artifact.files))
-        except (OSError, AttributeError):  # no library, or one without the symbols, with the digest of one
-            pass
-        return CompiledIntegrator(interface, defaults, build(artifact.files, again=True))
-    return InterpretedIntegrator(interface, defaults, artifact.files[f"{interface.module}.py"])
+    target = artifact.manifest["target"]
+    if target not in LOADERS:
+        raise InputError(f"unknown target {target}", expected=" or ".join(sorted(LOADERS)))
+    return LOADERS[target](interface, defaults, artifact.files)
+
+
+def _compiled(interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]) -> Integrator:
+    try:
+        return CompiledIntegrator(interface, defaults, build(files))
+    except (OSError, AttributeError):
+        # The cached file has the recorded digest but is no library, or lacks the symbols: build it again.
+        return CompiledIntegrator(interface, defaults, build(files, again=True))
+
+
+def _interpreted(interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]) -> Integrator:
+    return InterpretedIntegrator(interface, defaults, files[f"{interface.module}.py"])
+
+
+Loader = Callable[[Interface, Mapping[str, float], Mapping[str, str]], Integrator]
+
+LOADERS: dict[str, Loader] = {"c": _compiled, "python": _interpreted}
+"""Target name -> function that loads the files of a module as an integrator."""

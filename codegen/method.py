@@ -25,7 +25,7 @@ PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 class Method:
     """A family (with ``cutoff`` where it takes one) and the tableau whose coefficients it reads.
 
-    ``adaptive`` asks for the state that the embedded row gives, beside the new one.
+    ``adaptive`` adds the result of the embedded method to each step, for an error estimate.
     """
 
     family: str
@@ -35,12 +35,12 @@ class Method:
 
     @property
     def kind(self) -> type[Family]:
-        """The class of the family, which knows what is true of all its members."""
+        """The class of the family."""
         return family_class(self.family)
 
     @property
     def label(self) -> str:
-        """The family as reports name it, with the tableau: ``rkmk(2):rk4``."""
+        """Family and tableau: ``rkmk(2):rk4``."""
         return f"{self.family_label}:{self.tableau.name}"
 
     @property
@@ -54,7 +54,7 @@ class Method:
         return self.tableau.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number; a rational one is kept over QQ whatever the tableau's field."""
+        """Return a coefficient as a number; a rational one is over QQ even in a larger field."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -72,7 +72,7 @@ class Method:
         return method
 
     def can_reduce_brackets(self) -> bool:
-        """Whether the tableau is explicit and its coefficients exact, as the fewest brackets need."""
+        """Whether the tableau is explicit and exact: the algorithm for the fewest brackets requires both."""
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             return False
@@ -89,10 +89,10 @@ class Method:
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
     def embedded(self) -> Method | None:
-        """Return the method of the embedded row where that is asked for; :class:`MethodError` without one.
+        """Return the embedded method if ``adaptive`` is set; :class:`MethodError` if there is none.
 
-        It has the same stages, which only families with fixed stages allow. A family that is compiled with
-        the fewest brackets needs a cut-off, for those brackets are chosen for the weights.
+        It shares the stages, so the stages of the family must not depend on the weights. The fewest brackets
+        are chosen for the weights, so a family that is compiled with them needs a cut-off.
         """
         if not self.adaptive:
             return None
@@ -121,15 +121,15 @@ class Method:
 
 
 def _file(name: str) -> Path:
-    """Return the file that name is, or the library's file of that name."""
+    """Return the file with this path, or the library's file with this name."""
     path = Path(name)
     return path if path.suffix == ".toml" else find(name)
 
 
 def _enclosed(tableau: Tableau) -> Tableau:
-    """Return a tableau with the solution that its proof encloses, in place of the decimals of its file.
+    """Return a tableau with the exact solution that its proof encloses, instead of the decimals of its file.
 
-    A certificate is about that solution, so that what is emitted must be it and not the digits.
+    The certificate holds for this solution, so emitted code must use it and not the decimals.
     """
     if tableau.proof is None:
         return tableau

@@ -6,11 +6,11 @@ method and a scene into code and is never imported from here.
 
 Conventions
 -----------
-Stated here once; every module refers to them.
+All modules use these conventions.
 
 *Action and trivialisation.* A Lie group G acts from the left and is trivialised from the right: the
 equation is y' = f(y).y with f: M -> g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 **the first stage acts
-first** and stands rightmost. A right action flips the sign of every bracket in a method.
+first**: it is the rightmost factor. A right action flips the sign of every bracket in a method.
 
 *Brackets.* [A, B] = AB - BA; ad_x y = [x, y]; Ad_g is T L_g T R_{g^-1}. Ad*_g is the plain dual of Ad_g (no
 inverse), so Ad*_{gh} = Ad*_h Ad*_g, and ad*_x is the dual of ad_x. On SO(3), with so(3) and its dual read as

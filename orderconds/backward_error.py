@@ -34,8 +34,14 @@ from orderconds.words.shuffle import Word
 SERIES = (RungeKuttaFamily, OrderedForestFamily)
 """The classes of families with a B-series or a Lie-Butcher series."""
 
-DEFAULT_FAMILIES = ("rk", "cf")
-"""The families tried in turn where none is given."""
+
+def default_families() -> tuple[str, ...]:
+    """Return the families that are tried in turn if none is given.
+
+    >>> default_families()
+    ('rk', 'cf')
+    """
+    return tuple(name for name in families.names() if families.family_class(name).default_series)
 
 
 @dataclass(frozen=True)
@@ -92,7 +98,7 @@ def modified_equation(
     """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
 
     ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``).
-    Without it the first of :data:`DEFAULT_FAMILIES` that reads the tableau is used. With ``modifying`` the
+    Without it the first of :func:`default_families` that reads the tableau is used. With ``modifying`` the
     result is the equation to which the method must be applied to follow the exact flow, for B-series only.
 
     Raises :class:`~orderconds.errors.InputError` for another family, for a tableau that the family does not
@@ -125,7 +131,7 @@ def modified_equation(
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
     """Return the label of the family and the series of a step in it."""
-    for name in DEFAULT_FAMILIES if family is None else (family,):
+    for name in default_families() if family is None else (family,):
         candidate = families.get(name)
         method = tableau.read_as(candidate.formats)
         if method is None:
@@ -144,7 +150,7 @@ def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
     raise InputError(
         f"a tableau of format {tableau.family}",
         where=tableau.path or tableau.name,
-        expected=f"one that family {family or ' or '.join(DEFAULT_FAMILIES)} reads",
+        expected=f"one that family {family or ' or '.join(default_families())} reads",
     )
 
 

@@ -1,4 +1,4 @@
-"""The command-line program: one click group whose commands are loaded when they are called, never before.
+"""The command-line program: a click group that loads each command when it is called.
 
 Built-in commands are known by name. Those of other packages (``codegen`` ships emit, converge, report and
 regenerate) come from the entry-point group ``orderconds.commands``, scanned only when a name is not built in.
@@ -43,7 +43,7 @@ BUILT_IN = {
         "Convert a tableau from and to JSON, CSV, NumPy, SymPy, LaTeX and C arrays.",
     ),
     "derive": ("orderconds.commands.derive", "Print the independent order conditions of a family."),
-    "list": ("orderconds.commands.list", "List families, tableaux, and what other packages offer."),
+    "list": ("orderconds.commands.list", "List families, tableaux, groups and scenes."),
     "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
@@ -51,7 +51,7 @@ BUILT_IN = {
     ),
     "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
-    "table": ("orderconds.commands.table", "The library as a Markdown table; keep it current in a file."),
+    "table": ("orderconds.commands.table", "Print the library as a Markdown table, or update it in a file."),
     "trees": ("orderconds.commands.trees", "Enumerate, draw and explain trees, forests and Lyndon words."),
 }
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""
@@ -83,7 +83,7 @@ class Program(click.Group):
                 raise UnknownName(
                     f"cannot load the command: {error}",
                     where=f"{name} ({entries[0].value})",
-                    expected="the package that offers it to be installed whole",
+                    expected="a complete installation of the package that offers it",
                 ) from error
         if not isinstance(command, click.Command):
             raise UnknownName(f"{command!r} is no click command", where=f"entry point {name}")
@@ -111,7 +111,7 @@ class Program(click.Group):
         return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """List all commands with one line each; one that cannot be loaded says so."""
+        """List all commands with one line each, also those that cannot be loaded."""
         rows = []
         for name in self.list_commands(ctx):
             if name in BUILT_IN:
@@ -127,14 +127,14 @@ class Program(click.Group):
             formatter.write_dl(rows)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Run the command and write out what it printed."""
+        """Run the command and flush its output."""
         with past_click():
             result = super().invoke(ctx)
             sys.stdout.flush()
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Read the command line; --help prints while it is read."""
+        """Parse the command line; --help prints during parsing."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -161,21 +161,21 @@ class Program(click.Group):
 
 
 def _offered() -> Iterable[EntryPoint]:
-    """Return the commands of other packages; the import costs more than reading a tableau, so it waits."""
+    """Return the commands of other packages; the import is slow, so it happens only on demand."""
     from importlib import metadata
 
     return metadata.entry_points(group=COMMAND_GROUP)
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError for an option of one value that is given twice, of which click takes the last.
+    """Raise a UsageError for an option of one value that is given twice; click would take the last.
 
     Flags that set the same value are one option, as ``--quick`` and ``--full``.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # which click leaves out where an option lacks its value
+        error.ctx = error.ctx or ctx  # click omits this hint if an option lacks its value
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()
@@ -212,13 +212,13 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Most commands are short: the garbage collector would look through modules and trees that all live to the
-    end, many times while they are made and once more when the interpreter ends, for a tenth of a check.
+    Garbage collection is restricted: most commands are short and their objects live to the end, so collecting
+    them would waste a tenth of the time of a check.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a locale without the letters of a name is no error
+        if isinstance(stream, io.TextIOWrapper):  # a terminal without the letters of a name is no error
             stream.reconfigure(errors="backslashreplace")
     try:
         program.main()

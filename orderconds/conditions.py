@@ -20,11 +20,11 @@ class OrderCondition:
     """The condition that a method's value on ``tree`` equals ``rhs``, the exact flow's.
 
     ``family`` is the label of the family (``rkmk(1)``), ``order`` the grade, ``tree`` the canonical text of
-    the tree or word. ``source`` is the formula, or a function that builds it when somebody reads it. ``key``
+    the tree or word. ``source`` is the formula, or a function that builds it on demand. ``key``
     is the family's own encoding, from which its engine evaluates the left-hand side. ``relation`` is None for
-    an independent condition; for a dependent one it says what its left-hand side equals, for every method of
-    the family: a polynomial in those of independent conditions, ``<tree>`` being that of a tree, as ``3
-    <o(|L(o o))> - <o> <o(o)>``.
+    an independent condition; for a dependent one it is its left-hand side, for every method of the family, as
+    a polynomial in left-hand sides of independent conditions. ``<tree>`` is the left-hand side for a tree, as
+    in ``3 <o(|L(o o))> - <o> <o(o)>``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

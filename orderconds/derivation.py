@@ -21,7 +21,7 @@ class Derivation:
     order: int
     by_order: tuple[tuple[OrderCondition, ...], ...]
     remark: str = ""
-    """What a reader of these conditions should know."""
+    """A remark on these conditions for the reader, or an empty text."""
 
     @property
     def counts(self) -> tuple[int, ...]:
@@ -44,9 +44,10 @@ class Derivation:
 
 
 def derive(family: str, order: int, *, every: bool = False, **options: int | None) -> Derivation:
-    """Derive the independent order conditions of ``family`` up to ``order``; with ``every`` all trees'.
+    """Derive the independent order conditions of ``family`` up to ``order``; with ``every`` the conditions of
+    all trees.
 
-    ``options`` are the family's own, as ``cutoff`` of RKMK; they may stand in the name too: ``"rkmk(1)"``.
+    ``options`` are the family's own, as ``cutoff`` of RKMK; they may also be part of the name: ``"rkmk(1)"``.
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
     :class:`~orderconds.errors.InputError` for an order below 1, or beyond the highest that the family has.
 
@@ -56,9 +57,9 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     >>> print(derivation.conditions[0])
     sum_i b_i = 1
     """
-    found = families.get(family, **options)
+    chosen = families.get(family, **options)
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
-    conditions = found.all_conditions if every else found.essential_conditions
+    conditions = chosen.all_conditions if every else chosen.essential_conditions
     by_order = tuple(conditions(n) for n in range(1, order + 1))
-    return Derivation(found.label(), order, by_order, "" if every else found.remark(order))
+    return Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))

@@ -1,4 +1,5 @@
-"""Errors that a user can cause: one class a cause, one message that says what, where, expected, what to do.
+"""Errors that a user can cause: one class for each cause. A message has four parts: problem, place,
+expectation, and hint.
 
 The command line turns every :class:`InputError` into exit status 2 and its message, never a traceback.
 """
@@ -9,8 +10,8 @@ from __future__ import annotations
 class InputError(Exception):
     """Bad input or usage.
 
-    ``found`` says what was met, ``where`` names the file, key or flag, ``expected`` says what would be right
-    and ``hint`` what to type next; empty parts are left out of the message.
+    ``found`` is the problem, ``where`` the file, key or flag, ``expected`` a description of valid input, and
+    ``hint`` a suggestion; empty parts are left out of the message.
     """
 
     def __init__(self, found: str, *, where: str = "", expected: str = "", hint: str = "") -> None:

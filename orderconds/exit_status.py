@@ -4,7 +4,7 @@
 0      success
 1      the command ran, and a claim or check failed
 2      bad input or usage
-70     an internal error: a fault of this program, whatever the input was
+70     an internal error: a fault of this program
 130    interrupted by Ctrl-C; 143 and 129 for the signals SIGTERM and SIGHUP
 141    the reader of a pipe went away, as ``head`` does; no message
 =====  ===============================================================================
@@ -33,7 +33,7 @@ SIGNALS = ("SIGTERM", "SIGHUP")
 """Signals that end the program as Ctrl-C does: it removes temporary files and ends its workers first."""
 
 MAX_TEXT = 300
-"""Characters of an internal error's own text that the message shows."""
+"""The message shows at most this many characters of the text of an internal error."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -45,7 +45,7 @@ class Terminated(KeyboardInterrupt):
 
 
 class Stopped(Exception):
-    """An ending that click would turn into an empty line or a status of its own."""
+    """A termination that bypasses the error handling of click."""
 
     def __init__(self, cause: BaseException) -> None:
         super().__init__()
@@ -54,7 +54,7 @@ class Stopped(Exception):
 
 @dataclass
 class Run:
-    """One run of the program: what its command line asked for, and how many documents it has printed."""
+    """One run of the program: options of the command line, and the number of printed documents."""
 
     as_json: bool = False
     traceback: bool = False
@@ -102,7 +102,7 @@ class Run:
 
     def refuse(self, record: dict[str, Any]) -> None:
         """Print an error's message, and its record where a document is due."""
-        with contextlib.suppress(OSError):  # a stream that takes nothing; the exit status is still right
+        with contextlib.suppress(OSError):  # a full or closed stream keeps the exit status
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):
@@ -148,7 +148,7 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Take an interrupt and a closed pipe past click to :meth:`Run.end`.
+    """Pass interrupts and closed pipes to :meth:`Run.end`, without click's own handling.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -162,7 +162,7 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Let what the interpreter still flushes at its exit go nowhere: the reader of stdout went away."""
+    """Discard output that the interpreter flushes at exit, because the reader of stdout is gone."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

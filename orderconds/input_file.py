@@ -1,6 +1,6 @@
 """Reading files that a user names: regular files only, and at most a stated number of bytes.
 
-A pipe or a device has no size and may have no end, so a read of one could wait for ever or fill the memory.
+A pipe or a device may have no end, so that reading it could wait for ever or fill the memory.
 """
 
 from __future__ import annotations
@@ -63,8 +63,8 @@ def read_text(
 def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes; an OSError says why not.
 
-    With ``own`` the file must belong to the user and must not be a symbolic link: nobody else could have
-    put it in its place.
+    With ``own`` the file must belong to the user and must not be a symbolic link: no other user can replace
+    it.
 
     >>> len(content_of(__file__)) > 1000
     True

@@ -1,4 +1,4 @@
-"""Packages whose names load when they are first asked for: to import them costs nothing (PEP 562)."""
+"""Packages whose names load on first use, so that their import is fast (PEP 562)."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ class _LazyPackage(ModuleType):
         homes = self.__dict__["_homes"]
         if name not in homes:
             raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
-        found = self.__dict__[name] = getattr(import_module(homes[name]), name)
-        return found
+        value = self.__dict__[name] = getattr(import_module(homes[name]), name)
+        return value
 
     def __dir__(self) -> list[str]:
         return sorted({*self.__dict__, *self.__dict__["_homes"]})

@@ -1,4 +1,4 @@
-"""Writing files whole or not at all: under a temporary name, to the disk, and then under the final name.
+"""Write files atomically: under a temporary name, to the disk, and then under the final name.
 
 A process that is killed may leave temporary files; :func:`is_temporary` knows them by their names.
 """
@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 SUFFIX = ".orderconds-part"
-"""How the names of temporary files end."""
+"""The suffix of temporary files."""
 
 _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 
@@ -38,7 +38,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
             with os.fdopen(handle, "wb") as stream:
                 stream.write(content)
                 stream.flush()
-                os.fsync(stream.fileno())  # else a machine that stops may keep the new name and no content
+                os.fsync(stream.fileno())  # otherwise a power failure could leave an empty file
             if not private:
                 os.chmod(written[path], _mode(path))
         for path, temporary in written.items():

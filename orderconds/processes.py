@@ -1,7 +1,6 @@
 """Work on many inputs at a time in worker processes that never outlive the process that started them.
 
-Exact numbers stay in their process: they neither pickle nor share their precision. Jobs and results are
-strings, numbers and records of them.
+Jobs and results are strings, numbers and records of these, because exact numbers cannot be pickled.
 """
 
 from __future__ import annotations
@@ -94,12 +93,12 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
         raise InputError(
             "a worker process was killed",
             expected=f"enough memory for {count} processes",
-            hint="free some, or ask for less at a time",
+            hint="free some memory, or use fewer processes",
         ) from None
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Do the jobs that come, each in a tuple, until an empty one comes; leave Ctrl-C to the parent."""
+    """Process jobs, each in a tuple, until an empty tuple arrives; the parent handles Ctrl-C."""
     import threading
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -131,7 +130,7 @@ def _portable(error: Exception) -> Exception:
 
 
 def _follow_parent() -> None:
-    """End this process when its parent has ended, whatever it is doing."""
+    """End this process as soon as its parent has ended."""
     from multiprocessing import connection, parent_process
 
     parent = parent_process()

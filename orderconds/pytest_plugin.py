@@ -1,4 +1,4 @@
-"""A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each a test of its claims.
+"""A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
 Without a flag the plugin does nothing. ``--orderconds-complete`` requires a claim for every family that a
 tableau can claim and ``--orderconds-certified`` a proof of every order, as ``orderconds check`` does. A
@@ -36,7 +36,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect a tableau file where the flag is given."""
+    """Collect a tableau file if the flag is given."""
     if file_path.suffix != ".toml" or not any(map(parent.config.getoption, FLAGS)):
         return None
     from orderconds.tableau.file import meant_as_tableau
@@ -66,8 +66,8 @@ class TableauItem(pytest.Item):
         if report.verdict != "holds":
             raise ClaimFails(report.summary())
         if all(family.claimed is None for family in report.orders) and not complete:
-            found = ", ".join(f"{family.family} {family.order}" for family in report.orders)
-            pytest.skip(f"the file claims no order; it has {found}")
+            orders = ", ".join(f"{family.family} {family.order}" for family in report.orders)
+            pytest.skip(f"the file claims no order; it has {orders}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Return the verdict, or the message of a file that cannot be read, without a traceback."""

@@ -63,8 +63,8 @@ def polynomials(
     from orderconds.ring.laurent import LaurentPolynomials
     from orderconds.ring.polynomials import Polynomials
 
-    spelled = ["_".join((letter, *indices)) for letter, indices in form.names]
-    ring = LaurentPolynomials(spelled) if form.divides else Polynomials(spelled)
+    names = ["_".join((letter, *indices)) for letter, indices in form.names]
+    ring = LaurentPolynomials(names) if form.divides else Polynomials(names)
     method = form.method(ring.generators, ring)
     return ring, form.names, family.evaluate(method, ring, derivation.conditions)
 

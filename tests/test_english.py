@@ -169,11 +169,15 @@ def prose(source: str) -> Iterator[Text]:
         yield block[0][0], "\n".join(text for _, text in block)
 
 
+FORMAT = re.compile(r"""``spelling``|reduction = ["']spelling["']|\Aspelling\Z""")
+"""A value of the file format, which stays: ``reduction = "spelling"`` in the proof of a tableau."""
+
+
 def occurrences(texts: Iterable[Text], patterns: Iterable[str]) -> Iterator[tuple[int, str]]:
     """Yield line and pattern wherever one of ``patterns`` matches whole words, across line breaks too."""
     wanted = [(p, re.compile(r"\b" + p.replace(" ", r"\s+") + r"\b", re.IGNORECASE)) for p in patterns]
     for line, text in texts:
-        plain = text.replace("`", "").replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
+        plain = FORMAT.sub("", text).replace("`", "").replace("\N{RIGHT SINGLE QUOTATION MARK}", "'")
         for pattern, compiled in wanted:
             for match in compiled.finditer(plain):
                 yield line + plain.count("\n", 0, match.start()), pattern
@@ -292,6 +296,12 @@ def test_each_phrase_is_found_in_any_form(phrase: str) -> None:
         "# " + phrase.replace(" ", "\n# ", 1),
     ):
         assert list(occurrences(prose(source), [phrase])), source
+
+
+def test_a_value_of_the_file_format_is_no_prose() -> None:
+    for text in ("spelling", 'reduction = "spelling"', "the reduction ``spelling``"):
+        assert list(occurrences([(1, text)], WORDS)) == []
+    assert list(occurrences([(1, "the spelling of a name")], WORDS)) != []
 
 
 def test_an_occurrence_has_its_line() -> None:

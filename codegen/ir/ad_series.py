@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
+# Ordered, because simplified words are sorted: equal products must become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
     """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv cut off after t^order."""
@@ -47,21 +48,26 @@ def simplified(word: Word) -> Word:
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
     """
+    # All factors are functions of one t and commute, so only the exponent of each distinct function counts.
     powers: dict[tuple[str, Fraction, int], int] = {}
     rate = Fraction(0)
     for f in word:
+        # Exponentials join by e^{at} e^{bt} = e^{(a+b)t}; no other factor has such a law.
         if f.function == "exp":
             rate += f.scale * f.power
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
+    # A copy is iterated, because the rule enters keys. It applies once at most: then no exponential is left.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function in place of two.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
+    # Sorted, so that the order in which a word was collected does not show in the operation.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
+        # Higher powers are repeated factors: what evaluates a word knows phi and 1/phi only.
         factors += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
     return tuple(factors)

@@ -1,6 +1,6 @@
-"""How long the longest chain of angles in a step is: each is computed from functions of those before it.
+"""The depth of angles: the length of the longest chain of angles, each computed from the one before.
 
-It says how far a step may turn before rounding leaves nothing of it (:func:`codegen.snippets.stumpff.limit`).
+It bounds how far a step may turn before no correct digit is left (:func:`codegen.snippets.stumpff.limit`).
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from codegen.ir.kernel import Kernel, Let
 
 
 def chain(kernel: Kernel) -> int:
-    """Return how many Stumpff functions stand one in the argument of another, at least 1.
+    """Return the largest number of nested Stumpff functions, at least 1.
 
-    Equations are another matter: what solves them is as sharp as they are, and 1 is returned. So are exact
-    flows: what one adds to an angle the next does not multiply.
+    A kernel with equations has depth 1: their solution is as accurate as the equations. So has a kernel with
+    deferred flows: an error that one flow adds to an angle is not multiplied by the next flow.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -24,21 +24,29 @@ def chain(kernel: Kernel) -> int:
     >>> chain(Kernel("step", (), ("h",), body, (space.sym("y"),)))
     2
     """
+    # A loop repeats until its equations hold to rounding, so earlier roundings do not multiply through it.
     if kernel.loops or kernel.deferred is not None:
         return 1
+    # A kernel is single assignment and ordered, so each name has its depth before it is read.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
+    # Only outputs count: digits lost in a value that no output reads are not lost in the state. The bound
+    # divides by the depth, hence at least 1.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 
 def _depth(root: Expr, depths: Mapping[str, int]) -> int:
-    """Return the longest chain in an expression whose symbols have those of ``depths``."""
+    """Return the depth of an expression; ``depths`` holds the depths of its symbols."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
+        # walk yields arguments before their users.
         below = max((by_node[a.id] for a in node.args), default=0)
+        # Inputs have depth 0: the state is taken to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
+        # The signed functions count too. Slopes do not: they occur
+        # in derivatives only, next to functions of the angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -18,9 +18,9 @@ Sum = dict[int, tuple[Number, Expr]]
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
-    """Return the roots with numbers gathered, or as they are where that takes no fewer operations.
+    """Return the roots with their constants collected, or the roots themselves if that saves no operation.
 
-    What is ``kept``, or a number times that, is not expanded.
+    Expressions in ``kept``, and their multiples, are not expanded.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -32,17 +32,21 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
+    # A number in front of a kept node still joins other numbers, so what is kept is the node without it.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
+            # A kept node is entered as an atom: one times itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
+    # Taken before whole() adds to the sums: nodes inside kept ones cost the same in both forms.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
+    # Expanding can destroy sharing. A tie keeps the given form, which earlier passes have chosen.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
 def _bare(node: Expr) -> Expr:
-    """Return the expression that a node is a number times of: numbers join those before it."""
+    """Return a node without its sign and its numeric factors."""
     while node.op == "neg" or (node.op == "mul" and node.args[0].op == "const"):
         node = node.args[-1]
     return node
@@ -50,29 +54,34 @@ def _bare(node: Expr) -> Expr:
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
+    # Signs are free, because a sum absorbs them.
     products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return inverse roots of which odd powers from the third on are read, and their powers.
+    """Return the powers of inverse roots to rewrite: of the root only odd powers from the third on are read.
 
-    Each with the number of the inverse root and the exponent; numbers in front are left out, and so is what
-    is part of anything ``kept``.
+    Each maps to the number of the inverse root and the exponent. Numeric factors do not count. Parts of
+    ``kept`` expressions are left out.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
+    # Pairs of a node and its reader; a root is read from outside.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
         inside = [ranks[a.id] for a in node.args if a.id in ranks]
         root = _is_inverse(node) and node.args[1].op == "call" and node.args[1].payload == "sqrt"
         if root and node.id not in still:
+            # With y = 1/sqrt(x) each node that equals c y^n gets the pair (y, n).
             ranks[node.id] = (node.id, 1)
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
+    # Only powers that leave their chain of products count: y^2 inside y^3 is an intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
+    # If y itself is read, y is computed in any case, and its powers share that one division.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -84,6 +93,7 @@ def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
 
 
 def _is_inverse(node: Expr) -> bool:
+    # Interning makes the test by identity exact.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -96,27 +106,31 @@ class _Gathering:
 
     def whole(self, root: Expr) -> Expr:
         """Return one expression with its constants collected."""
+        # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return a node as it is read by one that is no combination; the first reader sets numerators."""
+        """Return the expression of a node's combination; an inverse takes its first numerator."""
         if node.id not in self.written:
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return c 1/y as d (e/y), where e is the size of c for the first that is read."""
+        """Return c 1/y as d (e/y), where e is the size of c for the first reader."""
         if not _is_inverse(atom):
             return c, atom
+        # A numerator other than 1 costs nothing, and it absorbs the first reader's product. Later readers
+        # share the division and multiply by the ratio, which is often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
+        # Irrational constants are atoms: constants of two fields do not join, and a ball is rounded once.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -128,9 +142,12 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
+            # A term that cancels must leave: a combination of
+            # one term is a multiple, which products can absorb.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
+        # A number distributes over a sum. Two sums are not multiplied out: that grows exponentially.
         if node.op == "mul":
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
@@ -144,6 +161,7 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
+        # Not Space's own methods: they would simplify again, and may turn the atom into a combination.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
@@ -151,11 +169,13 @@ class _Gathering:
         """Return a power of an inverse root as the inverse of a root times what is under it."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
+        # The numeric factors inside y^n are collected, so that the power itself is free of numbers.
         c = Number.rational(1)
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
+        # y^(2m+1) = 1/(x^m sqrt x): x^m runs beside the root, and the division is the last operation.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
@@ -179,6 +199,8 @@ def _size(c: Number) -> Number:
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     """Return a combination as an expression: terms with coefficients c or -c are added first."""
+    # Grouped by the size of the coefficient: one product for 3/2 a - 3/2 b. Dictionaries keep the order of
+    # first use, so the result depends on the input alone.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object
@@ -192,5 +214,6 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
+        # The sign of a group's first term becomes a subtraction, so no coefficient is stored with both signs.
         result = result - part if first else result + part
     return result

@@ -22,8 +22,10 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     """
     space = root.space
     bars: dict[int, Expr] = {root.id: space.one}
+    # In this order all users of a node have added to its adjoint before the node passes it on.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
+        # Contributions may cancel exactly; passing on a zero would only create nodes.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -34,7 +36,7 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr) -> list[Expr]:
     """Return the derivatives of a node by its arguments, in order.
 
-    Those of ``quotient`` are taken away from the zeros of its divisor. :class:`NotDifferentiable` for
+    The derivatives of ``quotient`` hold where its divisor is not zero. :class:`NotDifferentiable` for
     ``signed_stumpff1`` and the slopes.
     """
     space, args = node.space, node.args
@@ -74,13 +76,16 @@ def _derivatives(node: Expr) -> list[Expr]:
             return [node]
         case "log":
             return [space.one / x]
+        # k = 0: the term in c_2 is absent, c_0' = -c_1/2. This holds for z of either sign.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
+        # The rule would need c_4 and c_5, which have no evaluation of their own; the slopes combine them.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "quotient":
+            # 1/b must be guarded too, or the derivative would be infinite where the function is 0.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:

@@ -22,6 +22,7 @@ class NotConverged(ArithmeticError):
     """A fixed-point iteration that reached its limit, or left the numbers, in the interpreter."""
 
 
+# The scalars are float, mpf, series and Expr: they share operators but no base class.
 Scalar: TypeAlias = Any
 """A number of one domain: the domain decides its type when a program runs."""
 
@@ -73,7 +74,9 @@ def stumpff(k: int, z: float) -> float:
         return math.cosh(root) if k == 0 else math.sinh(root) / root
     if k == 0:
         return math.cos(math.sqrt(z))
+    # c_3 needs the longer series: sqrt z - sin sqrt z cancels while the angle is below about 2.
     if z < (0.5 if k < 3 else 4.0):
+        # Horner's rule from the smallest term; for z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -83,6 +86,7 @@ def stumpff(k: int, z: float) -> float:
     if k == 1:
         return math.sin(root) / root
     if k == 2:
+        # 1 - cos s = 2 sin^2(s/2): the left side cancels for small angles.
         half = math.sin(root / 2)
         return 2 * half * half / z
     return (root - math.sin(root)) / (z * root)
@@ -95,6 +99,7 @@ def slope(k: int, z: float) -> float:
     (True, True)
     """
     if z > 1:
+        # Both terms tend to 1/(k-1)! as z tends to 0 and would cancel below.
         return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
     total = 0.0
     for j in range(12, 0, -1):
@@ -105,7 +110,7 @@ def slope(k: int, z: float) -> float:
 class FloatDomain:
     """IEEE double precision.
 
-    ``patience`` is how many sweeps a fixed point may take that is sharp when it settles.
+    A fixed-point iteration that takes more sweeps than ``patience`` is left to Newton's method.
     """
 
     patience = 40
@@ -133,18 +138,23 @@ class FloatDomain:
         return result
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Stand still at rounding level: the rule of :class:`codegen.ir.kernel.Loop`."""
+        """Return whether the changes are at rounding level, and the size of the last one."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration left the finite numbers")
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
+        # With the rate change/before, the remaining error is about change^2/before: below half a unit in the
+        # last place. The first test keeps a rate that was measured once from being trusted too far.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
+        # Changes that no longer fall are rounding errors if they are small, and divergence if they are not.
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
         """Return the step of a difference quotient at x."""
+        # The root of the rounding unit balances the rounding
+        # and the truncation error of a forward difference.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -154,12 +164,14 @@ class PreciseDomain:
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
 
+        # The precision of mpmath's global context belongs to the caller.
         self.context = mpmath.mp.clone()
         self.context.dps = digits
         self.digits = digits
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
+        # A fixed point that gains less than a third of a digit a sweep is left to Newton's method.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -167,6 +179,7 @@ class PreciseDomain:
         if value.is_rational:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
+        # Five guard digits, so that this is one rounding in effect.
         return self.context.mpf(value.ring.approximate(value.element, self.digits + 5))
 
     def rational(self, p: int, q: int = 1) -> Scalar:
@@ -183,12 +196,14 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
+            # Above 1 the closed forms lose at most three bits: c_3 does, since 1 - sin 1 = 0.16.
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
             return closed[k] if k < 3 else (root - sine) / (root * z)
         total, j = self.context.mpf(0), 0
         term = self.context.mpf(1) / math.factorial(k)
+        # Ten bits below the precision, so that the omitted terms do not show in the sum.
         while abs(term) > self.context.eps / 1024:
             total += term
             j += 1
@@ -208,9 +223,10 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Stand still within 2^12 units of the working precision."""
+        """Return whether the changes stopped falling within 2^12 units of the precision, and the last one."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
+        # Being small is not enough: the next sweep may still gain digits. Changes must have stopped falling.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -246,10 +262,12 @@ class SeriesDomain:
         if function == "quotient":
             return self._quotient(z, args[1])
         starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
+        # sin, cos and exp of a non-zero algebraic number are transcendental: no base field has them.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
         if function.startswith("slope"):
             k = int(function[-1])
+            # c_k' = (k c_{k+2} - c_{k+1})/2: the series below serve any k.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "stumpff" in function:
@@ -258,6 +276,7 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"{function} has no exact series")
         k, step, first = starts[function]
+        # The signs alternate in _sum: right for sin and cos, and undone by -z for exp.
         return self._sum(k, step, first, z * z if step == 2 else -z)
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
@@ -267,6 +286,7 @@ class SeriesDomain:
             return self.ring.zero
         if self.ring.valuation(a) < power:
             raise ArithmeticError("a quotient with a pole at h = 0")
+        # Both are divided by h^valuation, after which the divisor is a unit of the ring.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
 
@@ -277,12 +297,14 @@ class SeriesDomain:
             j += 1
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
+            # z has no constant term, so each term gains a power of h and one is beyond the truncation.
             if self.ring.is_zero(term):
                 return total
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Stand still exactly."""
+        """Return whether nothing has changed; an exact iteration needs no size."""
+        # A contraction by O(h) fixes one more coefficient a sweep, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
@@ -308,6 +330,7 @@ class ExprDomain:
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
         """Return symbols for run-time inputs at a time, the same ones for the same time."""
+        # Stages at one time must read one sample, or the inputs would be evaluated twice there.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

@@ -45,8 +45,9 @@ FUNCTIONS = (
 
 
 class Expr:
-    """One node; made only by its :class:`Space`."""
+    """One node; only its :class:`Space` creates it."""
 
+    # Neither == nor hash is defined: within one space equal expressions are one object.
     __slots__ = ("args", "id", "op", "payload", "space")
 
     def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
@@ -107,6 +108,8 @@ class Space:
         self.one = self.const(Number.rational(1))
 
     def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
+        # Arguments exist before their user, so its number is
+        # larger than theirs: numbers are a topological order.
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -117,6 +120,8 @@ class Space:
         """Return value as a node of this space."""
         if isinstance(value, Expr):
             if value.space is not self:
+                # Node numbers of two spaces are unrelated: mixing
+                # them would intern different expressions as one.
                 raise ValueError("expressions of two spaces meet")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -135,6 +140,7 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
+        # -(a - b) = b - a holds in floating point up to the sign of zero, and saves the negation.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
         return self._make("neg", (a,))
@@ -151,8 +157,11 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
+        # x + x is exact as 2 x, and shares the product with other multiples of x.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
+        # Addition commutes in floating point, so one order of
+        # operands serves; it does not associate, so no more.
         return self._make("add", (a, b) if a.id < b.id else (b, a))
 
     def sub(self, a: Expr, b: Expr) -> Expr:
@@ -168,6 +177,7 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
+            # Signs move outwards, where the reader's sum absorbs them: -x - b = -(x + b) shares x + b.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -184,14 +194,18 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
+            # c (d x) = (c d) x: the product of constants is exact here and is rounded once, by a printer.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
+            # A constant takes the sign. Otherwise it moves
+            # outwards, so that x y and x (-y) share one product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
+        # The factors are ordered for interning. A constant stays first: other passes look for it there.
         if a.op != "const" and b.id < a.id:
             a, b = b, a
         return self._make("mul", (a, b))
@@ -203,7 +217,9 @@ class Space:
         if a is self.zero:
             return self.zero
         if b.op == "const":
+            # The reciprocal is exact, and a product is several times faster than a division.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
+        # As in any field of rational functions: the divisor is taken to be non-zero.
         if a is b:
             return self.one
         if a.op == "neg":
@@ -221,6 +237,7 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
+            # An exact power; n is a small integer from a formula.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload
@@ -228,6 +245,7 @@ class Space:
         if a.op == "neg":
             power = self.pow(a.args[0], n)
             return self.neg(power) if n % 2 else power
+        # (sqrt x)^(2m) = x^m where the root is real; elsewhere the step fails in both forms.
         if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
             return self.pow(a.args[0], n // 2)
         return self._make("pow", (a,), n)
@@ -242,12 +260,14 @@ class Space:
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Whether two constants can be folded: balls are not, so that a printer rounds each only once."""
+    # Rational numbers embed in every ring; two other rings have no common one.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
     """Yield every node below the roots once, arguments before users; nodes where stop holds are leaves."""
+    # An explicit stack: long steps nest deeper than Python may recurse.
     seen: set[int] = set()
     waiting: list[Expr | None] = []
     for root in roots:
@@ -264,6 +284,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     yield node
                     continue
                 waiting += (node, None)
+                # Reversed, because the stack returns the last entry
+                # first: operands are visited from left to right.
                 waiting += [a for a in node.args[::-1] if a.id not in seen]
 
 
@@ -302,6 +324,7 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 def power(x: Scalar, n: int) -> Scalar:
     """Return x**n, n >= 1, by squaring, left to right: printers write the same products."""
     result = x
+    # The prefix 0b and the leading bit, which is x itself, are skipped.
     for bit in bin(n)[3:]:
         result = result * result
         if bit == "1":

@@ -45,6 +45,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
+        # sympy's trees share subexpressions; without the table
+        # a nested formula would be read exponentially often.
         if e not in self.known:
             self.known[e] = self._read(e)
         return self.known[e]
@@ -56,6 +58,8 @@ class _Reader:
             return self.space.sym(e.name)
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
+        # Sums are read as binary operations in sorted order:
+        # rounding, too, then depends on the formula alone.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -76,6 +80,7 @@ class _Reader:
 
         above, below = [], []
         for a in _sorted(e):
+            # sympy writes a/b as a b^-1.
             if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
                 below.append(self._power(self.node(a.base), -a.exp, a))
             else:
@@ -89,6 +94,7 @@ class _Reader:
             return space.pow(base, int(exponent))
         if exponent.is_Rational and exponent.q == 2:
             root, n = space.call("sqrt", base), int(exponent.p)
+            # x^(n/2) = x^(n div 2) sqrt x: all half-integer powers of one base share one root.
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(f"the power {e}", where=self.where, expected="an integer or half-integer exponent")
@@ -97,6 +103,7 @@ class _Reader:
 def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
     import sympy
 
+    # The order of args depends on hashes, which Python randomises in each process.
     return sorted(e.args, key=sympy.default_sort_key)
 
 

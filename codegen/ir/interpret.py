@@ -40,17 +40,16 @@ def interpret(
 ) -> State:
     """Return the new state after one step, by input name.
 
-    ``inputs`` gives every input of the program: a Real is a scalar of the domain, anything else a flat tuple
-    of scalars (group elements row by row). Blocks are iterated until the domain says they stand still; one
-    that takes long or fails is solved by Newton's method with difference quotients where the domain has them
-    (and ``newton``). After ``limit`` sweeps of either :class:`NotConverged` names the block. ``solutions``
-    are what unknowns are expected to be, to begin with; they receive what was found. ``near`` instead gives
-    numbers near the unknowns, a list for each block in the order they are solved, where Newton's method
-    begins at once; they are replaced by what was found.
-    A domain that has ``computed`` is given the name and the value of every result, and what it returns is
-    used instead.
+    ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
+    (group elements row by row). Blocks are solved by fixed-point iteration until the domain reports
+    convergence; a slow or failing one by Newton's method with difference quotients, if the domain has them
+    and ``newton`` is true. :class:`NotConverged` names a block that takes more than ``limit`` sweeps.
+    Iterations start at ``solutions``, which receives the new ones. ``near`` starts Newton's method at once:
+    it has a list of numbers for each block, in the order of solution, and receives the solutions.
+    A domain's method ``computed`` receives the name and the value of each result, and returns a new value.
     """
     if program.frame == BODY:
+        # The statements are the same in both frames; only the state that they read and return is converted.
         core, start = replace(program, frame=SPACE), {**inputs, "mu": inward(problem, domain, inputs)}
         options: State = {"limit": limit, "newton": newton, "solutions": solutions, "near": near}
         end = interpret(core, problem, domain, start, **options)
@@ -72,11 +71,14 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
+            # near is a queue: each block takes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
+            # Fixed points first: where they contract they are sharp, and need no difference quotients.
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
                 _iterate(statement, env, domain, run, min(limit, patience), expected)
+            # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
             except (ArithmeticError, ValueError):
                 if not newton or not hasattr(domain, "increment"):
                     raise
@@ -94,10 +96,10 @@ def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tupl
 def outward(
     problem: Problem, domain: Domain, state: Mapping[str, Value], *ends: Mapping[str, Value]
 ) -> tuple[Scalar, ...]:
-    """Return the momentum in space after a step from a state, made in the body between two ends.
+    """Return the momentum in space after a step whose momentum was in the body frame; ``ends`` are both ends.
 
-    It is that of the state and what has been added: where rounding has made q not quite orthogonal, it turns
-    this alone.
+    It is mu plus the change between the ends: a q that is not quite orthogonal by rounding then rotates the
+    change alone, and not mu.
     """
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
@@ -115,9 +117,11 @@ def _composed(
     """Return the new state after all substeps."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
+        # A shallow copy: only h differs, and the caller's domain keeps its own.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
+            # From the beginning of the whole step, so that the times of substeps do not add up roundings.
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
         state |= interpret(substep, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
@@ -139,6 +143,7 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
+        # The test is before the update: on return the body's values belong to the unknowns that were read.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -163,8 +168,8 @@ def _correct(
 ) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
-    It begins at ``near``, by default where the block starts; the unknowns are returned. A domain may say how
-    images are ``rounded``.
+    It begins at ``near``, by default at the block's starts, and returns the unknowns. A domain's method
+    ``rounded`` rounds the images.
     """
     kinds = [u.kind for u in block.unknowns]
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
@@ -189,6 +194,7 @@ def _correct(
         for j, u in enumerate(now):
             step = domain.increment(u)
             moved = images([*now[:j], u + step, *now[j + 1 :]])
+            # Column j of 1 - g'(u), the derivative of u - g(u); the correction is its inverse times g(u) - u.
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
@@ -197,6 +203,7 @@ def _correct(
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
+            # The last run of the body was at a moved point: run it once more at the solution.
             images(now)
             if sharp:
                 return now
@@ -209,6 +216,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
+        # Partial pivoting: the matrix is near the identity only where h is small.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
@@ -219,6 +227,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     solution: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
+        # The solution is collected from the last unknown to the first.
         for x, y in zip(rows[k][k + 1 : n], reversed(solution), strict=True):
             total = total - x * y
         solution.append(total / rows[k][k])

@@ -41,7 +41,7 @@ class _Graph:
     """The linearised expressions: ``before[v][u]`` and ``after[u][v]`` are the edge from u to v.
 
     Vertices are the ids of nodes that depend on a variable; results are -1, -2, ... so that a node may be a
-    result and stand inside another.
+    result and an argument of another node.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -49,8 +49,10 @@ class _Graph:
         self.after: dict[int, dict[int, Expr]] = {u: {} for u in columns}
         self.inner: list[int] = []
         for node in walk(roots):
+            # A variable is a source: it keeps its edges and is never taken out.
             if node.id in columns:
                 continue
+            # Nodes that depend on no variable never enter the graph: their derivatives are zero.
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}
@@ -58,13 +60,17 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
+            # A result that is a variable or an inner node is joined to it by an edge with the derivative 1.
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
+        # u depends on no variable.
         if u not in self.after:
             return
         old = self.before[v].get(u)
+        # Parallel edges are one: path contributions to a derivative add up.
         total = factor if old is None else old + factor
+        # An edge that cancels must go, or the costs below would count paths that carry nothing.
         if total.is_zero:
             self.before[v].pop(u, None)
             self.after[u].pop(v, None)
@@ -77,6 +83,8 @@ class _Graph:
 
     def eliminate(self) -> None:
         """Take out every inner vertex, the cheapest first, among equals the one nearest to the results."""
+        # Minus the number: among equal costs the youngest
+        # vertex is the first, which is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         gone: dict[int, bool] = {}
@@ -86,12 +94,15 @@ class _Graph:
             if v in gone:
                 continue
             now = self._cost(v)
+            # Entries may be out of date. A cost that has grown is entered again; one that has fallen was
+            # entered by the elimination that lowered it.
             if now > cost:
                 heapq.heappush(queue, (now, negative))
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
+                # Variables have no incoming and results no outgoing edges: neither may be taken out.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 
@@ -103,5 +114,6 @@ class _Graph:
             del self.before[w][v]
         for w, second in outs.items():
             for u, first in ins.items():
+                # The chain rule: dw/du gains dw/dv dv/du.
                 self._add(u, w, second * first)
         return [*ins, *outs]

@@ -1,9 +1,9 @@
 """Kernels: a step as scalar assignments and loops that solve equations, ready for a printer.
 
 A kernel is single assignment. A :class:`Loop` repeats its body with the unknowns replaced by their images, or
-corrected by Newton's method, until they stand still. Body values may be read afterwards: they are those of
-the last sweep. A :class:`Start` says where the unknowns of all loops begin, unless solutions of earlier steps
-are known. A kernel never branches on data apart from that: it selects.
+corrected by Newton's method, until they converge. Body values may be read afterwards: they have the values
+of the last sweep. A :class:`Start` says where the unknowns of all loops begin, unless solutions of earlier
+steps are known. A kernel never branches on data apart from that: it selects.
 """
 
 from __future__ import annotations
@@ -17,31 +17,31 @@ from codegen.ir.number import Number
 from codegen.ir.program import Substep
 
 LEAD = "lead.h"
-"""How long the last flow of a step lasts; no name that a user can give."""
+"""The duration of the last flow of a step; the dot keeps it apart from names that users give."""
 
 ELAPSED = "elapsed.h"
-"""How long the steps lasted for which something was put off."""
+"""The total duration of the steps whose flows are deferred."""
 
 LONGEST = 256
-"""After how many steps a run makes what commutes with all of them: the angles in it shall stay moderate."""
+"""The most steps for which a flow is deferred: its angles stay moderate."""
 
 FIXED_POINT, NEWTON, CHORD = "fixed-point", "newton", "chord"
 """The methods that a block may be solved by."""
 
 SLOWEST = 2.0**-12
-"""No rate of convergence is taken to be smaller: one that is measured near rounding says little."""
+"""The smallest rate of convergence that is assumed: a rate measured near rounding is not reliable."""
 
 UNIT = 2.0**-53
 """Half a unit in the last place of one."""
 
 LOST = 2.0**-47
-"""Times the largest number of a block of the state: what moves it by less is lost in rounding."""
+"""A change below this fraction of the largest number in a block of the state is lost in rounding."""
 
 VARIATION = "variation"
-"""What the field of a variation of the state is called."""
+"""The name of the state field that holds a variation."""
 
 VARIED = "the variation of "
-"""How the labels of equations for variations begin."""
+"""The prefix of the labels of equations for variations."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +60,9 @@ class Newton:
     order in h is computed and inverted in each step instead. Entries that are ``inverted`` are those of the
     inverse already.
 
-    Where the loop's images are ``residuals``, what is to be zero, the matrix is minus their derivative to
-    first order in h, and serves ``period`` steps; the last change of the unknowns is called ``changes``, for
-    what is read after the loop may be corrected by it.
+    If the loop's images are ``residuals``, which vanish at the solution, the matrix is minus their derivative
+    to first order in h, and serves ``period`` steps. ``changes`` names the last change of the unknowns, by
+    which values that are read after the loop may be corrected.
     """
 
     body: tuple[Let, ...]
@@ -76,16 +76,17 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """How many steps an inverse for residuals serves, 0 for as long as it contracts.
+        """The number of steps that an inverse for residuals serves; 0: as long as it contracts.
 
-        It costs some multiple of n^3, a sweep one of n, and the older it is, the more sweeps there are.
+        An inverse costs a multiple of n^3, a sweep one of n; the older the inverse, the more sweeps.
         """
+        # With n = len(matrix), n/2 steps share the cost of order n^3, so a step pays one of order n^2.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
 @dataclass(frozen=True)
 class Loop:
-    """Solve unknowns = images over body until the largest change stands still at rounding level.
+    """Solve unknowns = images over body until the largest change is at rounding level.
 
     ``label`` names the block in messages and statistics ("stage 2"); ``starts`` are evaluated before the
     loop, and empty where a :class:`Start` gives them. Without ``newton`` the change of the unknowns is images
@@ -119,9 +120,11 @@ class Loop:
     def close(self) -> float:
         """The largest change after which a contraction is trusted to finish.
 
-        What is read after the loop was computed before the last change. Chords contract by (h L)^2 where that
-        moves by h L, so that a rate that ends the loop bounds it.
+        Values that are read after the loop were computed before the last change. Simplified Newton contracts
+        by (h L)^2 while these values change by h L, so a rate that ends the loop bounds their error too.
         """
+        # Values after the loop are recomputed from the last
+        # unknowns: their error is the rate times the last change.
         if self.read_anew and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
@@ -134,13 +137,13 @@ class Start:
 
     The unknowns then begin at the polynomial through the last solutions, continued by a step: with u1,
     u2, ... (latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most ``depth`` solutions are
-    kept; the degree grows while their differences fall. Where that was off by more than
-    ``ROUGH`` of what the unknowns have moved in the step, by the first change of its loops, only u1 is
-    kept for the next one. The unknowns are those of all loops of the kernel, in order.
+    kept; the degree grows while their differences fall. The first change of the loops is the error of this
+    guess: if it exceeds ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next.
+    The unknowns are those of all loops of the kernel, in order.
 
-    Where the loops do not settle, the solutions before are forgotten; where that does not help, the step is
-    halved until they do, and each solution is where the loops of a longer step begin, until the whole step is
-    solved, after ``TRIES`` of them, or where steps longer by ``SHORTEST`` of themselves cannot be followed.
+    If the loops do not converge, earlier solutions are dropped; then the step is halved until they do. The
+    solution of each step is the start of a longer one (continuation in h), until the whole step is solved.
+    It fails after ``TRIES`` steps, or when even a step longer by the fraction ``SHORTEST`` does not converge.
     """
 
     unknowns: tuple[str, ...]
@@ -148,14 +151,18 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
+    # A guess that misses by half of the change is hardly better than u1, the guess of degree 0.
     ROUGH: ClassVar[float] = 0.5
+    # A limit that is hardly ever reached: before the first success each try halves the step, so 100 of them
+    # reach 2^-100 h. After it, each failure takes the root of the factor: eight in a row end the search.
     TRIES: ClassVar[int] = 100
+    # The factor starts at 2, and 2^(1/2^8) < 1 + 2^-8: the eighth failure after a success is the last.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
 @dataclass(frozen=True)
 class Field:
-    """A named block of scalars in the state, input or output: its names in order, and what it means."""
+    """A named block of scalars in the state, input or output: its names in order, and its meaning."""
 
     name: str
     symbols: tuple[str, ...]
@@ -164,7 +171,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Deferred:
-    """What a run does not do in each step.
+    """Flows deferred across steps.
 
     A step is ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with :data:`ELAPSED` = h.
     Steps one after the other are ``begin`` once, the kernel as often, with LEAD = ``later`` h in all but the
@@ -178,18 +185,18 @@ class Deferred:
 
     @property
     def kernels(self) -> tuple[Kernel, ...]:
-        """Those that there are."""
+        """The kernels ``begin`` and ``finish``, if there are any."""
         return tuple(kernel for kernel in (self.begin, self.finish) if kernel is not None)
 
 
 @dataclass(frozen=True)
 class Carried:
-    """Which momentum m a run carries from step to step in place of the state's mu.
+    """The momentum m that a run carries from step to step in place of the state's mu.
 
     m = ``inward``(q, mu) and mu = ``outward``(q, m), which are the numbers from ``first`` on. A step is
     ``inward``, the kernel on (q, m), and mu + outward(q', m') - outward(q, m) with the new q', m'. Steps one
-    after the other are ``inward`` once, the kernel as often, and such an end once. A q that rounding has made
-    not quite orthogonal so turns what has been added alone.
+    after the other are ``inward`` once, the kernel for each step, and such an end once. A q that is not quite
+    orthogonal by rounding then rotates only the change of the momentum.
     """
 
     inward: Kernel
@@ -260,7 +267,8 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """Where the loops begin, where the kernel says so for all of them together."""
+        """The common start of all loops, None if each has its own."""
+        # A kernel has one Start at most: warm starts extrapolate the unknowns of all loops as one vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -281,6 +289,7 @@ class Kernel:
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
+            # A Start has values, a Loop has starts and images; only a Loop may have a matrix.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
@@ -297,8 +306,9 @@ class Kernel:
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return those of ``scalars`` that some expression reads, in order; what is put off reads too."""
+        """Return the ``scalars`` that an expression reads, deferred flows included, in order."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
+            # A parameter that only a deferred flow reads is still an argument of the step.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
         return tuple(s for s in self.scalars if s in read)

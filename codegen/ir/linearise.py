@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in h, for simplified Newton iterations.
 
-Every expression is carried as v_0 + v_1 h with its derivatives by the unknowns, truncated alike, so that what
-only higher powers of h contribute is never formed: of an exponential of h x there remains 1 + h x, of a force
-that enters with a factor h its value at h = 0. An iteration with this Jacobian gains two powers of h a sweep.
+Every expression is carried as v_0 + v_1 h with its derivatives by the unknowns, truncated alike, so
+higher powers of h are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is
+taken at h = 0. An iteration with this Jacobian gains two powers of h a sweep.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from codegen.ir.number import Number
 STEP = "h"
 
 EXPANDED = frozenset({"sqrt", "sin", "cos", "exp", "log", *(f"stumpff{k}" for k in range(4))})
-"""The functions whose expansions are known here."""
+"""The functions with a rule for their expansion."""
 
 Pair = tuple[Expr, Expr]
 """Coefficients of 1 and of h."""
@@ -36,7 +36,7 @@ class _Dual:
 
 
 class FirstOrder:
-    """Derivatives of expressions by the unknowns up to h^1; what several share is expanded once.
+    """Derivatives of expressions by the unknowns up to h^1; shared subexpressions are expanded once.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
@@ -56,6 +56,7 @@ class FirstOrder:
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
+        # Expansions are kept between calls, whose roots may share expressions.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
@@ -75,6 +76,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "sym":
             if node.payload == STEP:
                 return _Dual((zero, one), {})
+            # Unknowns have no part of order h of their own: the expansion is at fixed unknowns.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -90,6 +92,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "pow":
             result = args[0]
             for _ in range(node.payload - 1):
+                # Truncated after each product, so no coefficient of h^2 is formed.
                 result = _product(space, result, args[0])
             return result
         case _ if node.payload in EXPANDED:
@@ -99,6 +102,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
 
 
 def _times(a: Pair, b: Pair) -> Pair:
+    # The product modulo h^2.
     return a[0] * b[0], a[0] * b[1] + a[1] * b[0]
 
 
@@ -140,11 +144,14 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
+        # c_k is expanded at 0 only: there all derivatives are rational, and angles vanish with h.
         if not low.is_zero:
             raise NotLinearised("a rotation angle does not vanish at h = 0")
+        # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so the second derivative is twice the last coefficient.
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
+        # The derivatives of a root are infinite there.
         if low.is_zero:
             raise NotLinearised("a root at its branch point")
         at = space.call("sqrt", low)
@@ -159,6 +166,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)
+    # f'(v_0 + v_1 h) = f'(v_0) + f''(v_0) v_1 h.
     slope = (first, second * high)
     slopes = {k: _times(x, slope) for k, x in a.slopes.items()}
     return _Dual((at, first * high), _trimmed(slopes))

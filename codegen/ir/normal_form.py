@@ -23,7 +23,10 @@ Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
 
 ONE = Number.rational(1)
 MOST_TERMS = 400
-"""A polynomial with more terms than this is not expanded further."""
+"""A polynomial with more terms than this is not expanded further.
+
+It bounds the time of the compiler: with 200 or 800 all emitted files stay the same (edit it and type
+``orderconds regenerate --check``)."""
 
 
 class TooLong(ArithmeticError):
@@ -33,16 +36,18 @@ class TooLong(ArithmeticError):
 class NormalForms:
     """Brings expressions of one space to normal form.
 
-    ``relations`` map a product of two symbols to what equals it; replacing must come to an end. ``whole``
-    are expressions that are not expanded.
+    ``relations`` map a product of two symbols to an equal sum; repeated replacement must terminate. ``whole``
+    holds expressions that are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
         self.atoms: dict[int, Expr] = {}
+        # An expression that is not expanded is a variable from the beginning.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
+            # Monomials are sorted by node number, and so are the pairs that they are searched for.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:
@@ -50,6 +55,7 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
+            # Right sides stay unreduced: _reduced applies the rules to what they bring in.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
@@ -57,6 +63,7 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
+            # Too long is no failure: the caller compares or emits the expression as it is.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -79,15 +86,20 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
+                    # Only products can form the left side of a rule; sums of reduced polynomials are reduced.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
                     for _ in range(node.payload - 1):
+                        # Reduced after each factor: the intermediate polynomials stay short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
+                    # 1/d is a variable: after this, equal divisors are
+                    # equal variables, and quotients are polynomials.
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
+                    # The normal form of the argument makes functions of equal arguments equal variables.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value
@@ -100,7 +112,9 @@ class NormalForms:
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
+        # Horner's rule in several variables. max returns the first of equals: the oldest node.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
+        # A factor of one term saves no product.
         if best < 0 or count[best] < 2:
             return self._sum(terms)
         inside: Polynomial = {}
@@ -117,6 +131,7 @@ class NormalForms:
 
     def _sum(self, terms: Mapping[Monomial, Number]) -> Expr:
         total = self.space.zero
+        # Monomials are distinct, so the order never compares coefficients.
         for monomial, c in sorted(terms.items()):
             product = self.space.const(c)
             for atom, n in monomial:
@@ -134,6 +149,7 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
+        # A limit on the work alone: like terms join, so a long product may still have few.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
@@ -151,15 +167,18 @@ class NormalForms:
         """Return a polynomial without the left side of any relation."""
         done: Polynomial = {}
         waiting = dict(polynomial)
+        # Each step replaces one leading product. It ends if the rules do, which the class requires of them.
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
+                # The left side may be a square, i = j: then the exponent must be 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
+                    # The right side may hold other leading products: it waits to be reduced again.
                     break
             else:
                 done = _add(done, monomial, c)
@@ -171,6 +190,7 @@ class NormalForms:
 def _add(polynomial: Polynomial, monomial: Monomial, c: Number) -> Polynomial:
     old = polynomial.get(monomial)
     value = c if old is None else old + c
+    # Zero coefficients must not stay: equal polynomials are equal dictionaries.
     if value.is_zero:
         polynomial.pop(monomial, None)
     else:

@@ -17,6 +17,7 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
+# Lengths are limited: Fraction("1e999999999") would build an integer of a billion digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
@@ -27,6 +28,7 @@ def is_normal(value: Fraction) -> bool:
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
     """
+    # A denormal number has fewer bits, so its rounding error is not relative.
     return not value or _SMALLEST <= abs(value) <= _LARGEST
 
 
@@ -39,7 +41,8 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """What tells whether numbers are equal."""
+        """The key: equal numbers have equal keys."""
+        # Keys make equality decidable for balls, too: equal names in a file give equal keys.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -61,8 +64,8 @@ class Number:
     def read(cls, text: str) -> Number:
         """Return the rational number that a person typed: ``1/2``, ``0.25``, ``-3e-2``.
 
-        A ValueError that says what was expected, for anything else and for what no double holds; an exponent
-        is looked at before it is taken at its word.
+        A ValueError states the expected form for any other text and for numbers outside the range of doubles.
+        The length of the text and its exponent are checked before the number is built.
 
         >>> Number.read("-3e-2") == Number.rational(-3, 100)
         True
@@ -78,6 +81,7 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """Whether this number is provably zero."""
+        # is_zero answers None where it is undecided, and undecided is not zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -98,6 +102,7 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
+        # A rational number embeds in any ring; only two other rings have no common one.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -107,6 +112,7 @@ class Number:
         raise TypeError(message)
 
     def __add__(self, other: Number) -> Number:
+        # Arithmetic of balls would return a ball around 0, which no simplification recognises.
         if self == -other:
             return Number.rational(0)
         ring, x, y = self._join(other)
@@ -119,6 +125,7 @@ class Number:
         return Number(ring, x - y)
 
     def __mul__(self, other: Number) -> Number:
+        # A product would widen a ball, and change its key, for nothing.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)
@@ -140,6 +147,7 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
+        # 40 digits: far more than a double's 17, so the last rounding decides.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:
@@ -150,5 +158,5 @@ class Number:
         return Fraction(int(self.element.p), int(self.element.q))
 
     def text(self) -> str:
-        """Spell this number exactly, or to 20 digits where it is only known as a ball."""
+        """Return this number as exact text, or to 20 digits if it is a ball."""
         return self.ring.text(self.element)

@@ -19,6 +19,7 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
+# One-tuples, so that signatures are sums: G + A is (Group, Alg).
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -26,7 +27,7 @@ LINEAR = (Kind.ALG, Kind.DUAL)
 
 
 class Problem(Protocol):
-    """What a program needs to know of its scene: group, action, field or Hamiltonian, over any domain."""
+    """The group, the action, and the field or Hamiltonian of a scene, evaluated over any domain."""
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of an operation of the group or the scene, by the name of its function.
@@ -50,15 +51,17 @@ class Operation(ABC):
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
     """The kinds of the arguments and of the results, where no parameter changes them."""
+    # Passes may then move factors and sums through the operation, as in ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """Whether the result is linear in the last argument."""
+    # A method's cost is counted in evaluations of the scene and in exponentials.
     evaluates_scene: ClassVar[bool] = False
     """Whether it counts as one evaluation of the field or of the derivatives of the Hamiltonian."""
     exponentials: ClassVar[int] = 0
-    """How many exponentials, or flows, it computes."""
+    """The number of exponentials or flows that it computes."""
 
     noun: ClassVar[str] = ""
-    """What a user calls it, with ``{s}`` for the plural; '' for an operation that costs nothing."""
+    """Its name in reports, with ``{s}`` for the plural; '' for an operation that costs nothing."""
 
     @property
     @abstractmethod
@@ -99,6 +102,7 @@ class Zero(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Whether an assignment of these kinds is well-formed."""
+        # Groups and manifolds have no zero.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
@@ -137,6 +141,7 @@ class Linear(Operation):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
+            # Dictionaries keep the order of first use, so the sum is the same in each build.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
@@ -259,6 +264,8 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the operation that undoes this one."""
+        # Ad_g Ad_{g^-1} = 1, and the same for the plain duals, in which
+        # the order of a product is reversed: Ad*_{gk} = Ad*_k Ad*_g.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -303,6 +310,7 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The operation as a function of ad."""
+        # As a word it can be joined with neighbouring functions of the same ad.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -316,12 +324,13 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
+        # The order is an argument, because the number of brackets is the method's and not the group's.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
 @dataclass(frozen=True)
 class InverseDexpSlope(Operation):
-    """P*_(order)(x, y) mu: its pairing with z is that of mu with the derivative of dexpinv_x y along z.
+    """P*_(order)(x, y) mu: <P* mu, z> = <mu, derivative of dexpinv_x y by x along z>.
 
     It belongs to the dexp^{-1} of :class:`InverseDexp` with the same order.
     """
@@ -382,6 +391,7 @@ class AdSeries(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Whether an assignment of these kinds is well-formed; the empty word is no operation."""
+        # An empty word is the identity: the pass that empties one removes the assignment.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:

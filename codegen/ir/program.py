@@ -43,6 +43,7 @@ class Assign:
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
         """The terms of a linear combination; () for any other operation."""
+        # Other operations have no terms, so callers may loop over terms without asking for the operation.
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
@@ -78,6 +79,7 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
+    # Scaled as the unknowns: a stopping rule compares residuals and unknowns without knowing the equations.
     residuals: tuple[Var, ...] = ()
 
 
@@ -128,6 +130,7 @@ class Program:
         """Return how often each operation occurs, sorted by name; of a block, in one sweep."""
         total: dict[str, int] = {}
         for assign in self.assigns():
+            # The number of sweeps is not known to a program, so a block counts once.
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
@@ -160,6 +163,7 @@ class Builder:
 
     def fresh(self, name: str, kind: Kind) -> Var:
         """Return a variable called name, or name with a number where that is taken."""
+        # A name that people recognise, made unique: programs are read in --explain and in headers.
         candidate, n = name, 1
         while candidate in self.taken:
             n += 1
@@ -213,6 +217,7 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
         var = self.fresh(target, kind)
+        # A zero of the tableau leaves no argument: passes read from arguments which stages depend on which.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))

@@ -19,6 +19,7 @@ class OfScene(OfGroup):
     @property
     def function(self) -> str:
         """The name of the function of the scene."""
+        # The two forms have different signatures, so emitted code needs two names.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
@@ -133,6 +134,7 @@ class FlowOf(Operation):
     part: str
     duration: Coefficient
     timed: bool = False
+    # A flow costs about what an exponential does: an angle, its sine and cosine, and a product.
     exponentials = 1
     name = "flow"
     noun = "flow{s}"
@@ -177,4 +179,6 @@ class FlowFor(Operation):
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 
+# A fixed duration is part of the operation, so two flows for the same time are equal operations and can be
+# recognised as such; only a duration that is computed at run time is an argument.
 FLOWS = (FlowOf, FlowFor)

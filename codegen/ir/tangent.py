@@ -25,12 +25,16 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 known[node.id] = seeds[node.payload]
             continue
         moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
+        # A node that no seeded symbol reaches has no tangent: absence in the table is an exact zero.
         if not moving:
             continue
         slopes = partials(node)
         total = node.space.zero
+        # The chain rule along one direction: one product for
+        # each moving argument, whatever the number of seeds.
         for k, rate in moving:
             total = total + slopes[k] * rate
+        # Terms may cancel: a zero is not entered, so that the users of the node skip it too.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

@@ -52,6 +52,7 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the coefficient in a domain."""
         value = domain.number(self.value)
+        # h^p c is one scalar: terms with equal coefficients share it before any vector is scaled.
         for _ in range(self.power):
             value = domain.h * value
         return value

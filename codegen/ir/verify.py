@@ -26,6 +26,7 @@ class _Verifier:
 
     def run(self) -> None:
         """Raise for the first rule that is broken."""
+        # Inputs, body, outputs: the order of reading is the order of execution.
         for var in self.program.inputs:
             self.define(var, "the inputs")
         for statement in self.program.body:
@@ -36,11 +37,13 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
+            # The embedded solution is a second y: it replaces no input of its own name.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
     def define(self, var: Var, at: str | Assign) -> None:
         """Take note of a definition; a name is defined once."""
+        # Names and not variables: the same name with two kinds would be one identifier in emitted code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
         self.names.add(var.name)
@@ -56,6 +59,7 @@ class _Verifier:
         """Check one assignment."""
         for arg in assign.args:
             self.use(arg, assign)
+        # Arguments are checked before targets are defined, so an assignment cannot read its own result.
         _types(self.program.name, assign)
         for target in assign.targets:
             self.define(target, assign)
@@ -65,10 +69,12 @@ class _Verifier:
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
+        # Starts are read before the unknowns exist: they cannot depend on the solution.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
             self.assign(assign)
+        # Images and residuals are checked last, because the body defines them.
         for image in block.images:
             self.use(image, f"the images of {block.label}")
         for residual in block.residuals:

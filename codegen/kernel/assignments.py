@@ -1,8 +1,8 @@
-"""Expressions in order: assignments for what is shared or long, loops for blocks of equations.
+"""Expressions in order: assignments for shared or long expressions, loops for blocks of equations.
 
-What depends on the unknowns of a block and is needed for its images goes inside its loop, what does not
-depend on them before it. Values of a loop's body that are needed later are those of its last sweep. What only
-the starting values of loops need stands apart, for a step that follows others begins from their solutions.
+A loop contains the expressions that depend on its unknowns and that its images need. Expressions that do not
+depend on the unknowns come before the loop. Later statements read the body values of the last sweep. The
+starting values have assignments of their own, because a later step starts from earlier solutions instead.
 """
 
 from __future__ import annotations
@@ -16,12 +16,15 @@ from codegen.ir.kernel import Let, Loop, Newton, Start
 from codegen.kernel.equations import WEIGHT, Block
 
 INLINE = 10
-"""Largest number of operations spelled in one assignment: longer expressions get names on the way."""
+"""Largest number of operations in one assignment: longer expressions get names for their parts.
+
+The number changes the text and not the operations. For vcg:triple_jump on heavy_top 5, 10 and 20 give 265,
+199 and 187 assignments: ``len(list(compile_method("heavy_top", "vcg:triple_jump").kernel.lets()))``."""
 
 
 @dataclass
 class Assignments:
-    """Orders expressions into assignments and loops, naming what is shared or long."""
+    """Orders expressions into assignments and loops; names shared and long expressions."""
 
     blocks: Sequence[Block]
     roots: Sequence[Expr]
@@ -34,21 +37,28 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the kernel's body and set ``outputs``."""
+        # Uses and levels are counted for all roots together: what two blocks share must get one name.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
         for k, block in enumerate(self.blocks):
             inside: list[Let] = []
+            # A kernel that remembers solutions starts all loops in one place.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
+            # Before the body: the leading matrix is computed outside the sweeps and must not read body
+            # values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
+            # A corrected value that nothing reads later would cost assignments in every sweep.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
+            # After the body: an exact matrix depends on the unknowns and reads body values.
             matrix = self._newton(block) if block.matrix and not block.leading else before
+            # Newton's last correction comes after the body: body values lag behind the unknowns.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -62,12 +72,14 @@ class Assignments:
                 read_anew=recomputed,
             )
             self.body.append(loop)
+        # Last: outputs may read body values of every loop.
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)
 
     def _prepare(self) -> None:
         """Find for each node how often it is used and the last block whose unknowns it depends on."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
+        # The matrix counts as a reader: a body value that it shares gets a name.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
@@ -76,29 +88,36 @@ class Assignments:
         self.size: dict[int, int] = {}
         for root in roots:
             self.uses[root.id] = self.uses.get(root.id, 0) + 1
+        # Arguments come before users, so the levels of all arguments are known.
         for node in walk(roots):
             for arg in node.args:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
+            # The latest block decides: a value cannot be computed before that block has its unknowns.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
-        """Return the starting values of all blocks; what others need too is assigned before."""
+        """Return the starting values of all blocks; assign parts that other statements read before them."""
+        # Starting values are skipped if earlier solutions are known, so no other line may read theirs.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
+        # All loops start together, before the first of them runs.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a block starts from the unknowns of another")
         for node in walk(values):
+            # Shared with the rest of the step: assign it outside the start, where every step computes it.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
+        # Names that exist only inside the start must not be read after it.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
-        """Return Newton's matrix; what is not assigned yet is assigned where it is made."""
+        """Return Newton's matrix with the assignments that it needs in addition to the existing ones."""
+        # The matrix is computed in some sweeps only, so no later line may read its names.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -109,17 +128,20 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Whether what is read of block k after it costs less than half of a sweep."""
+        """Whether the later readers of block k cost less than half of one of its sweeps."""
         rest = [*self._later(k), *self.roots]
+        # Recomputed values belong to the corrected unknowns. That replaces a last sweep at half its cost.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
         """Return the weight of the nodes below roots that depend on the unknowns of block k and no later."""
+        # Values of other levels are computed once in either case.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
-        """Let nothing after block k read what its sweeps compute."""
+        """Forget the names of body values of block k: later statements compute them again."""
+        # Without these entries _place computes the values again, from the corrected unknowns.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
@@ -127,15 +149,20 @@ class Assignments:
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return root with every named part replaced by its symbol, appending the assignments it needs."""
+        # Iterative, not recursive: expressions are deeper than Python's stack.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
+            # Loop-invariant code motion: only what depends on this loop's unknowns stays inside.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
+            # Built without simplification: the value must round as the shared expression does.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
+            # A value from outside needs a name even with one reader, else its line would move into the loop.
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
+            # The negative of a symbol is free in every target, so a name would only add a line.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
                 symbol = self._let(node, rebuilt, target)

@@ -1,8 +1,8 @@
-"""Whose momentum a kernel takes and gives, that of space or of the body, and what a run carries.
+"""The frame of the momentum: in space or in the body, for a kernel and for the run around it.
 
-A program computes with one of them, emitted code takes and returns one of them. Where the program's is that
-of the body and the state's is not, a run turns the momentum once at its beginning and once at its end
-(:class:`codegen.ir.kernel.Carried`); a kernel that is asked for ``whole`` turns it in each step.
+A program computes in one of the two frames, and emitted code takes and returns momenta in one of them. If
+only the program's momentum is in the body, a run transforms the momentum once at its beginning and once at
+its end (:class:`codegen.ir.kernel.Carried`); a ``whole`` kernel transforms it in each step.
 """
 
 from __future__ import annotations
@@ -31,26 +31,30 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """Whether the program computes with the momentum that emitted code takes."""
+        """Whether program and emitted code use the same frame."""
+        # Both in space, or both in the body: no momentum has to be turned.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
     def _size(self) -> int:
-        """How many numbers stand before the momentum."""
+        """The number of components before the momentum."""
         group = self.scene.body_group or self.scene.group
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return what the program begins with, of the kernel's state."""
+        """Return the program's initial state for the kernel's state."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
+            # The state holds the momentum of the body and the program computes in space: Ad*_{q^-1} turns it.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
+        # Otherwise the run has turned the momentum before its first step, and the kernel takes it as it is.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return the kernel's new state of the program's; it began with ``start`` of ``state``."""
+        """Return the kernel's new state for the program's; ``start`` is ``begin`` of ``state``."""
+        # A program without an embedded solution has an empty second state.
         if self._alike or not new:
             return new
         q = new[: self._size]
@@ -58,6 +62,8 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
+        # Only the increment is turned back: a q that rounding has made not quite orthogonal would
+        # otherwise scale the whole momentum in each step.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
@@ -73,7 +79,8 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return how a run turns the momentum, None where it does not."""
+        """Return the transformations of the momentum in a run, None if there are none."""
+        # With momenta of the body in the state, or in a whole step, there is nothing for the run to carry.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

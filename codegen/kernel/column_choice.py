@@ -1,7 +1,7 @@
 """The choice among variants of a group: each is compiled, and the one with the shortest step is kept.
 
-A column of a rotation matrix is the cross product of the other two. Which column to compute so, or whether to
-rotate all three, depends on the columns that the scene reads.
+A column of a rotation matrix is the cross product of the other two. The columns that the scene reads decide
+which column is computed in this way, or whether all three are rotated.
 """
 
 from __future__ import annotations
@@ -20,12 +20,16 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""The operations that a function call counts as; chosen with ``benchmarks/emitted.py``."""
+"""The operations that a function call counts as; chosen with ``benchmarks/emitted.py``.
+
+With 20 all emitted files stay the same, with 5 those of five explicit methods change. To repeat, edit it and
+type ``orderconds regenerate --check``."""
 
 WIDTH = 8
 """Independent operations that a processor completes during one addition.
 
-Chosen with ``benchmarks/emitted.py``."""
+Chosen with ``benchmarks/emitted.py``. With 16 all emitted files stay the same, with 4 those of
+``rkmk:rk4`` on free_rigid_body and of one splitting change; repeat it as for :data:`CALL`."""
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
@@ -36,28 +40,34 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
+    # Without flows columns do not matter; only the order of constant factors is tried.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
+    # The core is what runs in every step, so it alone decides.
     core = program if parted is None else parted.core
+    # Compiled and measured, not predicted: the common subexpressions of a scene decide.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice: reordering alone, and with the critical path shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
             candidates.append((to_kernel(core, problem, chains=chains), problem, chains))
+    # By identity: two candidates may have equal kernels.
     best = _shortest([kernel for kernel, _, _ in candidates])
     kernel, problem, chains = next(candidate for candidate in candidates if candidate[0] is best)
     return kernel if parted is None else with_deferred(kernel, parted, problem, chains)
 
 
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
-    """Return the kernel of the shortest step; where some are so long that they call functions, of those."""
+    """Return the kernel with the shortest step, among those with outlined functions if there are any."""
+    # A step so long that it calls functions is limited by the instruction cache, not by latency.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
-    """Return what a step takes, in times of an addition, and its operations, which decide between equals."""
+    """Return the time of a step in additions, and its number of operations, which breaks ties."""
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
+    # The sum of a latency bound and a throughput bound: a simple model of the time of a step.
     return chain(kernel) + work / WIDTH, work

@@ -19,7 +19,9 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 """Latency of operations, in units of an addition.
 
 On x86 processors additions and products of doubles take about four cycles, a division about 14. The latency
-of a function is that of its polynomial. ``benchmarks/emitted.py`` times the steps that result."""
+of a function is that of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
+matter little: a division of 2 or 8 changes none of five explicit methods of the gallery, and a call of 3 or
+12 one of them, splitting:blanes_moan_rkn4 on fast_heavy_top, which keeps its number of operations."""
 
 ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
@@ -27,8 +29,9 @@ ATOMS = frozenset({"call", "div"})
 SLACK = 1
 """How much shorter than the longest chain a chain may be and still be rewritten, in units of an addition.
 
-Otherwise a chain of nearly the same length stays, and becomes the critical path. The splittings of
-fast_heavy_top in ``benchmarks/emitted.py`` time this."""
+Otherwise a chain of nearly the same length stays, and becomes the critical path. The value hardly matters:
+with 0, 2 or 4 all emitted files stay the same; without a limit the splittings of fast_heavy_top change. To
+repeat, edit it and type ``orderconds regenerate --check``."""
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 """A sum over late values (None: no such factor), each multiplied by sign, steps and constants, the rest."""
@@ -36,6 +39,7 @@ Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 
 def chain(kernel: Kernel) -> int:
     """Return the length of the critical path: the time of a step without any limit on parallel operations."""
+    # Symbols of assignments take the time of their values; inputs are ready at time 0.
     ready: dict[int, int] = {}
     for let in kernel.lets():
         ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
@@ -43,7 +47,7 @@ def chain(kernel: Kernel) -> int:
 
 
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
-    """Return assignments in the order in which they can be ready, to within the latency of a function.
+    """Return assignments by the time at which they are ready, in units of the latency of a function.
 
     A processor looks some hundred instructions ahead, so operations that can run beside the longest chain
     must be near it in the text. A finer order would separate operations that read the same values, and there
@@ -54,6 +58,7 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
+    # Ties keep the old order, and no definition is ready after its readers: the order stays valid.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
@@ -65,7 +70,7 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 
 
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
-    """Return the roots with the longest chains shortened.
+    """Return the roots with their longest chains shortened.
 
     ``invariant`` names the symbols that do not change from step to step: products of them cost nothing.
     Without ``spread`` these are multiplied first, and nothing is spread over late values.
@@ -75,7 +80,7 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 
 @dataclass
 class _Chains:
-    """One set of roots: when its values are ready, and how long the chains are that follow them."""
+    """One set of roots: the time at which each value is ready, and the longest chain after it."""
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]
@@ -89,19 +94,23 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        # Arguments before users: one pass forward for times, one backward for what follows.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
         # Users before arguments: the longest chain that follows each node.
         for node in reversed(self.nodes):
+            # Users come first, so the chain after a node is final when its arguments are reached.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
+        # The level counts slow operations on the way: values of the highest level are late in a sum.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
+        # Fixed within a run: a compiler's loop hoists products of these out of the steps.
         own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
@@ -110,9 +119,11 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
+            # Without simplification: a node that is not rewritten keeps its operation and its rounding.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
+            # Only sums and products are linear; a call or quotient of late values is itself late.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
                 # A sum over late values has more products, so it is taken only if it is ready earlier.
@@ -121,23 +132,27 @@ class _Chains:
         return tuple(self.new[r.id] for r in self.roots)
 
     def _ends(self) -> frozenset[int]:
-        """Return the nodes whose late values something on a long chain uses otherwise than linearly."""
+        """Return the nodes whose late values enter a long chain nonlinearly."""
         ends = set()
         for node in self.nodes:
             for arg in node.args:
+                # Slack of the chain through this argument: with much slack nothing is gained.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]
                 late = self.level[arg.id]
+                # A product is linear in late values if its other factor is known earlier.
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
+                # The linear expression ends here: above this node the late values are no longer linear.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over the late values of a level; what is shared is expanded once."""
+        """Return an expression as a sum over the late values of a level; expand shared nodes once."""
+        # The rewritten node belongs to the key: the same node expands otherwise after a rewriting below it.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -153,6 +168,7 @@ class _Chains:
             total = dict(self._sum(node.args[0], level))
             sign = 1 if node.op == "add" else -1
             for atom, term in _scaled(self._sum(node.args[1], level), sign, one, one).items():
+                # c x + c y = c (x + y), and x + y is ready before the late value c.
                 total[atom] = self._joined(total[atom], term) if atom in total else term
             return total
         if node.op == "mul":
@@ -161,10 +177,12 @@ class _Chains:
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
+                # Fixed factors are kept apart, so that they meet other fixed ones and leave the step.
                 factor = self.new[a.id]
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
+        # Not linear in anything later: the node is a late value of its own.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -176,14 +194,16 @@ class _Chains:
         return self._known(self._known(steps) * rest)
 
     def _expression(self, total: Sum, space: Space) -> Expr:
-        """Return the sum of products, what is ready first added first."""
+        """Return the sum of products; add the terms in the order in which they are ready."""
         terms: list[tuple[int, Expr]] = []
         for atom, (sign, steps, rest) in total.items():
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
+            # As in Huffman coding: adding the two earliest terms first gives the earliest sum.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
+            # A sign costs nothing in a subtraction; only a sum of two negative terms ends with a negation.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]
@@ -193,6 +213,7 @@ class _Chains:
         """Return a product with its steps and constants multiplied first: they are the same in every step."""
         if node.op != "mul":
             return node
+        # c1 (c2 x) = (c1 c2) x, for a fixed c1 on either side.
         for a, b in (node.args, node.args[::-1]):
             if self.fixed[a.id] and b.op == "mul":
                 for c, d in (b.args, b.args[::-1]):
@@ -201,7 +222,7 @@ class _Chains:
         return node
 
     def _known(self, node: Expr) -> Expr:
-        """Measure a node that was made on the way, with what it is made of."""
+        """Measure a new node and its new arguments, and return it."""
         for part in walk([node], lambda n: n.id in self.ready):
             if part.id not in self.ready:
                 self._measure(part)

@@ -38,21 +38,27 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
+    # Sampled, not derived: the bracket of two formulas that commute need not simplify to zero.
     commute = commuting(scene)
     # A flow for another time than h, or of a part with time, depends on its place in the step.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
+    # A free part commutes with all others, so without it their order is unchanged.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
+    # A step of nothing but free flows would have an empty core.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
+    # One pair of numbers for all: ``_joined`` keeps only flows with the same durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
+    # Free flows add up over a run: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
+    # A new program is built by hand, so it is verified like the result of a pass.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -73,25 +79,28 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Whether a flow lasts h: each part of a consistent splitting does, also where balls cannot prove it."""
+    # In doubles: a sum of decimal coefficients is one to rounding only.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow with the variable for how long it lasts, where it is none of the program's own durations."""
+"""A flow, and the variable of its duration if that is not one of the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Places of a flow at the beginning and of one at the end; how long the latter lasts alone, and with it."""
+"""Places of a flow at the beginning and of one at the end; durations of the latter alone and joined."""
 
 
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return which flows at the end take those of the same part at the next beginning with them."""
+    """Return the flows at the end of a step that join a flow of the same part at the next beginning."""
+    # The end of a step is the beginning of the next: flows at the times t + h and t join there.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
+            # i < j: a flow cannot join with itself.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
@@ -101,8 +110,9 @@ def _joined(
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
-    """Return how many letters at the beginning are of different parts and commute with one another."""
+    """Return the number of letters at the beginning with different parts that commute pairwise."""
     n = 0
+    # Flows in this run commute, so each of them can be moved to the very beginning of the step.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):
@@ -116,7 +126,8 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
-    """Return the program of some flows, those with a variable for the time that it holds."""
+    """Return the program of some flows; a flow with a variable lasts for the value of the variable."""
+    # All stage times are kept; the kernel assigns only what its outputs read.
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):

@@ -1,8 +1,7 @@
 """Blocks of equations on their way to loops: images, starting values, and the matrix of Newton's method.
 
-Of a block solved by Newton's method the matrix 1 - g' is taken from the very expressions of its images g.
-After it the unknowns stand for their images, and what follows is recomputed from them where that is less than
-half a sweep.
+Newton's matrix 1 - g' is differentiated from the expressions of the images g. After the loop the unknowns
+replace their images. Later values are recomputed from the unknowns if that costs less than half a sweep.
 """
 
 from __future__ import annotations
@@ -22,13 +21,23 @@ from codegen.kernel import newton
 from codegen.passes.rewrite import uses
 
 MANY = 12
-"""With more unknowns than this, entries of Newton's matrix keep as it is what does not move in a step."""
+"""Above this number of unknowns, step-constant subexpressions of Newton's matrix are not expanded.
+
+With few unknowns, kept values take registers that the sweeps need. With many, expanded values take lines.
+Near the limit the choice matters little: vcf:cf4 on dipole has 12 unknowns, the same operations with either,
+and 439 assignments kept or 472 expanded (``len(list(compile_method("dipole",
+"vcf:cf4").kernel.lets()))``)."""
 
 LONGEST_MATRIX = 1500
-"""How many operations an exact matrix of Newton's method may take: a longer one is made to first order."""
+"""The most operations of an exact matrix of Newton's method; a longer one is replaced by the first order.
+
+A safeguard, far from ordinary matrices: that of vcg:triple_jump on heavy_top has 555 operations, listed in
+the header by ``orderconds emit``, and a limit of 6000 gives the same kernels."""
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
-"""What operations cost, in additions or products; those that are not named cost one."""
+"""Costs of operations in additions or products; other operations cost one.
+
+Rough latencies. They enter comparisons by a factor of two alone, so exact values do not matter."""
 
 
 @dataclass(frozen=True)
@@ -46,18 +55,17 @@ class Block:
     kept: tuple[tuple[str, Expr], ...] = ()
 
     def targets(self) -> tuple[Expr, ...]:
-        """What a sweep computes."""
+        """The results of a sweep."""
         return (*self.images, *(x for _, x in self.kept))
 
 
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return the block with its residuals for images and their derivative to first order in h for a matrix.
+    """Return the block with residuals as images, and minus their derivative to first order in h as matrix.
 
-    None where there are no residuals, or no such derivative. What the last sweep has computed is corrected,
-    where it is read later, by its own derivative to first order in h times the last change, if that takes
-    fewer operations than computing it anew from the unknowns.
+    None without residuals or such a derivative. A body value that is read later is corrected by its own
+    first-order derivative times the last change, if that takes less than half of its operations.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -71,18 +79,19 @@ def compared(
         for x in flatten(v.kind, value)
         if x.op in ("add", "sub")
     ]
-    # Few unknowns: what is kept takes registers that sweeps need. Many: what is expanded takes lines.
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
     free = _independent(known, entered.unknowns) if many else []
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
+    # A pole or branch point at h = 0: the caller takes the exact matrix.
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
+        # Elements and points are no vectors: adding a derivative would leave the manifold.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -99,6 +108,7 @@ def compared(
         if 2 * _operations(moved) < _operations(env[var]):
             kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
             env[var] = tuple(moved)
+    # Newton's step for r(u) = 0 is -r'^{-1} r; with the sign in the matrix the loop adds the change.
     matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
     inverted = len(matrix) <= newton.SMALL
     return replace(
@@ -113,12 +123,14 @@ def compared(
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
     """Return the variables that a program reads after a block."""
+    # A program without this block and those before: what it reads, it reads after the block.
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
-    """Return those values that depend neither on unknowns nor on h: they stand still in an expansion."""
+    """Return the values that depend neither on unknowns nor on h: they are constant in an expansion."""
+    # Neither h nor an unknown below: its expansion in h is the value itself.
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
     for node in walk(values):
@@ -132,9 +144,10 @@ def _operations(roots: Iterable[Expr]) -> int:
 
 
 def with_matrix(block: Block, solver: str) -> Block:
-    """Return the block with the matrix of Newton's method, or of chords."""
+    """Return the block with the matrix of Newton's method, exact or to first order."""
     leading = solver == CHORD
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
+    # The first-order matrix contracts by O(h^2) a sweep: more sweeps, each of them far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     inverted = len(rows) <= newton.SMALL
@@ -144,18 +157,20 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return how many operations a matrix takes beside those of the images."""
+    """Return the number of operations of a matrix that the images do not share."""
+    # The images are computed anyway, so common subexpressions with them are free.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
 
 class Solved:
-    """Rewrites expressions for what stands after a block: there its images are its unknowns."""
+    """Rewrites expressions that follow a block: there its images equal its unknowns."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
+            # An image that is a symbol or number needs no shorter name.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 
@@ -168,6 +183,7 @@ class Solved:
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)
                 same = all(a is b for a, b in zip(args, node.args, strict=True))
+                # The old node where nothing changed: hash-consing then keeps its sharing.
                 self.known[node.id] = node if same else self._rebuilt(node, args)
         return self.known[root.id]
 

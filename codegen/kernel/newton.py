@@ -1,8 +1,8 @@
 """Matrices of Newton's method for u = g(u): 1 - g' exactly, or to first order in h.
 
-The first order suffices where steps are short: a correction then leaves O(h^2) of the error before it, and
-the matrix, of derivatives at h = 0 alone, costs little enough to be made in every step. Inverses of small
-matrices are written out by cofactors.
+The first order suffices for short steps: a correction then leaves O(h^2) of the error before it. This matrix
+contains derivatives at h = 0 only, so it is cheap enough to compute in every step. Inverses of small matrices
+are written out by cofactors.
 """
 
 from __future__ import annotations
@@ -16,7 +16,10 @@ from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.jacobian import jacobian
 
 SMALL = 3
-"""Up to this size the inverse of a matrix is written out."""
+"""Up to this size the inverse of a matrix is written out.
+
+A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 of 14 operations, more
+than elimination takes."""
 
 Rows = tuple[tuple[Expr, ...], ...]
 
@@ -26,12 +29,13 @@ AT_ZERO = {
     **{f"slope{k}": Fraction(-1, factorial(k + 2)) for k in (2, 3)},
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
 }
-"""Values of functions at zero; None where there is none."""
+"""Values of functions at zero; None for a pole."""
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' for the images g, a row for each."""
     space = images[0].space
+    # In the space of the images: derivatives share their subexpressions.
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
     return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
@@ -40,10 +44,11 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' without terms of second and higher order in h.
 
-    ZeroDivisionError where g has none at h = 0.
+    ZeroDivisionError if g has no value at h = 0.
     """
     space = images[0].space
     h = space.sym("h")
+    # g = g(0) + h g'(0) + O(h^2); the derivatives by the unknowns follow from these two terms.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
@@ -55,6 +60,7 @@ class _AtZero(ExprDomain):
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a constant where the argument is zero, else a call."""
+        # The closed forms of Stumpff functions are 0/0 at zero: take the constants of their series.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -65,7 +71,9 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
+    # Evaluation, not substitution: what h = 0 makes constant folds on the way.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
+    # Sorted, so that node numbers do not depend on hashes.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
     return evaluate(roots, _AtZero(space), values)
 
@@ -75,9 +83,11 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
+    # No pivots: for n <= 3 and a matrix near 1 the expansion is accurate, and it has no branches.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
+    # One division, n^2 products: a division costs several products.
     factor = space.one / determinant
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 
@@ -86,6 +96,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
+    # Cyclic indices give a 3 x 3 cofactor its sign; for n = 2 the sign is written out.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

@@ -1,4 +1,4 @@
-"""Counting what a step costs: arithmetic and calls outside loops, and in one sweep of each loop."""
+"""The cost of a step: arithmetic and calls outside loops, and in one sweep of each loop."""
 
 from __future__ import annotations
 
@@ -24,12 +24,13 @@ START = "start"
 
 
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
-    """Return how often each operation is carried out: ``add`` (and subtract), ``mul``, ``div``, and calls.
+    """Return the number of each operation: ``add`` (and subtract), ``mul``, ``div``, and calls.
 
-    The key ``step`` holds what a step does once, ``start`` what a step does more that follows no other,
-    further keys what each block does a sweep, and where it makes Newton's matrix, without its inversion.
-    Changes of sign, comparisons, extrapolation and what a stopping rule costs are not counted.
+    The key ``step`` counts operations once a step, ``start`` the additional ones of a first step. Further
+    keys count one sweep of each block, and the entries of its Newton matrix without the inversion. Changes of
+    sign, comparisons, extrapolation and the stopping rule are not counted.
     """
+    # The count of a function is added at each of its calls, so totals compare with unoutlined steps.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -43,6 +44,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
+                    # A kept inverse times the residual: n^2 products and n (n - 1) additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -51,18 +53,19 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
+        # A step executes its substeps one after the other; sweeps and matrices are counted per substep.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
 
 
 def matrix_of(label: str) -> str:
-    """Return the key of what making a block's matrix costs."""
+    """Return the key for the cost of a block's matrix."""
     return f"matrix of {label}"
 
 
 def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
-    """Spell counts for people, a line for the step and one for each block's sweep.
+    """Format counts as text, a line for the step and one for each block's sweep.
 
     >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
     ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
@@ -71,7 +74,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     for block, found in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in found.items()) or "none"
         if block == START:
-            lines.append(f"{each} a start, in steps that follow no other")
+            lines.append(f"{each} an initial guess, in the first step of a run")
         elif block == STEP:
             lines.append(f"{each} a step")
         elif block.startswith("matrix of "):
@@ -82,12 +85,14 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Spell what a step, each sweep of its blocks, and the ends of a run cost."""
+    """Format the costs of a step, of each sweep of its blocks, and of the ends of a run."""
     lines = sentences(operations(arrange(kernel)))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(made))[STEP] for made in turned)
+        # mu + (after - before): two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
+        # A run turns the momentum forth and back at its beginning, and back once more at its end.
         spelled = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in spelled)
         lines.append(f"{first} where a run begins, {last} where it ends")
@@ -108,23 +113,26 @@ def _counted(
             roots += statement.arguments
         elif isinstance(statement, SharedCall):
             total = _plus(total, {statement.function: 1})
+            # The call counts once, however many orders it returns.
             roots.append(statement.argument)
         else:
             roots.append(statement.value)
     for root in roots:
         total = _plus(total, _spelled(root))
+    # Arithmetic first, calls after it in alphabetical order.
     first = ("add", "mul", "div")
     return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
 
 
 def _spelled(root: Expr) -> dict[str, int]:
-    """Count the operations in the text of one expression, which repeats what it shares."""
+    """Count the operations in the text of one expression, where shared nodes repeat."""
     found: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:
             case "const" | "sym" | "neg":
                 own = {}
             case "pow":
+                # x^n as printed: n factors, n - 1 products.
                 own = {"mul": node.payload - 1}
             case "call":
                 own = {node.payload: 1}
@@ -133,6 +141,7 @@ def _spelled(root: Expr) -> dict[str, int]:
             case op:
                 own = {op: 1}
         for arg in node.args:
+            # Added per reader, not per node: printed text repeats a part that has no name.
             own = _plus(own, found[arg.id])
         found[node.id] = own
     return found[root.id]

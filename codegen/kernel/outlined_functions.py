@@ -1,7 +1,7 @@
-"""Pieces: functions of a kernel that its expressions call, made of trees of operations, and executed.
+"""Outlined functions: trees of operations that the expressions of a kernel call.
 
-A function takes what a tree is given, and the coefficients of its sums where these are not the same constants
-wherever it is called; it computes those results that are read.
+A function takes the inputs of a tree. It also takes the coefficients of its sums, unless they are the same
+constants in every call. It computes the results that are read.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LETTER = {Kind.REAL: "r", Kind.ALG: "x", Kind.DUAL: "m", Kind.GROUP: "g", Kind.P
 
 
 class _Inputs:
-    """The inputs of a function, in order: symbols, or the constants that they are wherever it is called."""
+    """The inputs of a function, in order: symbols, or constants that are the same in every call."""
 
     def __init__(self, name: str, space: Space, fixed: Sequence[Expr | None]) -> None:
         self.name, self.space, self.fixed = name, space, fixed
@@ -29,12 +29,14 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs, named after their function and these words."""
         first = len(self.symbols)
+        # A constant argument is put into the function, where it folds with other constants.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
-        """Spell the coefficient of a term: its symbol, or its value."""
+        """Format the coefficient of a term: its symbol, or its value."""
+        # Header text is for people: the name of the argument without that of its function.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
@@ -47,13 +49,14 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int]]:
-    """Return the function of a tree's shape, and the places of those of a tree's inputs that it takes.
+    """Return the function of a tree's shape, and the places of the tree inputs that it takes.
 
-    ``read`` are the results that it computes, ``fixed`` the inputs
-    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`) that are the same constant wherever it is called.
+    ``read`` are the results that it computes. ``fixed`` are the inputs
+    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`) with the same constant in every call.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
+    # Executed again on symbols, not copied from the step: the step's expressions are simplified per operand.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -62,6 +65,7 @@ def function(
         values.append(own[0] if v.kind is Kind.REAL else own)
     coefficients = [c for i in tree.members for c in distinct(trees.executions[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
+    # A function without powers of h does not take h.
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
     results: list[Value] = []
     texts: list[str] = []
@@ -71,6 +75,7 @@ def function(
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:
+            # Equal coefficients of one sum are one argument, as :meth:`Trees.key` counts them.
             own_terms = distinct(assign)
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
@@ -86,14 +91,16 @@ def function(
             results += own
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
+    # The last results are those of the root, the only ones that are read outside the tree.
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
+    # Results that are not read may have been the only readers of an argument.
     taken = inputs.read(outputs)
     return Function(name, tuple(inputs.symbols[p].payload for p in taken), (), outputs, texts[-1]), taken
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
-    """Name what a function is given by its kind: x1, x2, m1.
+    """Name the inputs of a function by their kinds: x1, x2, m1.
 
     >>> _words([Kind.ALG, Kind.DUAL, Kind.ALG])
     ['x1', 'm1', 'x2']
@@ -102,11 +109,12 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 
 def calls(kernel: Kernel) -> dict[str, int]:
-    """Return in how many places a kernel calls each of its functions, in order."""
+    """Return the number of places in which a kernel calls each of its functions, in order."""
     places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
+            # A call has several results, each an expression of its own: one place is one tuple of arguments.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
@@ -128,6 +136,7 @@ class WithFunctions:
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
+            # Through this domain: functions may call functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value
@@ -136,7 +145,8 @@ class WithFunctions:
 def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
-    """Return a sum with symbols for its coefficients; terms with equal ones are added first."""
+    """Return a sum with symbols for its coefficients; terms with equal coefficients are added first."""
+    # c x + c y = c (x + y): one product fewer, as in the unoutlined sum.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x
@@ -153,6 +163,7 @@ def rewritten(
     """Return the roots with nodes replaced by results of calls, whose arguments are rewritten as well."""
     new: dict[int, Expr] = {}
     for root in roots:
+        # An explicit stack: arguments of replaced nodes are visited as well, and recursion would be too deep.
         waiting = [root]
         while waiting:
             node = waiting[-1]
@@ -160,6 +171,7 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
+            # A replaced node depends on the arguments of its call; its old operands may be dead.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

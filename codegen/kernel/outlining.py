@@ -28,16 +28,22 @@ LONG, LONG_EXPLICIT = 700, 500
 """Steps with fewer assignments are not outlined: steps with implicit stages, and explicit steps.
 
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
-dipole has 545 lines, not 2345, and takes a third less time. To choose the numbers again, set both to 0
-and compare ``orderconds bench dipole`` for methods near these lengths."""
+dipole has 545 lines, not 2345, and takes a third less time. Twice either number gives the same kernels for
+nine methods of the gallery. To choose the numbers again, set both to 0 and compare ``orderconds bench
+dipole`` for methods near these lengths."""
 
 WORTH = 0.85
 """The outlined step is used if it has at most this fraction of the assignments.
 
-Calls cost time, too; to choose it again proceed as for :data:`LONG`."""
+Calls cost time, too. The value hardly matters: the fractions are 0.23 to 0.5 for ``cg:cg5``, ``vcg:gauss3``
+and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on heavy_top; of one variant of ``cg:cg5`` on
+heavy_top it is 0.86. They are the ratio in the test of WORTH in :mod:`codegen.kernel.translate`."""
 
 AGREE = 1e-9
-"""Largest relative difference of values that are equal up to rounding."""
+"""Largest relative difference of values that are equal up to rounding.
+
+Outlining keeps nearly all operations: for the methods named at :data:`WORTH` the difference is 1.4e-17 at
+most. A wrong argument or result shows in the leading digits, so any number well between serves."""
 
 Shape = tuple[Key, tuple[int, ...]]
 """The key of the trees of one function, and the results that are read."""
@@ -56,10 +62,11 @@ class Outline:
         self.trees = Trees(self.program, self.domain)
 
     def run(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> list[Expr] | None:
-        """Return the roots with calls of ``outlined``; None where nothing is repeated.
+        """Return the roots with calls of ``outlined``; None without repetitions.
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
+        # A call must run before or in the loop that its operands belong to, so levels come first.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -67,21 +74,25 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
+            # Counted in the result, not in the choice: only calls that remain cost and save lines.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
+                # All results of a call share their arguments; counting the first result counts the calls.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
             # Simplification may remove calls; a function that is left with one call is dissolved.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
+            # Fewer functions in each round, so the loop ends.
             kept = [key for name, key in shapes.items() if calls.get(name, 0) > 1]
             trees = [tree for key in kept for tree in chosen[key]]
 
     def _called(
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
-        """Make the functions; return the roots with calls of them, and the shape of each function."""
+        """Create the functions; return the roots with their calls, and the shape of each function."""
+        # A new round numbers its functions again.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}
         shapes: dict[str, Shape] = {}
@@ -94,15 +105,18 @@ class Outline:
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
+            # The first tree is the pattern: all trees of a key differ in operands and coefficients only.
             outlined, places = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
+                    # Two trees may have one result, for hash-consing shares it; the first call computes it.
                     calls.setdefault(results[out].id, (name, k, [flat[p] for p in places]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
+        # Operands may lie outside the roots, for simplification can remove them there.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -110,10 +124,12 @@ class Outline:
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
-        """Return the trees that are made functions, by shape and the results that are read."""
+        """Return the trees to outline, by shape and the results that are read."""
+        # Without one tree other results of the rest are read, so groups form again until all remain.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
+            # In the order of execution, so that functions are numbered in the order of their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -124,10 +140,11 @@ class Outline:
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """Return which results of which trees are read, by number, where all trees are called."""
+        """Return the numbers of the results that are read, for each tree, if all trees are called."""
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
+                # A symbol, a number and their negatives cost nothing, so no call computes them.
                 if x.args and not (x.op == "neg" and not x.args[0].args):
                     ends.setdefault(x.id, (t, k))
         read: dict[int, set[int]] = {}
@@ -144,6 +161,7 @@ class Outline:
                     t, k = ends[node.id]
                     read.setdefault(t, set()).add(k)
                 seen.add(node.id)
+            # A called tree reads its operands, and these may be results of further trees.
             fresh = sorted(set(read) - entered)
             entered |= set(fresh)
             waiting = [x for t in fresh for x in self.trees.inputs(trees[t])]
@@ -155,15 +173,19 @@ class Outline:
         They must also have been created after the inputs: an older node is the result of something else.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
+        # A result of an earlier block than its inputs would wait for values it does not need, inside a loop.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
+        # Node numbers grow with time, so an older node cannot have been computed from the inputs.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
-        """Raise :class:`codegen.ir.verify.IllFormed` where the calls give other values."""
+        """Raise :class:`codegen.ir.verify.IllFormed` if the calls give different values."""
+        # Sorted names and fixed sines: the same point in every run.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 9):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
+            # Roots of negative numbers or overflow at one point say nothing; try shorter steps.
             values |= {x: 0.5**attempt for x in names if x == "h"}  # long steps overflow
             try:
                 old = evaluate(before, FloatDomain(0.1), values)

@@ -1,8 +1,8 @@
 """Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
 
 A target's template sees five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
-results), :class:`Invocation` (the same of a function), :class:`Beginning` and :class:`Iteration`. What a loop
-computes on the way is not reused after it.
+results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
+Names that this module adds inside a loop are not read after it.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ METHODS = {
     NEWTON: "Newton's method",
     CHORD: "Newton's method with the matrix to first order in h",
 }
-"""What solvers are called."""
+"""Names of the solvers in headers."""
 
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
@@ -56,7 +56,7 @@ class Invocation:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """What the results are called in expressions."""
+        """The names of the results in expressions."""
         return tuple(f"{self.name}.{k}" for k in range(self.results))
 
 
@@ -65,7 +65,7 @@ Simple = Assignment | SharedCall | Invocation
 
 @dataclass(frozen=True)
 class Beginning:
-    """Where the unknowns of all loops begin (see :class:`codegen.ir.kernel.Start`)."""
+    """Starting values of the unknowns of all loops (see :class:`codegen.ir.kernel.Start`)."""
 
     start: Start
     body: tuple[Simple, ...]
@@ -76,8 +76,8 @@ class Beginning:
 class Iteration:
     """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are body names read after it.
 
-    ``matrix`` is that of Newton's method, by rows, with the statements that only it needs in ``newton``; both
-    are empty where there is none.
+    ``matrix`` is Newton's matrix, by rows, and ``newton`` the statements that only the matrix needs; both are
+    empty without Newton's method.
     """
 
     loop: Loop
@@ -95,7 +95,7 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements of a step and its outputs, ready to be spelled; a step makes them ``repeated`` times."""
+    """The statements of a step and its outputs, ready to print; a step executes them ``repeated`` times."""
 
     statements: tuple[Statement, ...]
     outputs: tuple[Expr, ...]
@@ -108,6 +108,7 @@ class Arrangement:
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         made = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
+        # Outlined functions belong to the kernel; the target has no snippet for them.
         called |= {name for name in names if name.partition(".")[0] not in made}
         for _, inner in self.outlined:
             called |= set(inner.functions())
@@ -122,7 +123,7 @@ class Arrangement:
                 yield statement
 
     def expressions(self) -> Iterable[Expr]:
-        """Yield every expression to be spelled."""
+        """Yield every expression to print."""
         for simple in self._simple():
             yield from _values(simple)
         for statement in self.statements:
@@ -140,10 +141,13 @@ class Arrangement:
 
 def arrange(kernel: Kernel) -> Arrangement:
     """Return the printable statements of a kernel, in its order and with its roundings."""
+    # One counter of names for the step and its loops: targets may have a single scope.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
+    # Errors are computed with the outputs, so they share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
+    # Ahead of all statements: the first call of an argument computes every order that a later line needs.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -155,15 +159,19 @@ def arrange(kernel: Kernel) -> Arrangement:
             body, values = scope.nested(statement.body, statement.values)
             statements.append(Beginning(statement, body, values))
             continue
+        # Starts are computed before the loop, in the scope around it.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
+        # Body values that are read after the loop need variables outside of it.
         later = _read_later(kernel, position)
         loops += 1
         statements.append(_iteration(statement, loops, starts, scope, later))
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
+    # One list, split again: outputs and errors are rewritten in one scope.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
+    # A function's own calls are shared inside it, never with its callers.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
@@ -174,7 +182,7 @@ def _alone(function: Function) -> Kernel:
 
 
 def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
-    """Return the expressions of a statement that are computed where it stands."""
+    """Return the expressions of a statement that are computed outside loops."""
     if isinstance(statement, Let):
         return [statement.value]
     return statement.starts if isinstance(statement, Loop) else []
@@ -183,6 +191,7 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
+    # A fresh set of orders: a call in the body repeats with the unknowns, so calls outside cannot serve it.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -192,6 +201,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
+        # A leading matrix is computed before the loop and must not read body values.
         made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
 
@@ -204,6 +214,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 def _taken(kernel: Kernel) -> dict[str, int]:
     """Return a counter of fresh names that starts with every name of the kernel used."""
+    # Every name of the kernel is taken, so that fresh ones collide with none.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -214,13 +225,14 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
+    # A kernel of the rest: its expressions are exactly those that are read later.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block; what must come first is pending until taken."""
+    """Rewrites the expressions of one block; statements that must precede the next are pending."""
 
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
@@ -232,14 +244,16 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the statements and values of a block in this scope, which nothing reads after it."""
+        """Return the statements and values of a nested block; later statements cannot read them."""
+        # In a scope of its own: these statements may be skipped at run time, so no later line may use them.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
         return (*body, *inner.take()), rewritten
 
     def inside(self, expressions: list[Expr]) -> _Scope:
-        """Return the scope of a loop body: it sees what stands before the loop."""
+        """Return the scope of a loop body, which can read all names from before the loop."""
+        # A copy: names from the loop body are not known outside.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
@@ -250,19 +264,21 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
+        # Sorted orders give the snippet its name: stumpff_12 serves both orders of asking.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
-        """Return the statements of an assignment: none of its own where a joint call made its value."""
+        """Return the statements of an assignment; a shared call that computes its value replaces it."""
         value = self.rewrite(let.value)
         before = self.take()
+        # The call has named this result already; a second name would only copy it.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
         return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Simple]:
-        """Return and forget the statements that must stand before the next one."""
+        """Return the pending statements, which must precede the next one, and clear them."""
         pending, self.pending = self.pending, []
         return pending
 
@@ -272,6 +288,7 @@ class _Scope:
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:
                 continue
+            # Rebuilt with the same operations in the same order: emitted code rounds like the kernel.
             args = [self.known[a.id] for a in node.args]
             match node.op:
                 case "pow":
@@ -289,11 +306,13 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
+        # By the old argument: expectations were noted before rewriting.
         orders = self.orders[node.args[0].id]
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
+            # All orders are known from now on, so this argument is never computed again.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
@@ -308,10 +327,13 @@ class _Scope:
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space
+        # A power is written as a product that repeats its base, so the base must be a name.
         base = self._named(base)
+        # Up to three factors, targets write x * x * x.
         if n <= 3:
             return space.pow(base, n)
         result = base
+        # Binary powering from the second bit on: at most 2 log2(n) products.
         for bit in bin(n)[3:]:
             result = space.pow(self._named(result), 2)
             if bit == "1":
@@ -327,6 +349,7 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
+            # The key contains a space, so no name of a kernel collides with the counter.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"
             if name not in self.taken:

@@ -1,6 +1,6 @@
 """From step program to kernel: symbolic execution over expressions, then a schedule of scalar assignments.
 
-Every value becomes a tuple of expressions; hash-consing shares what is equal. A block becomes a loop
+Every value becomes a tuple of expressions; hash-consing shares equal nodes. A block becomes a loop
 (:mod:`codegen.kernel.equations`), expressions become assignments (:mod:`codegen.kernel.assignments`).
 """
 
@@ -47,8 +47,8 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""What is done about long chains: nothing, steps and constants are multiplied first, assignments stand in
-order, all of :mod:`codegen.kernel.critical_path`."""
+"""Treatments of the critical path: none; multiply steps and constants first; order the assignments;
+everything in :mod:`codegen.kernel.critical_path`."""
 
 
 def to_kernel(
@@ -62,20 +62,20 @@ def to_kernel(
     """Return the kernel of a program in its problem (:func:`codegen.lower.problem`).
 
     ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or CHORD, the others are iterated.
-    With ``variations`` it is the kernel that carries one of the state along (``Kernel.vary``). ``chains``
-    other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step begins and ends with the
-    state's own momentum (:mod:`codegen.kernel.carried_momentum`), and so does one with variations.
-    :class:`codegen.errors.SceneError` where an operation of the group has no closed form,
-    :class:`codegen.ir.differentiate.NotDifferentiable` where Newton's method has no matrix, ZeroDivisionError
-    where it has none to first order.
+    With ``variations`` the kernel also propagates a variation of the state (``Kernel.vary``). A value of
+    ``chains`` other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step, or one with
+    variations, begins and ends with the state's own momentum (:mod:`codegen.kernel.carried_momentum`).
+    :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
+    :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, ZeroDivisionError
+    if it has no matrix to first order.
     """
     return _Translation(program, scene, solvers, variations, chains, whole).kernel()
 
 
 class _Translation:
-    """A program carried out over expressions, and what was found on the way.
+    """The symbolic execution of a program.
 
-    ``env`` holds the values of variables, ``hints`` names for expressions, ``taken`` the names that are used.
+    ``env`` holds the values of variables, ``hints`` the names of expressions, ``taken`` the names in use.
     """
 
     def __init__(
@@ -89,10 +89,12 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains = variations, chains
+        # The domain decides what is shared: equal nodes by hash-consing, equal angles as polynomials.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
+        # Names of users first, so that a generated name gives way and not theirs.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
@@ -101,21 +103,24 @@ class _Translation:
     def name(self, base: str) -> str:
         """Return a name that is not taken."""
         candidate = base if base not in self.taken else base + "_"
+        # Underscores, not numbers: xi1_2 is a component, so a number could be read as one.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
         return candidate
 
     def remember(self, var: Var) -> None:
-        """Let the expressions of a variable be called after it."""
+        """Name the expressions of a variable after it."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
+            # The first name stays: an expression is called after the variable that it was computed for.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
-        """Carry out an assignment."""
+        """Execute an assignment."""
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
+            # A sum of functions of ad is cheaper nested, so it is tried before the operation itself.
             nested = self.sums.value(domain, assign, self.env)
             results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
@@ -126,9 +131,12 @@ class _Translation:
                 hint="this group serves exact series and interpretation",
             ) from error
         if isinstance(assign.operation, BodyForce):
+            # Arguments are not expanded: they have names already, and expanding them would lose the sharing.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
+        # An outlined function takes numbers; a signal read at a time is a call into the caller's code.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)  # signals at a time
+        # The block is appended after its body, so its number is the present length.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):
@@ -136,8 +144,9 @@ class _Translation:
             self.remember(target)
 
     def begin(self) -> State:
-        """Give the inputs of the program their values; return what it begins with."""
+        """Set the inputs of the program; return its initial state."""
         space = self.domain.space
+        # The frame may turn the momentum, and then all that follows reads the turned one.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -147,26 +156,32 @@ class _Translation:
         return start
 
     def solve(self, statement: Solve) -> None:
-        """Carry out a block of equations."""
+        """Execute a block of equations."""
+        # Assignments of the body belong to the loop, also for outlining.
         self.inside = True
         entered = self.enter(statement)
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
+        # Variations differentiate the images u = g(u), so these must stay images and not become residuals.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
+        # Residuals come with the matrix to first order, which costs least, so they win over the exact matrix.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
+            # After Newton's method the unknowns are more accurate than the images of the last sweep.
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
+        # Last: until now the number of blocks is the number of this one.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
-        """Give the unknowns symbols, run the body on them, and return the block."""
+        """Set the unknowns to symbols, execute the body, and return the block."""
+        # Unknowns become symbols: expressions of the body are functions of them, as a loop needs.
         names: list[str] = []
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
@@ -182,24 +197,29 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and that of an embedded method, after all statements."""
+        """Return the new state, and the new state of an embedded method, after all statements."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
+        # Both end in the same frame, so that their difference estimates the error.
         for embedded in (False, True):
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
+        # Before assignments exist: rewriting chains needs whole expressions.
         if self.chains in (COMBINED, SHORTENED):
+            # Constant within a run of equal steps: a compiler moves products of these out of its loop.
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
         return outputs, lower
 
     def varied(self, variations: Variations, outputs: State) -> State:
-        """Return the variation of the new state; each block is followed by that of its unknowns."""
+        """Return the variation of the new state; add after each block the variation of its unknowns."""
         space, seeds = self.domain.space, variations.seeds(self.domain)
+        # Each variation follows its block: its coefficients are values at the solution.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
+        # A tangent is exact: it differentiates the step that is executed, stopping rule apart.
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
 
     def kernel(self) -> Kernel:
@@ -213,10 +233,14 @@ class _Translation:
         outputs, lower = self.ended(start)
         fields = self.frames.fields()
         if self.variations is not None:
+            # A kernel for a Jacobian makes no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
+        # Subtracted as expressions: terms that both solutions share cancel exactly.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
+        # Together, so that errors share the assignments of the outputs.
         body, ends, outlined = self.ordered((*outputs, *errors))
+        # Parts of a splitting take the durations of deferred flows as inputs.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -231,29 +255,33 @@ class _Translation:
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
         """Return the body and outputs of the kernel, with outlined functions where these make it shorter."""
+        # Outlining is tried and may be dropped; names that the first schedule took are then free again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
+        # Assignments, not operations: lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
+        # Rewritten chains are spread over the whole step, so no trees are left to repeat.
         if long and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
+        # Last: the order depends on the final assignments.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
 
 
 def is_long(body: Iterable[Let | Start | Loop]) -> bool:
-    """Whether a step has so many assignments that what it repeats is looked for."""
+    """Whether a step has enough assignments to be outlined."""
     return _count(body) > LONG
 
 
 def _count(body: Iterable[Let | Start | Loop | Function]) -> int:
-    """Return how many assignments a body holds, those in loops and of Newton's matrices included."""
+    """Return the number of assignments of a body, including loops and Newton's matrices."""
     total = 0
     for statement in body:
         if isinstance(statement, Let):
@@ -272,17 +300,20 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return the schedule of a step that calls functions, and these; None where nothing is repeated."""
+    """Return the schedule of a step with outlined functions, and the functions; None without repetitions."""
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
+    # A corrected value that no root reads would only keep a call alive.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
+    # One flat list, so that a tree that occurs in two blocks is found.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     found = outline.run(flat, owners)
     if found is None:
         return None, ()
+    # The same order as the flat list: the iterator hands the rewritten roots back.
     new = iter(found)
 
     def take(n: int) -> tuple[Expr, ...]:
@@ -297,11 +328,13 @@ def _outlined(
     changed = [replace(b, kept=tuple((key, next(new)) for key, _ in b.kept)) for b in changed]
     for old, made in zip(flat, found, strict=True):
         if old.id in hints:
+            # Rewritten expressions keep the names of the old ones.
             hints.setdefault(made.id, hints[old.id])
     schedule = Assignments(changed, ends, hints, name)
     schedule.run()
     functions = []
     for function in outline.outlined:
+        # A function is scheduled alone: its inputs are symbols, and it has no blocks.
         own = Assignments((), function.outputs, {}, name)
         lets = own.run()
         functions.append(
@@ -314,12 +347,14 @@ def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[
     """Return the linear equations for the variations of a block's unknowns, which ``seeds`` receives."""
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
+    # Linear equations: zero is as good a start as any.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
     """Return the kernel with the samples of run-time inputs that it reads."""
+    # Passes may have removed every reader of a sample; the caller is asked only for those that are read.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     found = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

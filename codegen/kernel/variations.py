@@ -20,19 +20,21 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """How a state varies: its symbols in parts, each with the group that moves it, or None for numbers."""
+    """The parts of a varying state: symbols with the group that moves them, or None for numbers."""
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return those of a problem; SceneError for a group whose elements have no rates."""
+        """Return the variations of a problem; SceneError for a group whose elements have no rates."""
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
+            # A point that is itself a group element, acted on by the group from the left, varies as one.
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
                 base = bundle.base
+                # T*G is G x g*: the element varies by its algebra, the momentum component by component.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
@@ -42,12 +44,13 @@ class Variations:
 
     @property
     def dim(self) -> int:
-        """How many numbers a variation has."""
+        """The number of components of a variation."""
         return sum(len(symbols) if group is None else group.dim for group, symbols in self.parts)
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of its numbers that no scene can have."""
+        """Names of its components, which no scene can use."""
+        # The dot keeps them apart from names of a scene, which are identifiers.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
     def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
@@ -58,6 +61,7 @@ class Variations:
             count = len(symbols) if group is None else group.dim
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
+            # dq = xi.q: seeds are derivatives of coordinates, which :mod:`codegen.ir.tangent` carries on.
             rates = own if group is None else group.velocity(domain, own, state)
             seeds |= dict(zip(symbols, rates, strict=True))
         return seeds
@@ -68,11 +72,12 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
+            # Back to the algebra at the new element: rate inverts velocity on tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 
     def text(self) -> str:
-        """Say what the numbers are."""
+        """Describe the components."""
         words = []
         first = 0
         for group, symbols in self.parts:

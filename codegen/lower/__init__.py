@@ -53,11 +53,14 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of a step made of shorter ones that are alike, None where it is not."""
+    """Return the verified program of a step that repeats a shorter one, None for any other step."""
+    # Only some families turn a composed tableau into the composition of the steps: VRKMK expands dexp^{-1}
+    # over the whole step, and the product of exponentials of its substeps is another method.
     if not lowering(method.family).repeats_substeps:
         return None
     repetition = substeps(method)
     if repetition is None:
         return None
     base, steps = repetition
+    # The base method is lowered once: its program does not depend on the length of the substep.
     return replace(lower(scene, base), substeps=steps)

@@ -22,4 +22,5 @@ class Ambient(Lowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
+        # On R^n exp(u).y = y + u and all brackets vanish: RKMK without brackets is the Runge-Kutta method.
         return with_cutoff(problem, method, 0)

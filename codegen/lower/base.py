@@ -1,4 +1,4 @@
-"""The base class of lowerings: what one family makes of a tableau and a problem.
+"""The base class of lowerings: one class for each family turns a tableau and a problem into a program.
 
 A family of methods is two classes. :class:`orderconds.families.Family` knows its order conditions;
 :class:`Lowering` knows which scenes it takes and writes the step program. :func:`codegen.lower.register`
@@ -82,6 +82,7 @@ class Lowering(ABC):
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
+        # symplectic() answers None where b_i a_ij + b_j a_ji = b_i b_j is undecided; only a proof counts.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
@@ -94,5 +95,6 @@ class Lowering(ABC):
         """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
         from orderconds.checking import check
 
+        # One family was asked for, hence one order.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -22,5 +22,8 @@ class CompositionLowering(FlowLowering):
             return adjoint_word(parts, method, tableau)
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
+        # Strang's step of length gamma is Phi_{gamma/2} after
+        # Phi*_{gamma/2}: a composition of the adjoint kind.
         halves = [method.number(x) * HALF for x in tableau.gamma]
+        # Kicks at both ends: neighbouring steps then join two kicks into one flow.
         return pairs(kicks_first(parts.summands), [(x, x) for x in halves]), self.family

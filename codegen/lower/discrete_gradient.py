@@ -8,8 +8,8 @@ The tableau is read as a quadrature rule with nodes c_i and weights b_i for the 
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
 With one node 1/2 this is (2.31) with the midpoint choice; with Gauss nodes the mean value of that section,
-what the quadrature misses being put along eta. Since omega is skew, <D, xi> = 0 and H(x1) = H(x0) for any
-tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
+where a multiple of eta corrects the error of the quadrature. Since omega is skew, <D, xi> = 0 and H(x1) =
+H(x0) for any tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
 """
 
 from __future__ import annotations
@@ -38,6 +38,7 @@ class DiscreteGradient(FieldLowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return why the family does not take a scene: it needs an energy that the field keeps."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
+        # With time in H the energy is no invariant, so that there is nothing to keep.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -64,18 +65,23 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
+    # exp(h part velocity).y: all points of the step lie on one curve through y.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
 
     def images() -> list[Var]:
         slopes = [
+            # No factor h: the quadrature is for the mean of gamma over the step and not for its integral.
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
+        # The bivector at the midpoint and not at y: then the order is two where sum b_i c_i = 1/2.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
+        # Both energies are in the block: H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
+        # One operation forms H(x1) - H(x0) - <g, eta> over |eta|^2, which is 0/0 where eta = 0.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
@@ -89,6 +95,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
 def _check_bivector(scene: Problem, method: Method) -> None:
     """Raise where the bivector does not take the differential of the energy to the field."""
+    # The identity is checked at points of the orbit, because the formulas need not agree elsewhere.
     orbit = orbit_of(scene)
     for point in orbit.points:
         y = tuple(point[s] for s in orbit.symbols)

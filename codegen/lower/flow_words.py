@@ -64,6 +64,7 @@ class FlowLowering(Lowering):
         """Return why the family does not take a scene."""
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
+        # A wrench has no Hamiltonian, and an input changes during a flow: neither has an exact flow.
         if scene.forced or scene.inputs:
             what = "a wrench" if scene.forced else "run-time inputs"
             return Objection(
@@ -78,6 +79,7 @@ class FlowLowering(Lowering):
         """Return the scene with the exact flows that the method composes, by name."""
         word = self.read(scene, method).word
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
+        # Sorted by name: the order of emitted functions must not depend on the word.
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -107,19 +109,25 @@ class FlowLowering(Lowering):
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
+        # Flows of one summand form a group in time, phi_a phi_b = phi_{a+b}, so neighbours join exactly.
         return Reading(tuple(_joined(word)), _carrier(parts), conditions)
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program: one operation for each flow."""
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
+        # Time is a coordinate of extended phase space: its conjugate momentum joins the carrier, so the
+        # carrier's flow advances t and all others keep it constant.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
+        # t and h are names of emitted arguments, also in steps that do not read them.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
             step = Coefficient(duration, 1)
+            # The flows of one summand commute, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
+            # After the flow: the carrier does not depend on t, so its own flow does not read the time.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -131,6 +139,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
     rest = scene.hamiltonian
     for summand in scene.parts.values():
         rest = rest - summand
+    # Tested on the orbit: H and the sum of parts may differ by a relation such as |q|^2 = 1.
     if not orbit_of(scene).vanish([rest]):
         raise MethodError(
             f"the parts {', '.join(scene.parts)} do not add up to H",
@@ -151,6 +160,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
     """Return the word of a composition of Phi, the flows of all summands in turn, and its adjoint Phi*."""
+    # Phi*_{beta_1} acts first: in each pair beta precedes alpha.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(kicks_first(parts.summands), both), "composition"
 
@@ -171,6 +181,7 @@ def is_kick(summand: Summand) -> bool:
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
     """Return the summands with kicks first: at the ends of Strang's step, where they are cheapest to join."""
+    # A stable sort: the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
 
@@ -178,6 +189,9 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
     """Return Phi*_{beta_1}, Phi_{alpha_1}, ...: Phi goes through the summands backwards, Phi* forwards."""
     word: Word = []
     for beta, alpha in both:
+        # Phi is the product of flows that ends with the first summand; its
+        # adjoint Phi*_h = (Phi_{-h})^{-1} has the same flows in the opposite
+        # order. The meeting ends are flows of one summand, which _joined adds.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -188,10 +202,13 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
     """Yield the word with neighbouring flows of one summand joined, and without flows for no time."""
     joined: Word = []
     for summand, x in word:
+        # A flow for no time is the identity; dropping it lets its neighbours join.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
+            # The joined flow cancels: its neighbours now meet,
+            # and the next one is compared with what is left.
             if total.is_zero:
                 continue
             x = total
@@ -205,6 +222,8 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
+        # The first one without t: any would do, because the
+        # order conditions are those of the extended system.
         if not summand.timed:
             return summand
     raise MethodError(

@@ -38,16 +38,20 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a number of brackets",
             hint=f"write rkmk(2):{name}",
         )
+    # The classical order: brackets only have to keep it.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
         raise MethodError(
             f"the fewest brackets of {name}, which has order {order}",
             expected=f"an order up to {highest}",
+            # ad_u^j k = O(h^{j+1}), because u = h k + O(h^2):
+            # terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
     # The bracket program is found by a search, so it is kept for the certificate.
     ring = method.ring
+    # The text of exact coefficients determines them; elements themselves may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
     if key not in _KNOWN:
         _KNOWN[key] = with_fewer_terms(ring, fewest_brackets(ring, tableau.A, tableau.b, order))
@@ -67,12 +71,14 @@ def lower(scene: Problem, method: Method) -> Program:
 
     def combination(name: str, row: Row) -> Var:
         terms = [
+            # Brackets are formed of combinations that carry h already, so only the k_i are scaled.
             (stages.times_h(x) if key[0] == "k" else Coefficient(stages.number(x)), values[key])
             for key, x in row.items()
         ]
         return build.lin(name, Kind.ALG, terms)
 
     def images() -> list[Var]:
+        # A bracket may use earlier ones, in the order of the program.
         for r, (left, right) in enumerate(written.brackets):
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)
             values["B", r] = build.bracket(f"B{r + 1}", x, z)
@@ -83,6 +89,7 @@ def lower(scene: Problem, method: Method) -> Program:
         return result
 
     def update() -> dict[str, Var]:
+        # One exponential: the brackets are in its exponent, which agrees with Magnus' series up to the order.
         return {"y": build.act("y1", build.exp("g", combination("u", written.update)), y)}
 
     unknowns = [values["k", i] for i in range(tableau.s)]

@@ -90,11 +90,13 @@ def lowering(family: str) -> Lowering:
 def families_for(scene: Problem) -> tuple[str, ...]:
     """Return the families that take a scene, in the order of preference where a method names none."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
+    # A stable sort: families of one preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
 
 
 def _lowerings() -> dict[str, Lowering]:
     """Return all lowerings by family; the modules of the built-in ones are imported at the first call."""
+    # At the first call and not at import: the modules of the families import this package.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

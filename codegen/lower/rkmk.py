@@ -30,6 +30,7 @@ class MuntheKaas(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
+        # Without a number of brackets the program is searched for; dexp^{-1} itself does not terminate.
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
@@ -40,6 +41,7 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
+        # The certificate reads the program that is compiled, so the two cannot differ.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
@@ -62,9 +64,12 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
+            # u lives in the algebra, a vector space: this is a
+            # Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0).
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
+            # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...: without it the order is two at most.
             result.append(build.dexpinv(f"w{i + 1}", u, k, cutoff))
         return result
 
@@ -73,6 +78,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
         return build.act("y1", build.exp("g", u), y)
 
     def update() -> dict[str, Var]:
+        # The embedded weights act on the same v_i, so they cost one exponential and no evaluation.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

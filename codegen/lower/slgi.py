@@ -34,6 +34,12 @@ class SymplecticIntegrator(VariationalLowering):
         return _program(problem, method)
 
 
+# dexp*_{-Y} = dexp*_Y Ad*_{exp(-Y)} contains the transport by exp(-Y). It is the same for all stages, and
+# so is each dexp*_{X_j} n_j: stages differ in the factors b_j a_ji/b_i alone, so a sweep has s + 1
+# functions dexp*.
+# One stage: all exponents are multiples of x = h xi and commute, which several stages do not allow. By b
+# dexp*_{-b x} Ad*_{exp(a x)} - a dexp*_{a x} = (b - a) dexp*_{-(b - a) x} the two terms in n are one.
+# Starts: the derivatives at the beginning of the step are right to O(h) in each stage.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -66,6 +72,7 @@ def _program(scene: Problem, method: Method) -> Program:
         after = build.lin("z", Kind.ALG, [(stages.times_h(-rest), xi[0])])
         free = build.dual_dexp("L", minus, mu)
         forced = build.dual_dexp("F", after, n[0])
+        # The update carries n by the same exponent: Ad*_{exp(-b x)} Ad*_{exp(a x)} = Ad*_{exp(-(b - a) x)}.
         shared.update(after=after)
         return [build.lin("M1", Kind.DUAL, [(ONE, free), (stages.times_h(rest), forced)])]
 

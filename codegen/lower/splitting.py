@@ -43,10 +43,12 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
+        # A part whose flow is a composition of summands has no exact flow of its own: its summands are parts.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
             return _in_order(parts, tableau, steps, chosen)
+        # McLachlan's theorem: any A, B splitting is a composition of Phi and Phi* for more parts.
         if len(tableau.parts) == 2 and len(chosen) > 2:
             return pairs(kicks_first(chosen), _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
@@ -68,9 +70,11 @@ def _in_order(
     """
     chosen = summands
     names = [part.name for part in own.parts]
+    # Names decide if they can: the order of parts in a scene says nothing about their roles.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None:
+        # The kick comes first if V is part 0 of the tableau, else last: False sorts before True.
         chosen = sorted(chosen, key=lambda summand: is_kick(summand) != (tableau.rkn == 0))
     word = [(chosen[k], x) for k, x in steps]
     if (
@@ -78,6 +82,8 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
+        # The conditions of Runge-Kutta-Nystroem splittings are
+        # fewer, but they hold only if the triple bracket vanishes.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
@@ -88,26 +94,34 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
     nested = T
+    # T quadratic in mu: each bracket with V lowers the degree by one, and three of them leave nothing.
     for _ in range(3):
+        # The sign of each bracket does not matter: the question is whether the result is zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
     return orbit_of(scene).vanish([nested])
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
     """Return (beta_i, alpha_i) of a splitting in two parts, zero steps put where parts do not alternate."""
+    # A and B of two parts: A_{x1} B_{x2} A_{x3} ... With Phi = A B and Phi* = B A in turn, x1 = beta_1, x2 =
+    # beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on, which is solved from the left.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
+        # Two flows of one part in a row are one: the recursion needs alternating parts.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
     durations = [x for _, x in joined]
+    # An odd number: the word ends with the part that it began with, if need be for no time.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
+        # inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}: each pair takes two durations.
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
+    # What is carried to the end is zero, because both parts flow for the same time in all.
     return composed

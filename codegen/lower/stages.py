@@ -1,4 +1,4 @@
-"""What all lowerings share: inputs, stage times, evaluating the scene, and one block holding all stages."""
+"""Stages of a step: inputs, stage times, evaluations of the scene, and one block that holds all stages."""
 
 from __future__ import annotations
 
@@ -25,6 +25,7 @@ class Stages:
     time: Var | None = field(init=False)
 
     def __post_init__(self) -> None:
+        # t and h are arguments of emitted code: no value may take their names.
         self.builder = Builder({v.name for v in self.inputs} | {"t", "h"})
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
@@ -45,6 +46,7 @@ class Stages:
         """Return (t + c h,) for a scene that depends on time, () for one that does not; None is c = 0."""
         if self.time is None:
             return ()
+        # A stage at the beginning reads t itself, so that equal evaluations are equal operations.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
@@ -66,8 +68,12 @@ class Stages:
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
+        # One block with all stages, also for explicit tableaux: the passes find from the arguments in which
+        # order the stages can be solved, so a lowering states equations and no algorithm.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
+        # After the block: the update reads values of its body at the solution.
         outputs = update()
+        # The time comes last, so that the state's inputs have the same places with and without it.
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body: tuple[Statement, ...] = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))

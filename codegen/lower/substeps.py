@@ -1,12 +1,12 @@
-"""Compositions: a step that is one shorter step made again and again becomes that step and a table.
+"""Compositions: a step that repeats one shorter step becomes that step and a table of substeps.
 
 Where the stages of a tableau fall into groups, a_ij = b_j for j in an earlier group than i and a_ij = 0 for j
 in a later one, the method is the composition of the methods of the groups, with steps gamma_k h where gamma_k
 is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen; for Crouch-Grossman methods read
 off the products of exponentials). Where the groups' coefficients over gamma_k are the same, these are one
-method, and one program serves for all. The first group may so be of more than one that is a composition.
+method, and one program serves all. Several neighbouring groups may together be the repeated method.
 
-Only implicit methods are taken apart: explicit stages share what they compute.
+Only implicit methods are split: explicit stages of neighbouring substeps share computations.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from orderconds.tableau import Composition, RungeKutta
 
 
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
-    """Return the method that a step repeats, and how long each of its steps is; None where there is none.
+    """Return the method that a step repeats, and its substeps; None if the step repeats no method.
 
     The family is one of those whose lowering has :attr:`codegen.lower.Lowering.repeats_substeps`.
 
@@ -34,11 +34,13 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
+    # The embedded solution combines stages of the whole step, which substeps do not keep.
     if method.adaptive:
         return None
     tableau = method.tableau
     repetition: tuple[RungeKutta, tuple[Number, ...]] | None
     if isinstance(tableau.method, Composition):
+        # A composition tableau gives step lengths only; its base method is the midpoint rule.
         half = tableau.ring.rational(1, 2)
         repetition = (
             RungeKutta(((half,),), (tableau.ring.one,)),
@@ -48,6 +50,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
         repetition = _repeated(method, tableau.method)
     else:
         return None
+    # One substep is the step itself.
     if repetition is None or len(repetition[1]) < 2:
         return None
     tableau_of_one = replace(
@@ -61,18 +64,23 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
+        # Exact sums: an offset is rounded once, by a printer.
         before = before + fraction
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
     """Return the tableau of equal groups and their steps; as many groups as possible."""
+    # Numbers and not ring elements: they are compared by key, which is decidable for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
+    # Every place at which the tableau separates in two; groups are unions of the parts between.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # From one group to half of them: the narrowest repeated method gives the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
+        # wide divides the number of parts, so the last end is the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
+        # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
         # A group whose weights add to zero is no step of any length.
         if any(x.is_zero for x in sums):
@@ -81,6 +89,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
+        # Divided by gamma_k, the coefficients of a group are those of a method with a step of length h.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
@@ -91,12 +100,15 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
     """Whether the stages from k on begin where the update by those before has ended."""
     s = len(b)
+    # Lemma 3.5.4: later stages see the finished update of
+    # earlier ones, and earlier ones see nothing of later ones.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )
 
 
 def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
+    # The last row is b. An entry on or above the diagonal makes a stage depend on itself or on a later one.
     return any(not x.is_zero for i, row in enumerate(rows[:-1]) for x in row[i:])
 
 
@@ -109,6 +121,7 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
+    # Numbers keep rational values over QQ whatever ring they came from; the tableau needs one ring.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

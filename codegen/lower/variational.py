@@ -44,6 +44,7 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
+    # The equations for M_i come from h b_i l(Q_i, xi_i) by division by b_i, which is where zeros fail.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
@@ -60,6 +61,7 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
 def brackets(method: Method) -> int:
     """Return the cut-off of dexp^{-1}; MethodError without one: a program has finitely many brackets."""
     if method.cutoff is None:
+        # The dual of dexp^{-1} and its derivative are expanded too; no search for fewer brackets covers them.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} without a cut-off", expected=f"a number of brackets, as {family}(2):{name}"
@@ -101,6 +103,7 @@ class ExpandedStep(ABC):
 
     def exponentiate(self, v: Sequence[Var]) -> None:
         """Append X_i and exp(X_i)."""
+        # Names count from 1, as in the literature.
         rows = enumerate(self.tableau.A, start=1)
         self.X = [self.stages.combination(f"X{i}", Kind.ALG, row, v) for i, row in rows]
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
@@ -109,7 +112,9 @@ class ExpandedStep(ABC):
         """Append Y, -Y, nu_j and mubar."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
+        # -Y is a value, because dexp*_{-Y} takes its argument as it is.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
+        # n_j is a covector at Q_j; Ad* takes it to q0, where covectors of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
         terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
@@ -121,6 +126,7 @@ class ExpandedStep(ABC):
     def update(self) -> dict[str, Var]:
         """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
+        # One g for both: the step is the action of exp(Y) on (q0, mubar) in T*G.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 

@@ -48,15 +48,20 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
+        # The empty product is kept: the first factor's momentum is transported by e^0 = 1.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
+            # Both signs of the exponent are formed: the plus sign for exp, the minus sign for dexp*_{-x}.
             g = build.exp(f"g{name}{J}", exponent(f"x{name}{J}", row, 1))
+            # New factors multiply from the left, because the first exponential acts first.
             partial.append(build.mul(f"{name}{J}", g, partial[-1]))
             minus.append(exponent(f"y{name}{J}", row, -1))
         return cls(rows, tuple(minus), tuple(partial))
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
         """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
+        # partial[J] has the factors before factor J, counted from zero. The own exponential of factor J is
+        # missing on purpose: dexp*_x Ad*_{exp(-x)} = dexp*_{-x} contains it.
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
 
@@ -86,11 +91,15 @@ def _program(scene: Problem, method: Method) -> Program:
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
         """Append M_i, one term a coefficient."""
         terms = []
+        # The end point of the step depends on xi_i through every exponential that contains it.
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
+                # beta_J^i/b_i; over J they add to one, so M_i = mu0 + O(h).
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
+                # mubar is not formed first: its terms must be visible to cancel against those of the stages.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
+        # The Lagrangian depends on xi_i through the points Q_j, too: these are the terms with a minus sign.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -100,6 +109,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
+        # All stages begin at y0, even if they share factors: value numbering finds equal prefixes.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
@@ -138,6 +148,7 @@ def _weights(method: Method, update: Rows, s: int) -> list[Number]:
     """Return b_i = sum_J beta_J^i, none of them zero."""
     b = []
     for i in range(s):
+        # The weight of stage i in the discrete Lagrangian is its total coefficient in the update.
         weight = Number.rational(0)
         for row in update:
             weight = weight + row[i]

@@ -33,6 +33,13 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
+# Products: all partial ones are kept, because factor i's momentum is transported by the product before it.
+# A zero coefficient gives exp(0) = 1, which a pass removes: so all lists of products have s + 1 entries.
+# Momenta: by dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i the own factor of xi_i is in dexp*.
+# mu0 and all nu_j are carried separately. In a composition the term of nu_j for a later stage j cancels the
+# one with a_ji exactly, so stage i does not depend on stage j. a_ji/b_i is formed first: where they are
+# equal it is exactly one, also for balls.
+# Ad*_{E_j} takes the force from Q_j to q0, where the equations are written.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -54,6 +61,7 @@ def _program(scene: Problem, method: Method) -> Program:
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:
+            # e[i] is e^{i-1} of the equations: lists count from zero.
             moved = build.adjoint(f"m{i + 1}", e[i], m, inverse=True)
             return build.dual_dexp(f"p{i + 1}", minus, moved)
 

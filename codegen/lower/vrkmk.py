@@ -11,7 +11,7 @@ dexp^{-1}_{(r),x} xi by x, the equations are
 
 Given all v_i and m_i the scene is evaluated once a stage and everything else follows: they are the unknowns.
 Where a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown and m_i is
-none. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j, because
+not. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j, because
 its terms cancel on an abelian group.
 """
 
@@ -54,6 +54,7 @@ class _Step(ExpandedStep):
 
     def images(self) -> list[Var]:
         """Return v_i, m_i and Lambda computed from themselves."""
+        # X_i from the unknowns v_j, and Y below from the computed ones: this is one sweep ahead.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -67,8 +68,11 @@ class _Step(ExpandedStep):
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
+        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A: later stages, if the method is explicit.
         for i in reversed(range(self.s)):
             own = self.m[i]
+            # Then m_i is given by values that are known at this
+            # place, and fewer unknowns converge in fewer sweeps.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
@@ -77,12 +81,16 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
+            # The same cut-off as in M_i: only with one discrete Lagrangian for both is the step symplectic.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
+            # dexp^{-1}_{(r),X} depends on X as well, except without brackets: its derivative acts as a force.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
+            # The variation of exp(X_i) is dexp_{X_i} of that of X_i, hence its dual on the force.
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
+        # They were computed in the opposite order of the unknowns.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
@@ -90,6 +98,8 @@ class _Step(ExpandedStep):
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
+            # On an abelian group L and d_j are both n_j, and the slope is zero: the coefficient of n_j is
+            # then h b_j (b_i - a_ji), the same as for the partitioned Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))

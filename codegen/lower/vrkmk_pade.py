@@ -67,7 +67,10 @@ class _Step(ExpandedStep):
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
+        # The iterated brackets serve dexp_(r), its dual and the derivative: r brackets each, computed once.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
+        # dexp_{(r),X} v = xi is solved for the first term: v = xi
+        # - sum_{k>=1} ad_X^k v/(k+1)!, a contraction for small h.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -84,6 +87,9 @@ class _Step(ExpandedStep):
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Append R*_(r) M, the sum over i < r of ad*_z (ad*_x)^i M, z = -sum_k ad_x^{k-1-i} v/(k+1)!."""
         terms: Terms = []
+        # By the product rule the derivative of ad_x^k v along z is the sum of
+        # ad_x^i [z, ad_x^{k-1-i} v] = -ad_x^i ad_w z, with w = ad_x^{k-1-i} v. Its
+        # dual is ad*_{-w} (ad*_x)^i M; terms with one i share the outer bracket.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             subscript = self.build.lin("z", Kind.ALG, inner)
@@ -93,8 +99,10 @@ class _Step(ExpandedStep):
     def _momentum(self, i: int) -> Var:
         """Append M_i, one term a coefficient."""
         build, times_h = self.build, self.stages.times_h
+        # As for v_i the equation is solved for the identity of dexp*_(r): M_i = Lambda - ... - the rest.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
+            # Force and slope of stage j enter with one factor: X_j depends on v_i through h a_ji.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -109,6 +117,7 @@ class _Step(ExpandedStep):
 
 def _rest(powers: list[Var]) -> Terms:
     """Return -sum over k >= 1 of ad_x^k/(k+1)!, or of its dual."""
+    # The term k = 0 is the identity, which the equation is solved for.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -1,7 +1,7 @@
 """Brackets on an abelian group, and dexp^{-1} cut off at 0.
 
-Exact. Where every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, ad and P
-are zero; dexp^{-1}_(0) is the identity, and P_(0) zero, on any group.
+Exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad and P
+are zero. On any group dexp^{-1}_(0) is the identity and P_(0) is zero.
 """
 
 from __future__ import annotations
@@ -23,10 +23,13 @@ def run(program: Program, abelian: bool) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         operation = assign.operation
+        # dexp^{-1} = 1 - ad/2 + ...: cut off after order 0 only the constant remains, whatever the group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
+            # The last argument is the value that the map acts on; the others select the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
+            # An explicit zero, not an empty sum: the pass for zeros recognises it in every operation.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

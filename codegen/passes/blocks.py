@@ -28,20 +28,26 @@ def run(program: Program) -> Program:
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements of one block in order; ``names`` maps unknowns to their images from now on."""
+    # Imported late: only programs with blocks need it.
     import networkx
 
     # Outside a block its unknowns are replaced by their images, also in the starts of later blocks.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
+    # Positions in the body serve as graph nodes: integers sort, so the result does not depend on hashes.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
+    # Assignments that neither read nor feed another one of the block are components, too.
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
+            # A reader of an unknown waits for its image. Values from before the block order nothing.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)
+    # Two assignments depend on each other exactly if they are in one strongly connected component.
     condensed = networkx.condensation(graph)
+    # The old order is valid inside a component: only reads of unknowns point backwards in it.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
     # Among orders that are possible take that of the program, so that emitted text is stable.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
@@ -55,12 +61,15 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
+        # Without an unknown that it reads the component has no cycle: it is explicit.
         if not own:
             result += renamed
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
+        # No residuals to keep: :mod:`codegen.passes.legendre` adds them after the last split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
+    # At the solution an unknown equals its image, and the image may now be computed without a block.
     names.update(image)
     return result
 
@@ -73,12 +82,14 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
+        # A closed chain v = w, w = v holds for any common value; the start is one that is known.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
+        # Unknowns of the component itself stay: replacing them by their images would close a cycle.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

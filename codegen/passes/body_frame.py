@@ -4,8 +4,8 @@ Exact. With E~ = q^-1 E q for a group element, Ad_{q^-1} x for a value in the al
 its dual, a program keeps its operations, which commute with the group; Q = E q becomes q E~. The field is
 taken from :mod:`codegen.scene.body_frame`:
 xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. So the equations of
-a block need of q only what the body's field needs. The program takes and gives the momentum of the body
-(:data:`codegen.ir.program.BODY`), so that steps one after the other need not turn it.
+a block read only those numbers of q that the body's field reads. The program reads and returns the momentum
+of the body (:data:`codegen.ir.program.BODY`), so that consecutive steps do not transform it.
 
 A program of other operations, or of a scene without a body frame, is left alone.
 """
@@ -55,9 +55,11 @@ class NotFramed(Exception):
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame."""
     kinds = {v.name: v.kind for v in program.inputs}
+    # The frame is that of q and turns mu, so the state must be a group element and a momentum.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
+        # Tried, not tested first: whether every operation is equivariant shows only on the way.
         return _Framing(program).run()
     except NotFramed:
         return program
@@ -75,6 +77,7 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
+        # The stage at the beginning of the step is q itself: E is the identity, and no map is emitted for it.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -82,8 +85,10 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
+            # An unknown position has no known factor E, so its frame would itself be unknown.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
+            # Starts are read before the block, so they are renamed before its body adds names.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -94,10 +99,12 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
+        # An embedded second solution would need a second new frame.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
+        # The next step sees its momentum from the new q' = q E~, and Ad*_{q'} = Ad*_{E~} Ad*_q.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -105,6 +112,7 @@ class _Framing:
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
+        # Only the field and products may read a position Q: other operations on it are not equivariant.
         if any(v in self.relative for v in variables):
             raise NotFramed
         return tuple(self.names.get(v, v) for v in variables)
@@ -115,13 +123,18 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
+            # (E q)(E' q) does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
+            # left (E q) = (left E) q, and conjugation by q preserves products.
             E = left if right is None else self.build.mul(f"r{assign.targets[0].name}", left, right)
             self.relative[assign.targets[0]] = E
+            # In the body frame E q is q E~: the factor changes sides.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
+            # An equivariant operation on turned arguments gives the turned result: rename the arguments.
             self._emit(replace(assign, args=self._now(args)))
+        # A stage time is a number, the same in every frame.
         elif isinstance(operation, Advance):
             self._emit(assign)
         else:
@@ -139,5 +152,6 @@ class _Framing:
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
+        # W and N are seen from the stage Q = q E~; one more turn by E~ brings them to the frame of q.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -1,8 +1,8 @@
 """Unknowns with the same image: one of them represents all.
 
-Exact. At a solution unknowns that must equal the same value are equal, so the block is solved for the first
-of them, from its start. Stages with equal rows of coefficients become one stage after
-:mod:`codegen.passes.value_numbering` has found that their equations are the same.
+Exact. At a solution, unknowns with the same image are equal, so the block is solved for the first of them,
+from its start. Stages with equal rows of coefficients become one stage, after
+:mod:`codegen.passes.value_numbering` has merged their equations.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
+            # Later blocks and outputs may read a twin, so the map covers the whole program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
+            # The body reads twins, too; equal stages then become equal assignments for value numbering.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -39,10 +41,12 @@ def run(program: Program) -> Program:
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
     """Return (unknown, start, image) for the first unknown of each image, and a map of the others to it."""
+    # The first unknown represents the others, so its start is kept; any start has the same solution nearby.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
+        # An image that is an unknown is left alone: :mod:`codegen.passes.blocks` follows such chains.
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))
         else:

@@ -1,4 +1,4 @@
-"""Whether two programs mean the same: interpretation at points of the scene, in double precision."""
+"""Equivalence of two programs: interpretation at points of the scene, in double precision."""
 
 from __future__ import annotations
 
@@ -15,31 +15,41 @@ from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
-"""Step sizes to try, the largest first: what a wrong rewriting leaves is largest there. Where the field is so
-fast that the first reaches too far, all are shortened."""
+"""Step sizes to try, the largest first, because the effect of a wrong rewriting is largest there.
+
+Any falling powers of two serve. If the first step reaches too far along a fast field, all are shortened."""
 
 REACH = 0.5
-"""The most that a step may move along the field: beyond, rounding would be amplified."""
+"""The largest move along the field in one step: longer steps would amplify rounding.
+
+Its value matters little: :data:`AGREE` leaves a factor of 2^15 above the rounding that occurs."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""How an interpretation fails; ValueError for the root of a negative number."""
+"""Errors of an interpretation; a root of a negative number raises ValueError."""
 
 Result = tuple[float, dict[str, Value], dict[str, Value], dict[Var, Value]]
-"""Step size, inputs, new state, and what solved the equations of the last program that was compared."""
+"""Step size, inputs, new state, and the solutions of the blocks of the last compared program."""
 
 SWEEPS = 24
-"""The most sweeps over a block: a step that needs more is too large to compare roundings."""
+"""The most sweeps over a block: a step that needs more is too large to compare roundings.
+
+A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24. Slower blocks take the next, shorter step."""
 
 TRIES, APART = 3, 16
-"""How many steps a program may be compared in, and by what factor they differ: equations put otherwise need
-smaller steps to settle where they are iterated, and one step in which they do is enough."""
+"""The number of steps in which a program may be compared, and the smallest ratio between them.
+
+Rewritten equations may need smaller steps to converge by iteration; one step in which they do is enough.
+The three steps span a factor of 256 or more."""
 
 AGREE = 2.0**-36
-"""Relative difference of results that mean the same: far above rounding and the tolerance of a block."""
+"""Relative difference of equal results: far above rounding and the tolerance of a block.
+
+In 170 comparisons of eight methods of the gallery the passes moved results by 2^-51 at most. A coefficient
+that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
 
 
 class _Point:
-    """Results from one state; those in smaller steps are computed when they are asked for."""
+    """Results from one state; results of smaller steps are computed on demand."""
 
     def __init__(self, more: Iterator[Result]) -> None:
         self._more = more
@@ -54,12 +64,11 @@ class _Point:
 
 
 class Reference:
-    """What a program means: its results after one step from points of a scene.
+    """The meaning of a program: its results after one step from points of a scene.
 
     The points are the initial state, which may be special (an equilibrium, a symmetric position), and one
-    nearby without any symmetry; the step is the largest of moderate reach for which the blocks settle. A
-    program that is compared begins at the solutions of the one before it: where its equations are others, it
-    moves away from them.
+    nearby without any symmetry. The step is the largest of moderate reach for which the blocks converge. A
+    compared program starts at the solutions of the program before it; if its equations differ, it moves away.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -76,17 +85,22 @@ class Reference:
             )
 
     def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
-        """Yield what happens in the largest step and in two smaller ones, for programs that settle later."""
+        """Yield results of the largest step and of two smaller ones, for programs that converge later."""
+        # The reach of a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
+        # A state where the field is not finite is left out; the other state may serve.
         if not math.isfinite(speed):
             return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
         count, last = 0, math.inf
         for moderate in STEPS:
+            # A power of two: h^k has no rounding error that could look like a difference.
             step = math.ldexp(moderate, -max(excess, 0))
+            # Later steps are for programs that need much shorter ones: nearby sizes add no evidence.
             if count and step > last / APART:
                 continue
+            # The interpreter fills this with the solutions of the blocks; compared programs start from them.
             solutions: dict[Var, Value] = {}
             # A step that does not settle is too long; a shorter one is tried.
             try:
@@ -105,7 +119,7 @@ class Reference:
         return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
-        """Return an account of what a program does differently, or ''."""
+        """Return a description of the first difference, or ''."""
         for point in self.points:
             account = self._in_some_step(program, point)
             if account:
@@ -113,13 +127,15 @@ class Reference:
         return ""
 
     def _in_some_step(self, program: Program, point: _Point) -> str:
-        """Compare in the first step that the program makes."""
+        """Compare in the first step for which the program converges."""
         failure = ""
         for step, inputs, before, solutions in point.results():
             try:
                 after = self._run(program, step, inputs, 2 * SWEEPS, solutions)
+            # The same equations in another form may contract later: the next, shorter step decides.
             except NotConverged as error:
                 failure = f"interpretation failed: {error}"
+            # The reference passed this point, so a failure of arithmetic comes from the pass.
             except FAILURES as error:
                 return f"interpretation failed: {error}"
             else:
@@ -128,11 +144,14 @@ class Reference:
 
     def _gap(self, before: dict[str, Value], after: dict[str, Value]) -> str:
         for name, kind in self.kinds.items():
+            # An input that the step only reads, such as the time, has no new value.
             if name not in before:
                 continue
             x, y = (flatten(kind, side[name]) for side in (before, after))
+            # Relative to large values, absolute for small ones: components may vanish by symmetry.
             scale = max(1.0, *(abs(s) for s in x))
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
+            # Negated on purpose: a gap that is not a number counts as a difference.
             if not gap <= AGREE * scale or not math.isfinite(scale):
                 return f"{name} moved by {gap:.3g}"
         return ""
@@ -143,6 +162,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
+        # A field that overflows or divides by zero is treated like one without a finite value.
         values = evaluate(scene.roots, domain, scene.values(domain, coordinates, state["t"]))
     except (ArithmeticError, ValueError):
         return math.inf
@@ -153,6 +173,7 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
     """Yield the initial state, and one moved from it by the group along fixed directions."""
     domain = FloatDomain(0.0)
     start = scene.initial(domain)
+    # Sines of integers have no symmetry and no integer relation that a scene might share, and need no seed.
     directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     time = float(scene.span[0])
@@ -162,6 +183,7 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
         for block in scene.state:
             value = start[first : first + len(block.symbols)]
             first += len(block.symbols)
+            # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
             if moved and block.kind is Kind.DUAL:
                 value = tuple(a + b for a, b in zip(value, covector, strict=True))
             elif moved:

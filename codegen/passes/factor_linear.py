@@ -14,6 +14,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
+    # Each round has fewer maps than the one before, so the loop ends.
     while True:
         new = dead.run(rewrite(program, _rule))  # what was factored out must not count as used
         if new == program:
@@ -24,10 +25,13 @@ def run(program: Program) -> Program:
 def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not assign.terms:
         return rewriter.emit(assign)
+    # A dict keeps the order of first appearance, so the emitted sum does not depend on hashes.
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
+        # With a second reader L(x) is computed anyway, and a map of the sum would be one map more.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
+        # Equal operation and equal first arguments: the same linear map. Other terms keep a key of their own.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):
@@ -38,8 +42,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             result += terms
             continue
         source = rewriter.definitions[terms[0][1]]
+        # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
+        # The old name tells a reader of emitted code which map this was.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

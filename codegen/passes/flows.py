@@ -1,8 +1,8 @@
-"""Exact flows that commute: those of one part are gathered into one where nothing between them minds.
+"""Exact flows of one part are joined into one if they commute with all flows between them.
 
-Exact. Two flows commute when they can trade places; that is tried with 40 digits at points of the scene, for
-two different times. A flow is joined with the next one of its part when it commutes with all that act
-between: the spin of a symmetric top about its axis, which gravity does not see, is made once a step.
+Exact. Two flows commute if their order does not matter. A test with 40 digits at points of the scene, for two
+different durations, decides. Example: gravity does not depend on the spin of a symmetric top about its axis,
+so a step needs the flow of this spin only once.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Letter:
-    """One flow of a word: its part, how long, and the time that it sees, if any."""
+    """One flow of a word: its part, its duration, and its time argument, if any."""
 
     part: str
     duration: Coefficient
@@ -31,52 +31,62 @@ class Letter:
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with flows of one part joined across what commutes with them."""
+    """Return the program with flows of one part joined across flows that commute with them."""
     letters = word(program)
     if letters is None:
         return program
+    # Computed only for words of flows: sampling the scene takes time.
     commute = commuting(scene)
     kept: list[Letter] = []
     # Each flow moves back as far as it commutes with the flows that it passes.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
+            # Flows of one part form a one-parameter group: exp(a X) exp(b X) = exp((a + b) X).
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
+        # The flow for no time is the identity; a coefficient counts as zero only if that is proven.
         if not letter.duration.is_zero:
             kept.append(letter)
+    # Without a join nothing is rebuilt: equal programs skip the comparison after the pass.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the place of the last flow of the same part and time that can be moved behind the others."""
+    """Return the place of the last flow with the same part and time that commutes with all after it."""
     for at in reversed(range(len(kept))):
+        # A part with time is frozen at its stage time; flows frozen at two times are two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
+        # The flow at an earlier place would have to pass this one.
         if not commute(kept[at].part, letter.part):
             return None
     return None
 
 
 def word(program: Program) -> list[Letter] | None:
-    """Return the flows of a program in order, or None where it does something else as well."""
+    """Return the flows of a program in order, or None for a program with other operations."""
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
+        # A block means implicit stages: no word of flows.
         if not isinstance(statement, Assign):
             return None
         operation, args = statement.operation, statement.args
         if isinstance(operation, Advance):
             continue
+        # Each flow must start from the state that the flow before returned.
         if not isinstance(operation, FlowOf) or args[: len(state)] != state:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
+    # A result that is not the state after the last flow makes the program more than a word.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that makes these flows, with the times of the old one."""
+    """Return the program that applies these flows, with the stage times of the old one."""
+    # All times first: each depends on t alone, and the pass for unused values removes the rest.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
@@ -89,28 +99,32 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return whether the flows of two parts trade places on the scene."""
+    """Return a predicate: whether the flows of two parts commute on the scene."""
     orbit = orbit_of(scene)
     d = orbit.domain
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
+        # On the manifold only, where formulas that use the equations of the group agree.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
+        # Different durations: with equal ones a symmetry of the two parts could hide a difference.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
                 ends = moved(point, (first, second)), moved(point, (second, first))
             except (ArithmeticError, ValueError):
+                # A flow that fails at a sample point proves nothing, so the order of the program is kept.
                 return False
             if not all(orbit.sized(x - y, (x, y)) for x, y in zip(*ends, strict=True)):
                 return False
         return True
 
+    # Commuting is symmetric: sorting the pair halves the comparisons. A flow commutes with itself.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 

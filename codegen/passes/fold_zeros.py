@@ -39,17 +39,21 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
     if assign.terms:
         return _sum(rewriter, assign)
+    # t + 0 h is t: the stage at the start of the step needs no time of its own.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
+    # Definitions, not values: an operation is simplified only where the program shows a zero or an identity.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]
     if isinstance(operation, Exp) and zero[0]:
         return rewriter.emit(Assign(assign.targets, Identity(), ()))
     if isinstance(operation, Multiply) and any(identity):
+        # A product has two factors; the one that is not the identity remains.
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
+    # A bracket is linear in both arguments, the other operations only in the last.
     if operation.linear_in_last and (zero[-1] or (isinstance(operation, Bracket) and zero[0])):
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
     return rewriter.emit(assign)
@@ -57,6 +61,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     """Simplify one linear combination."""
+    # A coefficient is c h^p. Terms with different powers of h do not add to one coefficient.
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
@@ -64,9 +69,11 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
+    # Only a proven zero goes: a ball that merely contains zero stays.
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
+    # A copy is no operation; its readers take the value itself.
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
     return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

@@ -1,8 +1,8 @@
 """Functions of one ad: dexp, dexp^{-1} and exp applied one after the other become one function.
 
 Exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), so that a chain of such operations with multiples
-of one x is a product of functions of ad_x, or of ad*_x on duals, which a group may know in closed form: on
-SO(3) it is 1 + b ad_x + c ad_x^2. An exponential that only one adjoint operation uses is not formed.
+of one x is a product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for it: on
+SO(3) it is 1 + b ad_x + c ad_x^2. An exponential with one adjoint operation as its only reader is not formed.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from codegen.scene.problem import Problem
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with functions of ad combined, where the group knows them in closed form."""
+    # Without a closed form a product of functions costs as many brackets as its factors one by one.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
@@ -37,6 +38,7 @@ def rows(program: Program, scene: Problem) -> Program:
         return program
     names = scene.state[0].symbols
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
+    # The state of a matrix group begins with its entries, row by row.
     side = round(len(names) ** 0.5)
     # Rows of q exp(x) are separate only if all numbers that are read are in one row.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
@@ -46,6 +48,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
+        # A product that is also the new state needs all rows, and then exp(x) is formed anyway.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -58,6 +61,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
+    # The functions of one ad commute, so only the ratio of the two x matters, not the order of the maps.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -65,8 +69,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if source is not None and inner is not None:
         scale = ratio(rewriter.definitions, x, inner[0])
         if scale is not None:
+            # x = scale y turns f(ad_x) into f(scale ad_y): both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
+    # f(ad) of a sum of functions of ad: as a sum of products it nests into two brackets for all terms.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
@@ -81,17 +87,19 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tuple[Var, ...]:
     word = simplified(word)
     if not word:
+        # The factors cancelled: the product is the identity.
         return (v,)
     return rewriter.emit(Assign(assign.targets, AdSeries(word, v.kind is Kind.DUAL), (x, v)))
 
 
 Part = tuple[Var, Word, Var]
-"""x, a function of ad_x, and what it is applied to."""
+"""x, a function of ad_x, and its argument."""
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return s and the function of y that var is, where x = s y and var has no other use."""
+    """Return s and the definition of var as a function of ad_y, if x = s y and var has one reader."""
     source = rewriter.definitions.get(var)
+    # A function with another reader is computed anyway, so joining it would compute it twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -117,6 +125,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
+        # Only an element that is visibly an exponential gives a function of ad.
         if source is None or not isinstance(source.operation, Exp):
             return None
         # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x); the same holds on the dual.
@@ -127,11 +136,13 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, where one is seen."""
+    """Return the rational number s with x = s y, or None if their terms do not show one."""
     a, b = _terms(definitions, x), _terms(definitions, y)
+    # Proportional combinations have the same terms; both dicts are sorted.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
+    # One quotient for all terms means x = s y. Factors hold rational scales only.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 
@@ -145,6 +156,7 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
+                # Expanded to the end: h xi/2 and h xi meet only in the variable xi.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

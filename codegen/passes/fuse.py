@@ -20,6 +20,7 @@ def run(program: Program) -> Program:
             if (
                 source is not None
                 and isinstance(source.operation, Exp)
+                # With a second reader exp(x) is formed anyway, and applying it is cheap.
                 and rewriter.uses[assign.args[0]] == 1
             ):
                 fused = Assign(assign.targets, ActExp(), (source.args[0], assign.args[1]))

@@ -21,6 +21,7 @@ Pattern = tuple[tuple[int, Coefficient], ...]
 def run(program: Program) -> Program:
     """Return the program with numbers outside of maps, sums flat, and terms in proportion added once."""
     while True:
+        # Dead code goes in each round: a sum that was expanded must not count as a reader.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -35,6 +36,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
+    # L(x) keeps no number, so maps of different multiples of x become one by value numbering.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
@@ -45,6 +47,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
+        # The number of a single multiple joins the coefficient at no cost. A sum with several readers
+        # stays: each of them would repeat its products.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -52,6 +56,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             old = total.get((v, k.power))
             total[v, k.power] = k if old is None else Coefficient(old.value + k.value, k.power)
     kept = [(c, v) for (v, _), c in total.items() if not c.is_zero]
+    # The pass for zeros replaces sums that vanish.
     if not kept:
         return rewriter.emit(assign)
     if len(kept) == 1 and kept[0][0].is_one:
@@ -60,8 +65,9 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program with terms that stand in several sums in one proportion added once."""
+    """Return the program with terms that several sums contain in one proportion added once."""
     builder = Builder({v.name for v in defined(program)})
+    # Blocks only: a sweep is repeated, so an addition saved in it counts several times.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
@@ -72,15 +78,18 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
+        # Relative to the first place: values in one proportion then have equal patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value twice in one sum would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
+        # A negative power would divide by h, which may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
+        # The common sum has no powers of h, so all members need the same one.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -91,6 +100,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
+    # The totals stand after the sums that read them; sorting restores definitions before uses.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
+    # A total reads values that the sums read before, so no cycle can arise.
     assert result is not None
     return result

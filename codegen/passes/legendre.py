@@ -1,10 +1,10 @@
 """The Legendre transform: momenta and forces of a stage from its velocity alone, and smaller equations.
 
-Exact. Where an unknown v equals W(Q, P) up to invertible linear maps, P = W^{-1}(Q, v) at the solution: every
-other use of W and P, and of what lies between them and v or a momentum M, is computed from v. Then a force
-is no longer tied to a momentum that is still unknown, and tearing removes it; what is left to solve is, for
-each v, that the momentum computed from v is the one computed from the equations, which :func:`residuals` adds
-to the block. The velocity itself is read from the unknown after the block.
+Exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the solution.
+Every other reader of W, of P, and of the values on the path between v and a momentum M uses values computed
+from v. Then a force no longer depends on an unknown momentum, and tearing removes it. One equation remains
+for each v: the momentum computed from v equals the momentum of the equations. :func:`residuals` adds it to
+the block. Statements after the block read the velocity from the unknown.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """How an unknown follows from a velocity W(Q, P): maps from W to the unknown, and from a base to P.
+    """The path of an unknown from a velocity W(Q, P): maps from W to the unknown, and from a base to P.
 
     Both lists are in order of application; each map takes the value before it as its last argument.
     """
@@ -45,6 +45,7 @@ class Path:
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program with momenta and forces computed from velocities."""
+    # Without W^{-1} a momentum cannot be computed from a velocity.
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -55,10 +56,12 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
+        # All paths are taken from the old block: turning one leaves the statements of the others in place.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
+        # After the block image and unknown agree, and the unknown needs no computation.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -74,6 +77,7 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
+            # A block has a residual for every unknown or for none: Newton's matrix is square.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -84,18 +88,19 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return how an unknown of a block follows from a velocity, None where it does not."""
+    """Return the path of an unknown of a block from a velocity, None if there is none."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
+    # The same search on the other side of W: how P follows from the momentum of the equations.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the invertible linear maps that end in var, the first first, and what made their start."""
+    """Return the chain of invertible linear maps that ends in var, in order, and the source of its start."""
     maps: list[Assign] = []
     while True:
         source = maker.get(var)
@@ -106,18 +111,21 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
 
 
 def _invertible(assign: Assign) -> bool:
+    # A multiple of h has no inverse at h = 0, where the iteration must still make sense.
     number = assign.is_multiple and assign.terms[0][0].power == 0
     return number or isinstance(assign.operation, INVERTIBLE)
 
 
 def _undone(build: Builder, assign: Assign, value: Var) -> Var:
-    """Append what gives the argument of an invertible map from its value."""
+    """Append the inverse of an invertible map, applied to its value."""
     operation = assign.operation
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
+        # The reciprocal of a function of ad is again a function of ad, so the group has a closed form for it.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
+    # The number is not zero: a multiple by a proven zero is gone since the pass for zeros.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
@@ -127,6 +135,7 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
+    # (A B)^{-1} = B^{-1} A^{-1}: undo the last map first.
     for assign in reversed(route.outward):
         value = _undone(build, assign, value)
         replaced[assign.args[-1]] = value
@@ -139,8 +148,9 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append what the momentum from the unknown exceeds the other by, in the frame where that costs less."""
+    """Append the difference of the two momenta, in the frame with fewer operations."""
     replaced, computed = _values(build, route)
+    # Momenta may be compared anywhere on the path: an invertible map between them keeps the zeros.
     given = route.base
     # P is then a sum of functions of one ad, which costs less than the momentum before the adjoint map.
     if _function_of_one(block, route):
@@ -167,16 +177,19 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with the values on a path taken from its unknown wherever else they are used."""
+    """Return the block whose other statements read the values of a path as computed from its unknown."""
+    # Every value on the path gets a second computation, from the unknown; dead code drops those not read.
     replaced, _ = _values(build, route)
     fresh = build.take()
     # The base is computed from other stages; replacing it would add operations and save none.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]  # a sum of many terms, which no other operation needs from the velocity
+    # The path keeps its own statements: they are the equation that is left to solve.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))
+    # A cycle means that the velocity depends on a value that it should give; the block then stays.
     return block if sorted_body is None else replace(block, body=sorted_body)

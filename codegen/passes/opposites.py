@@ -1,4 +1,4 @@
-"""Adjoint operations that undo each other, and exponentials that do nothing to their own exponent.
+"""Adjoint operations that undo each other, and exponentials that act on multiples of their exponent.
 
 Exact. Ad*_g Ad*_{g^-1} mu = mu and the like; Ad_{exp x} y = y where x and y are multiples of one value.
 """
@@ -12,7 +12,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program without operations that are undone at once."""
+    """Return the program without pairs of inverse operations."""
     return rewrite(program, _rule)
 
 
@@ -21,9 +21,11 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Adjoint):
         g, x = assign.args
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
+        # Same variable g: value numbering has made equal elements one variable before.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
         # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0.
+        # Not on the dual: exp(x) fixes its exponent x, but moves most momenta.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)

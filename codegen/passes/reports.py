@@ -1,4 +1,4 @@
-"""Reports of passes: what each changed, and sentences for the header of emitted code."""
+"""Reports of passes: the changes of each pass, and sentences for the header of emitted code."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from codegen.ir.program import Program
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass over programs; ``because`` says why what it removes is not needed."""
+    """A pass over programs; ``because`` is the reason why the removed operations are not needed."""
 
     name: str
     because: str
@@ -41,12 +41,14 @@ class PassReport:
     def removed(self) -> dict[str, int]:
         """How many of each operation the pass removed (negative: added)."""
         before, after = self.before, self.after
+        # Sorted, so that reports do not depend on the order of the program.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}
         return {n: k for n, k in change.items() if k}
 
     @property
     def savings(self) -> Counter[str]:
         """How many operations fewer there are, by noun."""
+        # Counters drop negative differences: an operation that a pass adds is no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
 
@@ -55,6 +57,7 @@ def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
 
     The operations that several runs of a pass remove are added: ``2 brackets: the group is abelian``.
     """
+    # By reason: readers of a header ask why, and several passes have one reason.
     total: dict[str, Counter[str]] = {}
     for report in reports:
         total.setdefault(report.because, Counter()).update(report.savings)

@@ -13,8 +13,8 @@ from codegen.ir.values import Var
 class Rewriter:
     """Applies a rule to every assignment; the rule sees earlier definitions and how often values are used.
 
-    ``rule(rewriter, assign)`` returns the variables that stand for the assignment's targets from now on:
-    earlier ones (the assignment vanishes), or targets of what it appended by ``emit``.
+    ``rule(rewriter, assign)`` returns the variables that replace the assignment's targets: earlier variables
+    (the assignment vanishes), or targets of assignments that it has appended by ``emit``.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -27,14 +27,16 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
+        # Counted once, on the old program: a rule must not see its own rewritings as readers.
         self.uses = uses(self.program)
+        # Fresh names must differ from all old ones, including those of later statements.
         self.builder.taken = {v.name for v in defined(self.program)}
         body = tuple(s for statement in self.program.body for s in self._statement(statement))
         outputs = tuple((name, self.now(var)) for name, var in self.program.outputs)
         return replace(self.program, body=body, outputs=outputs)
 
     def now(self, var: Var) -> Var:
-        """Return the variable that replaces var, var itself where none does."""
+        """Return the replacement of var, or var itself."""
         return self.names.get(var, var)
 
     def emit(self, assign: Assign) -> tuple[Var, ...]:
@@ -45,6 +47,7 @@ class Rewriter:
         return assign.targets
 
     def _visit(self, assign: Assign) -> None:
+        # Arguments are renamed before the rule sees them, so no rule has to follow chains of names.
         current = replace(assign, args=tuple(self.now(a) for a in assign.args))
         for old, new in zip(assign.targets, self.rule(self, current), strict=True):
             self.names[old] = new
@@ -54,9 +57,11 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
+        # Starts are read before the block: rename them before the body defines new values.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
+        # Images and residuals are read after the body, when all of its values have their new names.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)
@@ -90,6 +95,7 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
+            # An unknown's start, image and residual are readers, too: a value read by them must stay.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

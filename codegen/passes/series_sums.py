@@ -1,10 +1,10 @@
 """Sums of functions of one ad, nested: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, however
-many terms there are; one by one each takes two brackets. The momentum of (3.19) is such a sum: functions of
-one ad applied to the momentum before and to the force. A group that knows them in closed form has
-``series_sum``. Where the v_k are sums themselves, A, B and C are sums of what those are sums of: they do not
-wait for them.
+Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, for any
+number of terms; evaluated one by one, each term takes two brackets. The momentum of (3.19) is such a sum:
+functions of one ad applied to the momentum before and to the force. A group with closed forms has
+``series_sum``. If the v_k are sums themselves, A, B and C are sums of their terms, so they do not wait for
+the v_k.
 """
 
 from __future__ import annotations
@@ -47,18 +47,20 @@ class SeriesSums:
         self.uses = uses(self.program)
 
     def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
-        """Return the value of a sum with its functions of ad nested; None where nothing is saved by that.
+        """Return the value of a sum with its functions of ad nested; None if nesting saves nothing.
 
-        Assignments are taken note of, so that all of them have to pass here in order.
+        This method records definitions, so it must see every assignment in order.
         """
         for target in assign.targets:
             self.definitions[target] = assign
+        # Only a closed form 1 + b ad + c ad^2 can be nested; other groups evaluate term by term.
         group = self.scene.group.offers(ClosedFormSeries)
         if not assign.terms or group is None:
             return None
         sums = self._groups(assign)
         if not sums:
             return None
+        # The nested terms are already in the group's sum; the rest of the sum is added to it.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -74,15 +76,18 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
+            # A function with another reader is computed anyway, and then nesting it saves nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
+                # Proportional x share one ad up to a number, which the scale of the factors takes in.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
             else:
                 groups.append([term])
+        # A single function takes two brackets either way.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
@@ -104,9 +109,10 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum in terms of what its terms are sums of, where that is no longer."""
+        """Return a sum with its terms expanded, unless that is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
+            # Expanded sums start from values that are ready earlier, which shortens the critical path.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -115,11 +121,13 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
+        # No longer than before: otherwise the expansion would add products.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
+    # c x and (-c) x then share one product, and the sign is free in an addition.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)
@@ -128,6 +136,7 @@ def signed(domain: Domain, c: Coefficient) -> Value:
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
     """Return a sum of multiples, those that need no product first."""
     total: tuple[Value, ...] | None = None
+    # Starting with a term of coefficient one saves a product; the sort is stable, so the text is, too.
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
         total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))

@@ -24,13 +24,18 @@ Share = tuple[tuple[Var, Coefficient], ...]
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
+        # Counted again in each round: a factored map may complete a combination of the next level.
         wanted = _worthwhile(program)
         if not wanted:
             return program
         values: dict[Share, Var] = {}
 
         def rule(
-            rewriter: Rewriter, assign: Assign, wanted: set[Share] = wanted, values: dict[Share, Var] = values
+            # Defaults bind this round's sets; a closure would read those of the next round.
+            rewriter: Rewriter,
+            assign: Assign,
+            wanted: set[Share] = wanted,
+            values: dict[Share, Var] = values,
         ) -> tuple[Var, ...]:
             return _rule(rewriter, assign, wanted, values)
 
@@ -47,6 +52,7 @@ def _rule(
         if share not in wanted:
             continue
         members = dict(share)
+        # The map is emitted before the first sum that reads it, and the later sums share it.
         if share not in values:
             first = rewriter.definitions[share[0][0]]
             inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]
@@ -62,6 +68,7 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations of maps that have fewer combinations than values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
+        # Blocks only: their maps are evaluated once a sweep, those outside once a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}
@@ -86,6 +93,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
+        # A value twice with different powers of h has no single coefficient in the combination.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # Normalised by its first term, a combination is recognised in any multiple.

@@ -1,8 +1,8 @@
 """Tearing: unknowns that the others determine within one sweep are computed, not solved for.
 
 Exact. Where a block's body stays free of cycles when an unknown is replaced by its image, it is replaced. An
-equation has to hold at the solution only, so that the solutions are the same; what is left is a smaller
-block. Momenta and forces are tried first, so that velocities stay.
+equation has to hold at the solution only, so the solutions are the same, and the block is smaller. Momenta
+and forces are tried first, so that velocities stay.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with as few unknowns as single replacements leave."""
+    """Return the program with unknowns replaced one by one until no replacement is possible."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -29,6 +29,7 @@ def run(program: Program) -> Program:
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
         # Momenta and forces first: without them the block is solved for velocities, which are continued best.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
+            # Greedy in a fixed order: a smallest set is a minimum feedback vertex set, which is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -41,6 +42,7 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image, None where that closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
+    # The last unknown carries the cycle: without a cycle the pass for blocks would have removed the block.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -48,12 +50,14 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
+    # A cycle: the image depends on the unknown within one sweep, so it must be solved for.
     if body is None:
         return None
     kept = [
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
+    # Other unknowns may have the removed one as their image; they now have its image.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
@@ -61,12 +65,14 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """Return assignments with definitions before uses, else in the order given; None for a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
+    # False while an assignment waits for its arguments: meeting it again closes a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
+        # Depth first in the given order, so that a body already in order stays as it is.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

@@ -21,14 +21,17 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
+        # Ranked by first appearance, not by name: fresh names would change the order of the terms.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:
             assign = Assign.of_terms(
                 assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
+        # The kind belongs to the key: zero in the algebra and zero in its dual are one operation.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
+            # The first computation stays where it is, before all of its readers.
             known[key] = rewriter.emit(assign)
         return known[key]
 

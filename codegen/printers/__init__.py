@@ -1,7 +1,7 @@
-"""From kernel to source text: spelling of expressions for any infix target, one package a target.
+"""From kernel to source text: one package for each target, and the infix notation that targets share.
 
-A target is a package here whose ``print_module(kernel, interface, recipe)`` returns file names and texts, and
-a line in :data:`TARGETS`.
+A target is a package of this folder with a module in which ``print_module(kernel, interface, recipe)``
+returns texts by file name, and a line in :data:`TARGETS`; :data:`codegen.loader.LOADERS` has the other line.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from codegen.printers.recipe import Recipe
 from orderconds.errors import UnknownName
 
 TARGETS = {"c": "codegen.printers.c.module", "python": "codegen.printers.python.module"}
-"""Target name -> module with its ``print_module``."""
+"""Target name -> module that contains ``print_module``."""
 
 PrintModule = Callable[[Kernel, Interface, Recipe], dict[str, str]]
 
 
 def target(name: str) -> PrintModule:
-    """Return the module printer of a target; an UnknownName names the targets there are."""
+    """Return the module printer of a target; an UnknownName lists the known targets."""
     if name not in TARGETS:
         raise UnknownName(f"unknown target {name}", expected=" or ".join(sorted(TARGETS)))
     printer: PrintModule = import_module(TARGETS[name]).print_module

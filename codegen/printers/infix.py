@@ -1,7 +1,7 @@
-"""Terms of the run representation as infix text: precedence, parentheses, and where lines may be broken.
+"""Terms of the run representation as infix text: precedence, parentheses and line breaks.
 
-Both targets write terms alike but for a few words; :class:`Infix` leaves those open. Operations are never
-regrouped: parentheses stand wherever the tree says so, except that a b + c needs none.
+The targets differ in a few words only, which are abstract methods of :class:`Infix`. Operations are never
+regrouped: the parentheses reproduce the tree, and are dropped only if precedence implies them (a b + c).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import ClassVar
 from codegen.run.terms import Term
 
 CHOICE, OR, AND, NOT, COMPARED, SUM, PRODUCT, SIGN, ATOM = range(9)
-"""How strongly operations bind."""
+"""Precedence, weakest first."""
 
 LEVELS = {
     "or": OR,
@@ -26,7 +26,7 @@ LEVELS = {
 
 @dataclass(frozen=True)
 class Text:
-    """The text of a term in segments, between which a line may be broken, and how strongly it binds."""
+    """The text of a term, in segments between which a line may break, and its precedence."""
 
     segments: tuple[str, ...]
     level: int = ATOM
@@ -37,31 +37,31 @@ class Text:
         return " ".join(self.segments)
 
     def within(self, level: int) -> tuple[str, ...]:
-        """Return the segments, in parentheses where the text binds less than ``level``."""
+        """Return the segments, in parentheses if the precedence is below ``level``."""
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
 
 
 def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
-    """Return segments with a text before the first and one behind the last."""
+    """Return segments with ``start`` before the first and ``end`` after the last."""
     if len(segments) == 1:
         return (f"{start}{segments[0]}{end}",)
     return (f"{start}{segments[0]}", *segments[1:-1], f"{segments[-1]}{end}")
 
 
 SHORT, LONG = 48, 80
-"""How long an operand, and a comparison, may be that no line breaks within."""
+"""The longest operand, and the longest comparison, in which no line breaks."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return segments as one where they are short together."""
+    """Return one segment if the segments together are short."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
-    """Spells terms; ``words`` are operators that a target calls otherwise."""
+    """Writes terms as text; ``words`` maps operators to those of the target if they differ."""
 
     words: ClassVar[dict[str, str]]
 
@@ -84,9 +84,12 @@ class Infix(ABC):
         level, word = LEVELS[term.op], self.words.get(term.op, term.op)
         left, right = map(self.text, term.args)
         if level in (AND, OR):
+            # C compilers warn about && inside || without parentheses (-Wparentheses).
             tight = {OR: COMPARED, AND: NOT}[level]
             first = left.segments if left.level == level else left.within(tight)
             return Text((*first, *closed(f"{word} ", right.within(tight), "")), level)
+        # Operators associate to the left: a + (b + c) keeps its parentheses, because regrouping
+        # changes the rounding.
         first = left.within(level if level in (SUM, PRODUCT) else SUM)
         segments = (*first, *closed(f"{word} ", joined(right.within(level + 1)), ""))
         return Text(joined(segments, LONG) if level == COMPARED else segments, level)
@@ -97,4 +100,4 @@ class Infix(ABC):
 
     @abstractmethod
     def special(self, term: Term) -> Text:
-        """Return the text of what targets spell each in its own way."""
+        """Return the text of a term whose notation differs between targets."""

@@ -1,6 +1,6 @@
-"""What callers of an emitted module see: its prefix, state size, arguments and implicit blocks.
+"""The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
 
-Printers spell it in headers, the manifest stores it and the loader calls through it, so that they agree.
+Printers write it in headers, the manifest stores it, and the loader calls through it, so that all agree.
 """
 
 from __future__ import annotations
@@ -12,20 +12,19 @@ from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
 from codegen.run.precision import DOUBLE, Precision, precision
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
-"""Those of the fields below that JSON keeps as lists."""
+"""The fields of :class:`Interface` that are tuples, and lists in JSON."""
 
 
 @dataclass(frozen=True)
 class Interface:
     """The calling convention of one module.
 
-    ``prefix`` starts every external C name and ends in an underscore; ``size`` is how many numbers a state
-    has; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
+    ``prefix`` starts every external C name and ends in an underscore; ``size`` is the number of numbers in a
+    state; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
-    of all numbers (:mod:`codegen.run.precision`); ``inputs`` are the functions of time that are taken at
-    run time, in order; ``adaptive`` says that there is a run that chooses its steps; ``solvers`` are the
-    methods that solve the blocks.
-    ``variations`` is the size of the Jacobian, 0 where there is none.
+    of all numbers (:mod:`codegen.run.precision`); ``inputs`` are the run-time functions of time, in order;
+    ``adaptive`` says that there is a run with step control; ``solvers`` are the methods that solve the
+    blocks. ``variations`` is the size of the Jacobian, 0 without one.
     """
 
     prefix: str
@@ -43,6 +42,7 @@ class Interface:
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
         """Return the interface of a kernel: t and parameters that it never reads are left out."""
         used = kernel.used_scalars()
+        # Run-time inputs are sampled at times, so a step that reads them has the argument t.
         assert not kernel.inputs or "t" in used
         return cls(
             prefix=prefix,

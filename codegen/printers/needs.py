@@ -1,4 +1,4 @@
-"""Which functions of a target's library and which snippets a unit calls."""
+"""The library functions and snippets that a unit calls."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from codegen.run.language import Call, Unit, statements, terms
 
 
 def functions_of(unit: Unit) -> tuple[str, ...]:
-    """Return the functions that kernels call, in expressions and jointly, sorted."""
+    """Return the functions that are called in expressions and in call statements, sorted."""
     names: set[str] = set()
     for function in unit.functions:
         for term in terms(function.body):

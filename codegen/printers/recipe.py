@@ -1,4 +1,4 @@
-"""The recipe: what the head of an emitted file says about where it comes from and how it is used."""
+"""The recipe: the header of an emitted file, with its origin, its properties and its use."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ class Recipe:
     """Facts for the header comment, all of them derived, none with a date or a path.
 
     ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...");
-    ``left_out`` has one sentence a line; ``initial`` is a state to start the usage example from, ``h`` its
-    step, ``steps`` its length; ``defaults`` are the scene's values of run-time parameters; ``command`` makes
-    the file again; ``version`` is that of orderconds.
+    ``left_out`` has one sentence for each simplification; ``initial``, ``h`` and ``steps`` are initial state,
+    step size and number of steps of the usage example; ``defaults`` are the scene's values of run-time
+    parameters; ``command`` regenerates the file; ``version`` is the version of orderconds.
     """
 
     title: str
@@ -55,7 +55,7 @@ def header(
 ) -> list[str]:
     """Return the recipe's lines up to the usage example, none longer than width where words allow it.
 
-    ``stack`` says how much a call takes of it, where that is known, ``inputs`` what is read at run time.
+    ``stack`` bounds the stack of a call, if it is known; ``inputs`` describes the run-time inputs.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
@@ -68,6 +68,6 @@ def header(
     lines += entry("left out", recipe.left_out, width)
     lines += entry("operations", counts, width)
     lines += entry("stack", [stack] if stack else [], width)
-    lines += entry("made by", [recipe.command] if recipe.command else [], width)
+    lines += entry("command", [recipe.command] if recipe.command else [], width)
     lines += entry("version", [f"orderconds {recipe.version}"] if recipe.version else [], width)
     return lines

@@ -1,13 +1,13 @@
-"""What a header says of the numbers of a state and of run-time inputs."""
+"""The lines of a header about the numbers of a state and about run-time inputs."""
 
 from __future__ import annotations
 
 from codegen.ir.kernel import Kernel
-from codegen.printers.expression import spell
+from codegen.printers.expression import render
 
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line for each field of the state: its places, its name and what it means."""
+    """Return a line for each field of the state: its indices, its name and its meaning."""
     lines: list[str] = []
     start = 0
     for field in kernel.state:
@@ -19,8 +19,8 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line that names the run-time inputs and when they are read, none where there are none."""
+    """Return a line with the run-time inputs and the times at which they are read; none without inputs."""
     if not kernel.inputs:
         return ()
-    read = ", ".join(" ".join(spell(sample.time, {})) for sample in kernel.samples)
+    read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, read at {read}",)

@@ -1,1 +1,1 @@
-"""What surrounds a kernel at run time: the solver of implicit stages and its choice."""
+"""The code around a kernel: solvers, warm start, continuation, step control, trajectories."""

@@ -20,9 +20,11 @@ from codegen.run.warm_start import begun
 
 
 def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: bool = True) -> list[Statement]:
-    """Return the statements of a kernel, in order, with ``after_loops`` behind the last loop."""
+    """Return the statements of a kernel, in order, with ``after_loops`` after the last loop."""
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
+    # All unknowns are final after the last loop, so this is the earliest place to store the
+    # solution.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -36,19 +38,22 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that name those entries of an array that are read."""
+    """Return the statements that load the entries of an array that are read."""
+    # Unused variables are warnings in C.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
 
 def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Statement], list[Term]]:
-    """Return the statements that name a kernel's outputs, and the names; those that have one keep it."""
+    """Return the statements that assign a kernel's outputs to names, and the names."""
     sequence: list[Statement] = []
     named: list[Term] = []
     for symbol, output in zip(symbols, arrangement.outputs, strict=True):
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
+        # New names, because an output may be an input of another one: the state is overwritten only
+        # after all are computed.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
@@ -60,8 +65,10 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
-    """Return the statements that ask for the run-time inputs at each time, and name what is read of them."""
+    """Return the statements that sample the run-time inputs at each time and load those that are read."""
     sequence: list[Statement] = []
+    # Inputs are sampled once for each time, before all sweeps: an input function may be slow, and
+    # it must not change within a step.
     read, n = plan.arrangement.symbols(), len(plan.kernel.inputs)
     for number, sample in enumerate(plan.kernel.samples, 1):
         values = real(f"inputs_{number}", n)
@@ -71,7 +78,7 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
-    """Return a function that a kernel calls in several places: it returns its result, or fills an array."""
+    """Return an outlined function of a kernel: it returns its only result, or fills an array."""
     body: list[Statement] = []
     for statement in arrangement.statements:
         assert isinstance(statement, Simple)
@@ -86,7 +93,7 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
 
 
 def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
-    """Return a function that fills an array by what a kernel computes of the state."""
+    """Return a function that evaluates a kernel on the state and fills an array with its outputs."""
     arrangement = plan.arrangement
     state = plan.state()
     body = loaded(plan.symbols, state, arrangement.symbols())

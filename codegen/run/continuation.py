@@ -1,9 +1,10 @@
-"""Continuation in h: a step whose equations do not settle is reached through shorter ones.
+"""Continuation in h: if the equations of a step do not converge, follow the solution from shorter steps.
 
-First the solutions of earlier steps are forgotten: they may mislead where the motion changes. Then the step
-is halved until its equations settle, and each solution is where those of a longer step begin. The factor from
-one step to the next grows while that succeeds and falls where it does not. The solution so found is the one
-that tends to the motion as h tends to zero; a long step may have others. A step of no length changes nothing.
+The first attempt repeats the whole step without the solutions of earlier steps, which mislead if the motion
+has changed. Then the step is halved until its equations converge, and each solution is the initial guess for
+a longer step. The factor between consecutive steps grows on success and shrinks on failure. The result is on
+the branch that tends to the exact motion as h tends to zero; the equations of a long step may have other
+solutions. A step with h = 0 changes nothing.
 """
 
 from __future__ import annotations
@@ -40,19 +41,20 @@ CONTINUED = "continued"
 """The name of the function."""
 
 LARGEST_FACTOR = 4.0
-"""No step is longer than the one before by more."""
+"""The largest ratio of consecutive steps."""
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statement that continues a step where its equations have not settled, none without them."""
+    """Return the statement that calls the continuation if a step fails; none without a warm start."""
     if plan.start is None:
         return []
+    # A diverging iteration may overflow before it reaches its limit of sweeps: retry after both.
     failed = either(STATUS.equals(code(NOT_CONVERGED)), STATUS.equals(code(NOT_FINITE)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
 
 def continued(plan: Plan, core: str) -> Function:
-    """Return the function that makes a step, or substep, which ``core`` does not make at once."""
+    """Return the function that continues a step, or substep, for which ``core`` fails."""
     return _Continuation(plan, core).function()
 
 
@@ -69,11 +71,14 @@ class _Continuation:
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
-        """Return the whole."""
+        """Return the function."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
         parameters += (*plan.remembering(plan.memory), *plan.counted)
+        # A step of length zero is the identity; shorter steps do not exist.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
+        # A factor near 1 makes no progress: the branch of solutions probably ends before the whole
+        # step.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -86,28 +91,33 @@ class _Continuation:
             Assign(self.solved, number(0.0)),
             Assign(self.part, number(1.0)),
             Assign(self.factor, number(2.0)),
+            # STATUS belongs to the latest attempt. If the limit of tries ends the loop, the caller
+            # gets the last failure.
             Assign(self.failure, code(NOT_CONVERGED)),
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.failure),)),
+            # Only the whole step changes the state: shorter ones just provide initial guesses.
             Assign(state, self.trial),
-            # The solutions before the last one are those of shorter steps, and no guide.
+            # The earlier solutions belong to shorter steps; a polynomial through them would be wrong.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
         )
         part = "part of a step" if plan.parts else "step"
         about = (
-            f"Make a {part} whose equations do not settle: without the earlier solutions, which may mislead "
-            "where the motion changes; then through shorter ones, whose solutions are continued in h."
+            f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
+            "mislead if the motion has changed, then by continuation in h from shorter steps."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 
     def attempt(self) -> list[Statement]:
-        """Return the statements that try one step from what is known."""
+        """Return the statements that try one step, from the solution of the last successful one."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
+        # Begin at the solution of the shorter step. Its rate does not apply to a longer one: rate 1
+        # asks for a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -117,18 +127,23 @@ class _Continuation:
         arguments += (*plan.remembering(memory), *plan.counted)
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
+            # Each attempt starts at the original state, because h is the parameter of the
+            # continuation and not time.
             Assign(self.trial, plan.state()),
+            # Solutions and matrices of another step size are wrong here. Without memory the first
+            # attempt is also independent of the steps before, whose solutions may mislead.
             Assign(memory, fresh(memory)),
             If(self.solved > 0.0, tuple(from_guess)),
             Call(self.core, (self.trial, *arguments), (STATUS,)),
         ]
 
     def adapted(self) -> list[Statement]:
-        """Return the statements that choose the next step, where the whole one is not done."""
+        """Return the statements that choose the next step, unless the whole step is done."""
         plan, factor, part, solved = self.plan, self.factor, self.part, self.solved
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         latest = values[plan.memory.field("place", Kind.COUNT)]
+        # Squaring undoes one square root: after a failure, one success restores the factor.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),
@@ -136,6 +151,8 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
+            # Halve until some step converges, which a short enough one does: its equations are a
+            # contraction. From then on increase the length in proportion to it.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

@@ -1,10 +1,10 @@
 """Runs of a splitting that defer flows: the first flow of a step joins the last of the step before, and flows
 that commute with all others are carried out once for many steps.
 
-Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be looked at, only after
-the deferred flows: where a row is due, after the last step, and after :data:`codegen.ir.kernel.LONGEST`
-steps. A state that is no number stays so until then; the run is then repeated carefully, every step
-completed, to find the last good state.
+Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only after
+the deferred flows: if a row is due, after the last step, and after :data:`codegen.ir.kernel.LONGEST`
+steps. A NaN persists until then. The run is then repeated with every step completed, to find the last good
+state.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ BEGIN, FINISH = "begin", "finish"
 """The names of the functions for the leading flow and for the deferred ones."""
 
 LATE = count("late")
-"""How many steps were made since the deferred flows."""
+"""The number of steps since the deferred flows were last applied."""
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
@@ -78,9 +78,11 @@ def _plan(plan: Plan, kernel: Kernel) -> Plan:
 
 
 def _core(plan: Plan, name: str, about: str) -> Function:
-    """Return a function that changes the state by a kernel; nothing is checked."""
+    """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
+    # No test for finiteness here: NaNs and infinities persist, and the run tests the state when it
+    # is complete.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -95,7 +97,7 @@ def _read(plan: Plan) -> tuple[Term, ...]:
 
 
 class _Deferring:
-    """The functions that callers see."""
+    """The public functions."""
 
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
@@ -108,7 +110,7 @@ class _Deferring:
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return the call of one of the inner functions, none where it is not there."""
+        """Return the call of an inner function; none if the kernel has no such part."""
         if kernel is None:
             return []
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
@@ -117,7 +119,7 @@ class _Deferring:
         return [Call(name, (self.moving, *passed))]
 
     def step(self) -> Function:
-        """Return the function that makes one step for a caller."""
+        """Return the public function for one step."""
         plan, state, deferred = self.plan, self.plan.state(), self.deferred
         kernel = plan.kernel
         begin: list[Statement] = []
@@ -130,6 +132,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
+            # A single step defers nothing: its caller sees the complete state.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -139,7 +142,7 @@ class _Deferring:
         return Function("step", "", parameters, body, Kind.STATUS, public=True)
 
     def run(self) -> Function:
-        """Return the function that makes a run."""
+        """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
@@ -160,7 +163,7 @@ class _Deferring:
         return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
 
     def attempt(self) -> tuple[Statement, ...]:
-        """Return the statements that make all steps, or find out how many can be made."""
+        """Return the statements of one attempt at all steps; a second, careful one counts the good steps."""
         state = self.plan.state()
         failed = (
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
@@ -176,24 +179,33 @@ class _Deferring:
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
+            # The fast attempt only shows that some state is not finite. The careful one completes
+            # every step and stops at the first bad one, so that the caller gets the last good
+            # state.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
 
     def one(self) -> tuple[Statement, ...]:
-        """Return the statements that make one step of a run."""
+        """Return the statements of one step of a run."""
         rows, deferred = Rows(self.plan), self.deferred
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
+        # One product in place of a sum over steps: one rounding error, however many steps were
+        # deferred.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
+            # LONGEST bounds the angle of a deferred rotation, and with it the loss of digits in its
+            # sine and cosine.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
+                # If the run continues, the last flow of this step and the first of the next are one
+                # flow of the joint length.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

@@ -1,15 +1,15 @@
-"""The run representation carried out over any scalars: floats, numbers of many digits, a ring that compares.
+"""An executor of the run representation over any ordered scalars: floats, numbers of many digits, a ring.
 
-It makes the sweeps, matrices and steps that emitted code makes, for they are the same statements; only the
-arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function becomes closures once, so that a run
-of many steps does not walk the statements again.
+It executes the same statements as emitted code, so it takes the same sweeps, matrices and steps; only the
+arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function is compiled to closures once, so that
+a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
->>> from codegen.run.terms import Kind, count, real
+>>> from codegen.run.terms import Kind, count, real, whole
 >>> x, n, root = real("x"), count("n"), real("root")
 >>> halve = While(n < 6, (Assign(root, 0.5 * (root + x / root)), Assign(n, n + 1)))
->>> body = (Assign(root, x), Assign(n, n - n), halve, Return(root))
+>>> body = (Assign(root, x), Assign(n, whole(0)), halve, Return(root))
 >>> heron = Function("heron", "", (x,), body, Kind.REAL)
 >>> Machine(Unit((), (), (), (heron,)), FloatDomain(0.0)).call("heron", 2.0)
 1.414213562373095
@@ -48,10 +48,10 @@ from codegen.run.writes import written
 Environment = dict[str, Any]
 Value = Callable[[Environment], Any]
 Action = Callable[[Environment], bool]
-"""An action says whether the function has returned."""
+"""An action executes a statement and returns whether the function has returned."""
 
 RESULT = "result of the function"
-"""Where an environment keeps what a function returns; no identifier."""
+"""The key of a function's result in its environment; it is no identifier."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -113,7 +113,7 @@ class Machine:
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
-        """Return what a function returns; arrays and records among the arguments may be changed."""
+        """Call a function and return its result; arrays and records among the arguments may be changed."""
         function = self.unit.parts[name]
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
         if not function.guard:
@@ -126,7 +126,8 @@ class Machine:
         return environment.get(RESULT)
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
-        """Return what an arithmetic error makes of a function."""
+        """Return the result of a function after an arithmetic error."""
+        # Exact and many-digit scalars raise where IEEE arithmetic computes an infinity or a NaN.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)
@@ -138,6 +139,7 @@ class Machine:
 
 def is_number(x: Any) -> bool:
     """Whether a scalar is neither infinite nor NaN."""
+    # x - x is NaN for infinities and NaNs; the test needs no function that an exact ring lacks.
     return bool(x - x == 0)
 
 
@@ -152,6 +154,8 @@ class _Compiler:
         actions = [self.statement(s) for s in body if not isinstance(s, Note)]
 
         def run(env: Environment) -> bool:
+            # ``any`` stops at the first action that has returned, and skips the statements after
+            # it.
             return any(action(env) for action in actions)
 
         return run
@@ -229,6 +233,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that changes a name, an entry, a part, a field or a record."""
         if value.op == "fresh":
+            # Clear in place: other functions hold the same record.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -252,13 +257,14 @@ class _Compiler:
         array, n = self.term(target.args[0] if target.op == "part" else target), target.shape[0]
 
         def run(env: Environment) -> bool:
+            # A slice assignment copies the entries; a plain assignment would alias the two arrays.
             array(env)[start : start + n] = value(env)
             return False
 
         return run
 
     def store(self, target: Term) -> Callable[[Environment, Any], None]:
-        """Return what changes a scalar."""
+        """Return the function that assigns to a scalar."""
         if target.op == "item":
             array, index = self.term(target.args[0]), self.term(target.args[1])
 
@@ -297,7 +303,7 @@ class _Compiler:
         return run
 
     def term(self, term: Term) -> Value:
-        """Return what computes a term."""
+        """Return the function that evaluates a term."""
         if term.op in _BINARY:
             left, right, binary = self.term(term.args[0]), self.term(term.args[1]), _BINARY[term.op]
             return lambda env: binary(left(env), right(env))
@@ -345,7 +351,7 @@ class _Compiler:
         return lambda env: a(env) or b(env)
 
     def access(self, term: Term, args: Sequence[Value]) -> Value:
-        """Return entries, parts, fields, and what concerns whole arguments."""
+        """Return accesses to entries, parts and fields, and operations on whole arguments."""
         first = args[0]
         match term.op:
             case "item":
@@ -395,7 +401,7 @@ class _Compiler:
                 return lambda env: _power(first(env), exponent(env))
 
     def expression(self, root: Expr) -> Value:
-        """Return what computes an expression of the kernel."""
+        """Return the function that evaluates an expression of the kernel."""
         domain = self.machine.domain
         args = [self.expression(a) for a in root.args]
         match root.op:
@@ -403,7 +409,7 @@ class _Compiler:
                 constant = domain.number(root.payload)
                 return lambda env: constant
             case "sym":
-                return self.name(self.identifiers.spelled.get(root.payload, root.payload))
+                return self.name(self.identifiers.by_name.get(root.payload, root.payload))
             case "add" | "sub" | "mul" | "div":
                 left, right = args
                 binary = _BINARY[{"add": "+", "sub": "-", "mul": "*", "div": "/"}[root.op]]
@@ -420,14 +426,14 @@ class _Compiler:
 
 
 def _power(x: Any, exponent: Any) -> Any:
-    """Return a power as C does: of zero it may be infinite."""
+    """Return a power as C does: a negative power of zero is infinite."""
     if not x:
         return math.inf if exponent < 0 else x
     return x**exponent
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a function with several results from the library, None where it is none."""
+    """Return a library function as one with a list of results, None if it is a function of the unit."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if function.startswith("stumpff_"):
@@ -440,7 +446,8 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 
 def _inverted(n: int, matrix: list[Any]) -> int:
-    """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 where it has none, else 1."""
+    """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
+    # The order of operations is that of the emitted code, so that doubles agree in every bit.
     rows = [matrix[n * i : n * i + n] for i in range(n)]
     order = []
     for k in range(n):

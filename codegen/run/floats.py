@@ -1,7 +1,7 @@
 """Doubles as emitted code computes with them: Stumpff functions by the same polynomials and closed forms.
 
-The interpreter's own (:func:`codegen.ir.domain.stumpff`) round differently in the last place, which near the
-end of an iteration may cost or save a sweep. An executor that shall count the sweeps of emitted code takes
+Those of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last place, which near
+the end of an iteration may cost or save a sweep. To count the sweeps of emitted code, an executor needs
 these.
 """
 
@@ -17,7 +17,7 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles; ``chain`` is how many angles depend one on the other (:mod:`codegen.ir.angle_depth`)."""
+    """Doubles; ``chain`` is the number of dependent angles (:mod:`codegen.ir.angle_depth`)."""
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)
@@ -25,6 +25,7 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return c_k(z) of some orders, computed together."""
+        # The same branches as the snippets: another polynomial would differ in the last bit.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -34,6 +35,7 @@ class EmittedFloats(FloatDomain):
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
+        # A NaN rejects the step by the ordinary test for finiteness; no status is needed here.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))

@@ -1,7 +1,7 @@
-"""Identifiers of a unit in a target: the kernel's names made legal, and apart from all others.
+"""Identifiers of a unit in a target: legal names for the kernel's symbols, distinct from all others.
 
-The names of the run representation are legal everywhere and stay as they are. Names of a kernel come from
-scenes and programs; each function gives them identifiers that no other name of the unit has.
+The names of the run representation are legal in every target and are used unchanged. Names of a kernel come
+from scenes and programs; in each function they get identifiers that no other name of the unit has.
 """
 
 from __future__ import annotations
@@ -16,16 +16,16 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """What the kernel's names are called in one function; entries of its arrays are ``array[k]``."""
+    """The identifiers of the kernel's names in one function; entries of its arrays are ``array[k]``."""
 
-    spelled: Mapping[str, str]
+    by_name: Mapping[str, str]
 
     def of(self, name: Term) -> str:
         """Return the identifier of a name."""
-        return self.spelled[name.text] if name.own else name.text
+        return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
-        """Return the variable that a name is, or that it is an entry of."""
+        """Return the variable of a name: for an entry ``array[k]`` it is ``array``."""
         return self.of(name).partition("[")[0]
 
 
@@ -36,7 +36,8 @@ def plain_names(function: Function) -> frozenset[str]:
 
 
 def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
-    """Return the identifiers in each function, by its name; ``reserved`` are words that none may take."""
+    """Return the identifiers in each function, by its name; ``reserved`` words are excluded."""
+    # Names of functions and tables are global in every target: a local variable must not hide them.
     outside = frozenset(reserved) | {f.name for f in unit.functions} | {t.name.text for t in unit.tables}
     return {
         f.name: Identifiers(_identified(f, unit.scalars, outside | plain_names(f))) for f in unit.functions
@@ -51,8 +52,10 @@ def _identified(function: Function, scalars: Iterable[str], taken: Collection[st
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
-            entries |= {f"{name}.{k}": f"{own.spelled[name]}[{k}]" for k in range(statement.name.shape[0])}
+            entries |= {
+                f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
+            }
         for text in (t.text for t in names(direct(statement)) if t.own):
-            if text not in entries and text not in own.spelled:
-                own.spelled[text] = own.fresh(text.removeprefix(f"{function.name}."))
-    return own.spelled | entries
+            if text not in entries and text not in own.identifiers:
+                own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
+    return own.identifiers | entries

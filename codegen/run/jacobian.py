@@ -1,7 +1,7 @@
-"""The derivative of a step: a variation is carried along it, once for each unit vector.
+"""The derivative of a step: one column for each unit vector, transported by the linearised step.
 
-The kernel of variations computes the step with its rates. Implicit equations, and the linear ones for their
-variations, are iterated there; a step that Newton's method alone can solve has no derivative from here.
+The kernel of variations computes the step and its linearisation. Implicit equations, and the linear equations
+for their variations, are solved by fixed-point iteration; if only Newton's method converges, the call fails.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of the derivative, none where it was not asked for."""
+    """Return the functions of the derivative, none if it was not requested."""
     if plan.kernel.vary is None:
         return ()
     varying = Plan(plan.kernel.vary, plan.format)
@@ -57,7 +57,7 @@ def _vector(varying: Plan) -> Term:
 
 
 def vary(plan: Plan, varying: Plan) -> Function:
-    """Return the function that carries a variation along one step, or one part of it."""
+    """Return the function that transports a variation along one step, or one substep."""
     state, vector, n = plan.state(), _vector(varying), plan.size
     symbols, read = varying.symbols, varying.arrangement.symbols()
     ends, new = outputs(varying.arrangement, symbols[n:])
@@ -73,12 +73,12 @@ def vary(plan: Plan, varying: Plan) -> Function:
         Return(code(OK)),
     ]
     parameters = (state, vector, *plan.moment(), *plan.parameters, *plan.sampled())
-    about = "Carry a variation of the state through one step; the vector receives it."
+    about = "Transport a variation of the state along one step; vector is replaced by the result."
     return Function("vary", about, parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
 
 
 class _Jacobian:
-    """The function that callers see."""
+    """The public function."""
 
     column, row = count("column"), count("row")
 
@@ -89,13 +89,15 @@ class _Jacobian:
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
-        """Return the whole."""
+        """Return the function."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
         given = (self.given,) if plan.held else ()
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
+            # The step is linear in its variation: the image of a unit vector is a column of the
+            # derivative.
             Assign(self.vector[self.column], number(1.0)),
             *(self.composed() if plan.parts else self.single()),
             If(STATUS.equals(code(OK)), (For(self.row, whole(dim), (entry,)),)),
@@ -114,16 +116,17 @@ class _Jacobian:
         return Function("jacobian", "", parameters, tuple(body), Kind.STATUS, public=True)
 
     def single(self) -> list[Statement]:
-        """Return the call for a step in one piece."""
+        """Return the call for a step without substeps."""
         plan = self.plan
         arguments = (*plan.moment(), *plan.parameters, *self.inputs)
         return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]
 
     def composed(self) -> list[Statement]:
-        """Return the loop over the parts of a step: the variation first, then the state itself."""
+        """Return the loop over the substeps: the variation first, then the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
+        # The caller's statistics count steps of the integration, not those of a derivative.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
@@ -136,11 +139,13 @@ class _Jacobian:
                 If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
             ]
         inner: tuple[Statement, ...] = (
+            # The variation comes first: it is linearised at the point where the substep begins.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
             Assign(part, part + 1),
         )
         return [
+            # The state of the caller is unchanged; a copy moves through the substeps.
             Array(point),
             Assign(point, plan.state()),
             *([Array(memories, zero=True)] if plan.remembers else []),

@@ -1,18 +1,18 @@
-"""The run representation: what surrounds a kernel at run time, as a small imperative program.
+"""The run representation: the code around a kernel as a small imperative program.
 
-Stopping rules, warm starts, continuation, runs and step control are written in it once, one file a concern.
-Printers spell it in a target, :mod:`codegen.run.execute` carries it out over any scalars.
+Stopping rules, warm starts, continuation, runs and step control are written in it once, one file for each
+concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any scalars.
 
 A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
 :class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets
 in which a loop is a ``while_loop`` and a branch is a ``select``:
 
 - No loop is left from its middle: a status or flag ends it.
-- Return stands at the end of a function, or alone in an If of its outermost block: a guard. What follows a
-  guard may be computed and then not selected.
+- Return is at the end of a function, or alone in an If of its outermost block: a guard. A target may compute
+  the statements after a guard and then not select their results.
 - Statuses are values; there are no pointers. Arrays that a function receives may be changed in place.
 - Scalars are declared by their first assignment; each is assigned before it is read on every path.
-- An arithmetic error (a target may raise where C gives an infinity or a NaN) is the function's ``guard``.
+- ``guard`` is the effect of an arithmetic error: C computes an infinity or a NaN, another target may raise.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class For:
 
 @dataclass(frozen=True)
 class While:
-    """The body as long as the test holds; ``at_least_once`` the test comes after it."""
+    """The body as long as the test holds; with ``at_least_once`` the test comes after the body."""
 
     test: Term
     body: tuple[Statement, ...]
@@ -95,12 +95,12 @@ Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
 RAISES_STATUS, RAISES_NAN = "status", "nan"
-"""What an arithmetic error makes of a function: the status NOT_FINITE, or NaN in its result or array."""
+"""The effect of an arithmetic error: the status NOT_FINITE, or NaNs in the result or array."""
 
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the unit; ``public`` ones are called from outside, ``often`` ones are worth inlining."""
+    """A function of the unit; ``public`` ones are called from outside, ``often`` ones should be inlined."""
 
     name: str
     about: str
@@ -133,9 +133,9 @@ class Table:
 
 @dataclass(frozen=True)
 class Unit:
-    """Everything that surrounds one kernel: records, tables, and functions after those that they call.
+    """All code around one kernel: records, tables, and functions, callees first.
 
-    ``scalars`` are the kernel's names that are arguments; they are spelled alike in all functions.
+    ``scalars`` are the kernel's names that are arguments; they have the same identifiers in all functions.
     """
 
     scalars: tuple[str, ...]
@@ -164,7 +164,7 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 
 
 def direct(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms of a statement itself, targets first, without those of bodies inside."""
+    """Return the terms of a statement itself, targets first, without those of inner bodies."""
     match statement:
         case Assign(target, term):
             return (target, term)
@@ -207,7 +207,7 @@ def root(target: Term) -> Term:
 
 
 def assigned(statement: Statement) -> tuple[Term, ...]:
-    """Return what a statement itself gives values to."""
+    """Return the terms that a statement itself assigns."""
     match statement:
         case Assign(target):
             return (target,)
@@ -224,6 +224,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
 def reads(statement: Statement) -> Iterator[Term]:
     """Yield the names that a statement itself reads; changing an entry of an array reads the array."""
     given = assigned(statement)
+    # An assignment to an entry keeps the other entries, so it depends on the old array.
     whole = {id(t) for t in given if t.op == "name"}
     for term in direct(statement):
         if id(term) not in whole:

@@ -1,8 +1,8 @@
-"""The momentum that a run carries: steps are made with that of the body, a state holds that of space.
+"""The carried momentum: steps use the momentum in the body frame, a state contains the one in space.
 
-Turning it once at the beginning of a run and once at its end costs less than turning it in each step. What
-the momentum has gained in space is added to that of the state; where rounding has made q not quite
-orthogonal, the turning so changes the gain alone.
+A conversion at the beginning and at the end of a run costs less than one in each step. At the end, the
+increase of the space momentum is added to the state's momentum. If rounding has made q slightly
+non-orthogonal, the conversion then perturbs the increase only.
 """
 
 from __future__ import annotations
@@ -16,17 +16,17 @@ from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, coun
 ENTER, LEAVE = "enter_body", "leave_body"
 
 MOVING = "moving"
-"""The state that steps are made with."""
+"""The state in the body frame."""
 
 
 def momentum_before(plan: Plan) -> Term:
-    """Return the array for the momentum in space where a run begins."""
+    """Return the array for the space momentum at the beginning of a run."""
     assert plan.kernel.carried is not None
     return real("before", plan.size - plan.kernel.carried.first)
 
 
 def turning(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that turn the momentum, and those that begin and end a run with it."""
+    """Return the functions that convert the momentum, and those that begin and end a run."""
     carried = plan.kernel.carried
     if carried is None:
         return ()
@@ -46,11 +46,14 @@ def _enter(plan: Plan, carried: Carried) -> Function:
     first, n = carried.first, plan.size - carried.first
     body = (
         Call("to_body", (state, before)),
+        # The conversion needs q, which both frames share.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
+        # Convert back immediately: the rounding error of the round trip then cancels in the
+        # difference at the end.
         Call("to_space", (moving, before)),
     )
-    about = "Begin: the state with body momentum, and what this momentum is in space."
+    about = "Begin: convert the state to body momentum, and store this momentum converted back to space."
     return Function(ENTER, about, (state, moving, before), body)
 
 
@@ -62,12 +65,11 @@ def _leave(plan: Plan, carried: Carried, n: int) -> Function:
         Array(momentum),
         Call("to_space", (moving, momentum)),
         For(i, whole(n), (Assign(momentum[i], gained),)),
+        # Test before writing: a failure leaves the caller's state unchanged.
         If(negated(all_finite(momentum)), (Return(code(NOT_FINITE)),)),
         Assign(state.part(0, carried.first), moving.part(0, carried.first)),
         Assign(state.part(carried.first, n), momentum),
         Return(code(OK)),
     )
-    about = (
-        "End: change the state to the moving one; its space momentum is increased by the gain since before."
-    )
+    about = "End: update the state; add to its space momentum the increase since the beginning of the run."
     return Function(LEAVE, about, (moving, before, state), body, Kind.STATUS)

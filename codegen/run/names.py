@@ -1,4 +1,4 @@
-"""Identifiers: program names made legal and unique in a target language."""
+"""Identifiers: legal and unique names in a target language for the names of a program."""
 
 from __future__ import annotations
 
@@ -10,31 +10,33 @@ class Names:
     """A mapping from program names to identifiers of a target, in order of first use.
 
     >>> names = Names({"double", "state"}); names.add_all(["m0", "double", "k.1"])
-    >>> names.spelled
+    >>> names.identifiers
     {'m0': 'm0', 'double': 'double_', 'k.1': 'k_1'}
     >>> names.fresh("m0")
     'm0_'
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
+        # Sorted, so that emitted names do not depend on the order of a set.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
-        self.spelled: dict[str, str] = {}
+        self.identifiers: dict[str, str] = {}
 
     @property
     def count(self) -> int:
-        """How many identifiers were given, by wish or for a name."""
+        """The number of identifiers in use."""
         return len(self._taken) - self._reserved
 
     def add_all(self, names: Iterable[str]) -> None:
         """Give each name an identifier."""
         for name in names:
-            if name not in self.spelled:
-                self.spelled[name] = self.fresh(name)
+            if name not in self.identifiers:
+                self.identifiers[name] = self.fresh(name)
 
-    def fresh(self, wish: str) -> str:
-        """Return an identifier not given before, close to the wish."""
-        name = re.sub(r"\W", "_", wish, flags=re.ASCII)
+    def fresh(self, proposal: str) -> str:
+        """Return an unused identifier, close to the proposal."""
+        name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
+        # C reserves identifiers with two leading underscores, Python mangles them in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
         while name in self._taken:

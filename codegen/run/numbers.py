@@ -1,4 +1,4 @@
-"""How many numbers a unit holds at once, which bounds the stack of a call."""
+"""The number of scalars that a unit holds at once, which bounds the stack of a call."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from codegen.run.terms import Kind, Term
 
 
 def numbers_held(unit: Unit) -> int:
-    """Return the numbers in all functions that callers do not see, and the most in one that they do."""
+    """Return the scalars of all private functions, plus the most of any public one."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     public = [held[f.name] for f in unit.functions if f.public]
+    # Private functions may all be inlined into one frame; a caller is inside one public function at
+    # a time.
     return sum(held.values()) - sum(public) + max(public)
 
 
@@ -28,7 +30,7 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
 
 
 def _size(unit: Unit, name: Term) -> int:
-    """Return how many numbers one entry is."""
+    """Return the number of scalars in one entry."""
     if name.kind is not Kind.RECORD:
         return 1
     return sum(prod(field.shape) for field, _ in unit.record(name.record).fields)

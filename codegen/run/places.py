@@ -1,4 +1,4 @@
-"""Where the blocks of a kernel's state lie, in which arrays."""
+"""The positions of the blocks of a kernel's state: array and offset."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class Place:
 
 
 def places(kernel: Kernel) -> tuple[Place, ...]:
-    """Return where the blocks of a kernel's state lie.
+    """Return the positions of the blocks of a kernel's state.
 
-    A kernel that carries a variation along has it as its last field, and in an array of its own.
+    The variation, if the kernel has one, is its last field and lies in a separate array.
     """
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []

@@ -1,4 +1,4 @@
-"""What the functions around one kernel have in common: arguments, and what of a run the kernel needs."""
+"""A plan: the common arguments of the functions around one kernel, and the features that the kernel needs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and its size."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of records, and of the arguments that are such."""
+"""The names of records, and of arguments of these types."""
 
 INPUTS = signal("inputs")
 """The function of time that gives the run-time inputs."""
@@ -47,7 +47,7 @@ class Plan:
 
     @property
     def size(self) -> int:
-        """How many numbers a state has."""
+        """The number of numbers in a state."""
         return len(self.symbols)
 
     @cached_property
@@ -66,47 +66,48 @@ class Plan:
 
     @property
     def counting(self) -> bool:
-        """Whether there are implicit blocks, whose sweeps are counted."""
+        """Whether there are implicit blocks; their sweeps are counted."""
         return bool(self.kernel.loops)
 
     @property
     def newton(self) -> bool:
         """Whether matrices of Newton's method are kept from step to step."""
+        # The other form of Newton's method computes its matrix in each step and keeps nothing.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property
     def start(self) -> Start | None:
-        """Where the loops begin, if solutions of earlier steps say so."""
+        """The initial values of the loops if they have a warm start."""
         return self.kernel.start
 
     @property
     def remembers(self) -> bool:
-        """Whether a step leaves something for the next."""
+        """Whether a step stores data for the next."""
         return self.start is not None or self.newton
 
     @property
     def parts(self) -> int:
-        """How many substeps a step has, 0 where it is one."""
+        """The number of substeps of a step, 0 if it has none."""
         return len(self.kernel.substeps)
 
     @property
     def memory(self) -> Term:
-        """What one step, or substep, leaves for the next."""
+        """The memory: data that one step, or substep, stores for the next."""
         return record(MEMORY, MEMORY)
 
     @property
     def memories(self) -> Term:
-        """That of all parts of a step."""
+        """The memory of each substep, or of the step."""
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
     def statistics(self) -> Term:
-        """What a caller wants counted, or nothing."""
+        """The optional statistics of the caller."""
         return record(STATISTICS, STATISTICS, optional=True)
 
     @property
     def error(self) -> Term:
-        """The array that receives the estimate of the error of a step, if it is there."""
+        """The optional array that receives the error estimate of a step."""
         return real("error", self.size, optional=True)
 
     def state(self, name: str = "state") -> Term:
@@ -114,16 +115,16 @@ class Plan:
         return real(name, self.size)
 
     def remembering(self, memory: Term) -> tuple[Term, ...]:
-        """Return the argument for what steps remember, none where they do not."""
+        """Return the argument for the memory, none if steps store nothing."""
         return (memory,) if self.remembers else ()
 
     @property
     def counted(self) -> tuple[Term, ...]:
-        """The argument for statistics, none where nothing is counted."""
+        """The argument for statistics, none if nothing is counted."""
         return (self.statistics,) if self.counting else ()
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
-        """Return the arguments for the time, where it is read, and the step size."""
+        """Return the arguments for the time, if it is read, and the step size."""
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
@@ -132,11 +133,11 @@ class Plan:
 
     @property
     def held(self) -> tuple[Term, ...]:
-        """The argument for inputs that stay the same over a step."""
+        """The argument for inputs that are constant over a step."""
         return (real("held", len(self.kernel.inputs)),) if self.kernel.inputs else ()
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
-        """Return those of some scalars that the kernel's statements read."""
+        """Return the scalars that the kernel's statements read."""
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

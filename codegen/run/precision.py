@@ -1,4 +1,4 @@
-"""Floating-point formats that emitted code computes in: how constants are rounded and spelled.
+"""Floating-point formats that emitted code computes in: rounding and text of constants.
 
 >>> SINGLE.text(SINGLE.round(Number.rational(1, 3))), DOUBLE.text(DOUBLE.round(Number.rational(1, 3)))
 ('0.33333334', '0.3333333333333333')
@@ -21,7 +21,7 @@ SUBNORMAL = {24: -149, 53: -1074}
 
 @dataclass(frozen=True)
 class Precision:
-    """A binary format of IEEE 754: ``bits`` of significand, its C type, and what C appends to its names.
+    """A binary format of IEEE 754: ``bits`` of significand, its C type, and the suffix of C names.
 
     ``largest`` is the greatest finite number.
     """
@@ -39,7 +39,7 @@ class Precision:
 
     @property
     def digits(self) -> int:
-        """Significant decimal digits that tell any two numbers apart."""
+        """Significant decimal digits that distinguish any two numbers."""
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
@@ -54,9 +54,9 @@ class Precision:
         """Return the nearest number of the format, rounded once; an InputError for one that is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
         if not abs(rounded) <= self.largest:
-            spelled = value.text() if isinstance(value, Number) else str(value)
+            text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
-                f"the constant {spelled} does not fit a {self.c_type}", expected=f"at most {self.largest:.3g}"
+                f"the constant {text} does not fit a {self.c_type}", expected=f"at most {self.largest:.3g}"
             )
         return rounded
 
@@ -64,6 +64,7 @@ class Precision:
         """Return the shortest digits that read back as this number of the format, always as a float."""
         if self.bits == 53:
             return repr(x)
+        # Python prints the shortest digits of a double; for a single they are found by trial.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
@@ -79,7 +80,7 @@ def _double(value: Number | Fraction | float) -> float:
 
 
 def _nearest(value: Number | Fraction | float, bits: int) -> float:
-    """Return the nearest number of so many bits, ties to even."""
+    """Return the nearest number of ``bits`` bits, ties to even."""
     if isinstance(value, Number):
         rational = value.is_rational
         exact = value.fraction() if rational else Fraction(value.ring.approximate(value.element, 40))
@@ -87,8 +88,10 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
+    # Rounding to a double first would round twice, and the second time ties may be decided wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
+    # Subnormal numbers have fewer bits: the last place has a fixed exponent there.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)

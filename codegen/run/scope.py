@@ -1,9 +1,9 @@
-"""Where a target that declares variables declares those of a function: as far in, and as late, as it can.
+"""Scopes for targets that declare variables: each variable is declared as deep and as late as possible.
 
-A variable belongs to the innermost block that holds all that assigns or reads it; where blocks side by side
-each assign it before they read it, to each of them. It is declared by its first assignment where that stands
-in the block itself, before the first statement that holds it otherwise. One that is assigned once is
-constant.
+A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign it
+before they read it, it belongs to each of them. Its first assignment declares it if this assignment is
+directly in the block; otherwise it is declared before the first statement that contains it. A variable that
+is assigned once is constant.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """By the identity of statements: the variables declared before them, and by them.
+    """Maps from ``id(statement)`` to the variables that are declared before it, and by it.
 
-    Of the latter each is mapped to whether it is constant.
+    ``by`` says of each variable whether it is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -40,14 +40,14 @@ class Declarations:
 
 
 def declarations(function: Function, identifiers: Identifiers) -> Declarations:
-    """Return where a function's variables are declared; arrays and indices of loops declare themselves."""
+    """Return the declarations of a function; arrays and loop indices are declared by their statements."""
     result = Declarations()
     _Scopes(identifiers, result).place(function.body, _variables(function, identifiers))
     return result
 
 
 def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
-    """Return the scalars that a function assigns, in order, which are neither parameters nor arrays."""
+    """Return the scalars that a function assigns, in order, without parameters and arrays."""
     result: dict[str, Term] = {}
 
     def collect(body: Body) -> None:
@@ -95,13 +95,15 @@ class _Scopes:
                     self.place(block, inside[id(block)])
 
     def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
-        """Return the inner blocks to which a variable belongs, none where it belongs to this one."""
+        """Return the inner blocks to which a variable belongs, none if it belongs to this block."""
         result: list[Body] = []
         for k in places:
             statement = body[k]
             if name in self.own(statement):  # a test or a value of this block reads it
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
+        # A value may pass from one sibling block to the next, unless each block assigns the
+        # variable first.
         if len(result) > 1 and not all(self.begins(block, name) for block in result):
             return []
         return result
@@ -126,6 +128,7 @@ class _Scopes:
         """Declare a variable in this block."""
         first = body[places[0]]
         times = sum(self.assignments(body[k], name) for k in places)
+        # `x = x + 1` cannot be a declaration, because it reads x.
         direct_first = isinstance(first, Assign) and self.assignments(first, name) > 0
         called = isinstance(first, Call) and len(first.results) == 1 and self.assignments(first, name) > 0
         if (direct_first or called) and name not in {self.identifiers.variable(x) for x in reads(first)}:
@@ -134,7 +137,7 @@ class _Scopes:
             self.result.before.setdefault(id(first), []).append((name, variable))
 
     def assignments(self, statement: Statement, name: str) -> int:
-        """Return how many assignments to a variable stand in a statement."""
+        """Return the number of assignments to a variable in a statement."""
         targets = [] if isinstance(statement, Array) else assigned(statement)
         own = sum(t.op == "name" and self.identifiers.variable(t) == name for t in targets)
         return own + sum(self.assignments(x, name) for block in blocks(statement) for x in block)
@@ -149,6 +152,7 @@ class _Scopes:
 
     def mentioned(self, statement: Statement) -> frozenset[str]:
         """Return the variables that a statement and its inner blocks mention."""
+        # By identity: equal statements at different places have separate scopes.
         if id(statement) not in self.cached:
             result = set(self.own(statement))
             for block in blocks(statement):

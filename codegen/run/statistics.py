@@ -1,7 +1,7 @@
 """Statistics: sweeps by block, the most in one step, the block that failed, and matrices of Newton's method.
 
-They are the caller's: a run adds to what it is given, or counts nothing. All counting stands in functions of
-its own, so that a loop holds one call.
+They belong to the caller: a run adds to the given record, or counts nothing. Separate functions do the
+counting, so that a loop contains a single call.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from codegen.run.plan import STATISTICS, Plan
 from codegen.run.terms import OK, STATUS, Kind, Term, code, count, flag, given, whole
 
 SWEEPS = count("sweep")
-"""How many sweeps a loop has made."""
+"""The number of sweeps of a loop so far."""
 
 
 def statistics_record(plan: Plan) -> Record:
@@ -19,12 +19,12 @@ def statistics_record(plan: Plan) -> Record:
     labels = [loop.label for loop in plan.kernel.loops]
     fields = [
         (count("sweeps", len(labels)), "by block: " + ", ".join(labels)),
-        (count("most"), "the most that one block took in one step"),
+        (count("most"), "the most sweeps of one block in one step"),
         (count("failed"), "1 + the block that failed, 0 if none has"),
     ]
     if plan.newton:
-        fields.append((count("matrices"), "how often a matrix of Newton's method was computed"))
-    about = "Sweeps over the equations, added up over all steps since the caller set everything to zero."
+        fields.append((count("matrices"), "how many Newton matrices were computed"))
+    about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
     return Record(STATISTICS, about, tuple(fields), public=True)
 
 
@@ -43,6 +43,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Add the sweeps over one block in one step.",
             (statistics, block, sweeps, failed),
+            # The caller may pass no statistics; the test is here and not in the loops.
             (If(given(statistics), adding),),
         )
     ]
@@ -64,5 +65,5 @@ def count_matrix(plan: Plan) -> Statement:
 
 
 def no_failure(plan: Plan) -> Statement:
-    """Return the statement that forgets a failure which was mended."""
+    """Return the statement that clears a failure after the continuation has succeeded."""
     return If(given(plan.statistics), (Assign(plan.statistics.field("failed", Kind.COUNT), whole(0)),))

@@ -1,8 +1,7 @@
 """One step: the kernel on a state, checked, and the composition of substeps.
 
-A step changes the state when it succeeds, and leaves it alone otherwise. The size of a step must be a number;
-so must be every number of the new state, and those of the old one that the kernel does not read because they
-follow from the others.
+A step changes the state if it succeeds, and leaves it unchanged otherwise. The step size must be finite. So
+must be the new state, and the entries of the old state that the kernel does not read.
 """
 
 from __future__ import annotations
@@ -47,41 +46,47 @@ from codegen.run.terms import (
 )
 
 ADVANCE, SUBSTEP = "advance", "substep"
-"""The names of the functions that make a step, and a part of one."""
+"""The names of the functions for a step and for a substep."""
 
 
 def core(plan: Plan) -> str:
-    """Return the name of the function that holds the kernel."""
+    """Return the name of the function that contains the kernel."""
     return SUBSTEP if plan.parts else ADVANCE
 
 
 def kernel_step(plan: Plan) -> Function:
-    """Return the function that holds the kernel."""
+    """Return the function that contains the kernel."""
     state = plan.state()
     read = plan.arrangement.symbols()
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
     ends, new = outputs(plan.arrangement, plan.symbols)
+    # The kernel does not read these entries because others determine them: a NaN in them would stay
+    # unnoticed.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
         *sampled(plan),
         *loaded(plan.symbols, state, read),
+        # The extrapolation follows the loops directly: its arithmetic overlaps with that of the
+        # outputs.
         *computed(plan, _remembered(plan)),
         *ends,
+        # Nothing is written to the state before this last test, so that a failed step leaves it
+        # unchanged.
         If(negated(all_finite(*new, *unread)), (Return(code(NOT_FINITE)),)),
         *_errors(plan),
         *_aged(plan),
         *stored(state, new),
         Return(code(OK)),
     ]
-    about = f"Make one {'part of a step' if plan.parts else 'step'}."
+    about = f"One {'substep' if plan.parts else 'step'}."
     return Function(core(plan), about, parameters, tuple(body), Kind.STATUS, RAISES_STATUS, often=True)
 
 
 def _remembered(plan: Plan) -> list[Statement]:
-    """Return the statements that take up the solutions: the next guess does not wait for the new state."""
+    """Return the statements that store the solution and extrapolate the next one."""
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))
@@ -90,55 +95,58 @@ def _remembered(plan: Plan) -> list[Statement]:
 
 
 def _errors(plan: Plan) -> list[Statement]:
-    """Return the statements that write the estimate of the error."""
+    """Return the statements that write the error estimate."""
     if plan.kernel.estimate is None:
         return []
     errors = stored(plan.error, [value(x) for x in plan.arrangement.errors])
+    # A run with constant steps passes no array and skips the estimate.
     return [If(given(plan.error), tuple(errors))]
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that count for how many steps an inverse for residuals has served."""
+    """Return the statements that count the age of an inverse for residuals, in steps."""
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
             continue
-        served, period = plan.memory.field(f"made_{k}", Kind.COUNT), loop.newton.period
-        # 0 asks the next step for a new matrix.
-        older = whole(0) if period == 1 else select((served % period) > 0, served + 1, 0)
-        sequence.append(Assign(served, older))
+        age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
+        # Age 0 makes the next step compute a new matrix: after ``period`` steps the old one contracts poorly.
+        older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
+        sequence.append(Assign(age, older))
     return sequence
 
 
 def exact_time(start: Term, steps: Term, h: Term) -> Term:
-    """Return start + steps h, rounded once: short steps do not vanish in a float's time."""
+    """Return start + steps h, computed as a double and rounded once."""
+    # t += h would accumulate one rounding error in each step, and in single precision short steps
+    # would not change t.
     return narrow(wide(start) + wide(steps) * wide(h))
 
 
 def substep_tables(plan: Plan) -> tuple[Table, ...]:
-    """Return how long the parts of a step are and when they begin, in units of h."""
+    """Return the tables of lengths and beginnings of the substeps, in units of h."""
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
-    sequence = [Table(real("fraction", n), (fractions,), "The parts of a step, in units of h.")]
+    sequence = [Table(real("fraction", n), (fractions,), "Lengths of the substeps, in units of h.")]
     if plan.time:
         offsets = tuple(rounded(step.offset) for step in plan.kernel.substeps)
-        sequence.append(
-            Table(real("offset", n), (offsets,), "The beginnings of the parts of a step, in units of h.")
-        )
+        sequence.append(Table(real("offset", n), (offsets,), "Beginnings of the substeps, in units of h."))
     return tuple(sequence)
 
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
-    """Return the arguments for the time and length of a part of a step."""
+    """Return the arguments for the time and length of a substep."""
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 
 
 def composed_step(plan: Plan) -> Function:
-    """Return the function that makes all parts of a step, one after the other."""
+    """Return the function that composes the substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
+    # One memory for each substep: only the solutions of the same substep in successive steps lie on
+    # a smooth curve.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)
@@ -150,6 +158,8 @@ def composed_step(plan: Plan) -> Function:
         Assign(part, part + 1),
     )
     body: tuple[Statement, ...] = (
+        # Substeps work on a copy: if a later one fails, the caller keeps the state before the whole
+        # step.
         Array(following),
         Assign(following, state),
         Assign(STATUS, code(OK)),
@@ -158,5 +168,5 @@ def composed_step(plan: Plan) -> Function:
         If(STATUS.equals(code(OK)), (Assign(state, following),)),
         Return(STATUS),
     )
-    about = "One step: all its parts, one after the other."
+    about = "One step: the composition of its substeps."
     return Function(ADVANCE, about, parameters, body, Kind.STATUS, often=True)

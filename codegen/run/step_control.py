@@ -1,13 +1,13 @@
 """Step control: steps as large as the tolerances allow, by a proportional-integral controller.
 
-The error of a step is the root mean square of its estimate over atol + rtol |y|; a step is accepted where
-that is at most one. With p the order of the estimate the next step is longer by 0.9 norm^(-0.7/p)
-before^(0.4/p), of the last two errors, but by a factor between 0.2 and 5, and not longer at all after a
-refusal; a refused step is repeated with 0.9 norm^(-1/p), between 0.2 and 0.9. Exponents and limits are those
-of Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, section II.4, and of Gustafsson's
-controller there.
+The error norm of a step is the root mean square of its estimate over atol + rtol |y|; a step is accepted if
+the norm is at most one. Let p be the order of the estimate. After an accepted step, the step size is
+multiplied by 0.9 norm^(-0.7/p) before^(0.4/p), where ``before`` is the norm of the previous accepted step;
+the factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
+factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. Exponents and limits are those of Hairer, Norsett and Wanner,
+Solving Ordinary Differential Equations I, section II.4, and of Gustafsson's controller there.
 
-The solutions of steps of another size are no guide: each step begins without them.
+Solutions of steps with another size give no useful initial guess: each step starts without memory.
 """
 
 from __future__ import annotations
@@ -43,13 +43,13 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FLOOR = 1e-4
-"""No error before is taken to be smaller: a lucky step shall not make the next ones long."""
+"""The least error norm that the controller remembers; an accidentally small error has no later effect."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the run that chooses its steps, with what it calls; none without an estimate."""
+    """Return the adaptive run and the functions that it calls; none without an error estimate."""
     if plan.kernel.estimate is None:
         return ()
     return weighted(plan), between(), _Controlled(plan).function()
@@ -75,18 +75,16 @@ def weighted(plan: Plan) -> Function:
         ),
         Return(call("sqrt", total / float(n))),
     )
-    about = (
-        "The root mean square of error over atol + rtol |y|, y the larger of a component before and after."
-    )
+    about = "The root mean square of error over atol + rtol |y|; |y| is the larger of before and after."
     parameters = (before, after, error, RTOL, ATOL)
     return Function("weighted", about, parameters, body, Kind.REAL, RAISES_NAN)
 
 
 def between() -> Function:
-    """Return the function that bounds a factor."""
+    """Return the function that limits a factor."""
     least, x, most = real("least"), real("x"), real("most")
     bounded = select(x > least, select(x < most, x, most), least)
-    about = "x, but at least least and at most most; least for a NaN."
+    about = "Clamp x to [least, most]; a NaN gives least."
     return Function("between", about, (least, x, most), (Return(bounded),), Kind.REAL)
 
 
@@ -96,10 +94,10 @@ class _Controlled:
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
     accepted, rejected = (count(name, 1, optional=True, cell=True) for name in ("accepted", "rejected"))
-    accepted_steps, refused, shrunk = count("made"), count("refused"), flag("shrunk")
+    accepted_steps, rejected_steps, shrunk = count("accepted_steps"), count("rejected_steps"), flag("shrunk")
     now, length, before = real("now"), real("size"), real("before")
     left, last, taken, following = real("left"), flag("last"), real("taken"), real("then")
-    norm, wish, factor = real("norm"), real("wish"), real("factor")
+    norm, proposed, factor = real("norm"), real("proposed"), real("factor")
 
     def __init__(self, plan: Plan) -> None:
         assert plan.kernel.estimate is not None
@@ -107,7 +105,7 @@ class _Controlled:
         self.trial, self.error = plan.state("trial"), real("error", plan.size)
 
     def function(self) -> Function:
-        """Return the whole."""
+        """Return the function."""
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
@@ -119,26 +117,28 @@ class _Controlled:
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
-            If(given(self.rejected), (Assign(self.rejected[0], self.refused),)),
+            If(given(self.rejected), (Assign(self.rejected[0], self.rejected_steps),)),
             Return(STATUS),
         )
         return Function("run_adaptive", "", parameters, body, Kind.STATUS, public=True)
 
     def begin(self) -> tuple[Statement, ...]:
-        """Return what stands before the first step."""
+        """Return the statements before the first step."""
         plan = self.plan
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
+        # A crude choice is enough: each trial corrects it by a factor of up to 5.
         chosen = size(self.end - self.now) / 100.0
         return (
             Assign(STATUS, code(OK)),
             Assign(self.accepted_steps, whole(0)),
-            Assign(self.refused, whole(0)),
+            Assign(self.rejected_steps, whole(0)),
             Assign(self.shrunk, truth(False)),
             Assign(self.now, self.t[0]),
             Assign(self.length, size(self.h[0])),
             If(self.length <= 0.0, (Assign(self.length, chosen),)),
+            # The norm 1 makes the integral term neutral in the first step.
             Assign(self.before, number(1.0)),
             If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
             *memory,
@@ -148,32 +148,37 @@ class _Controlled:
 
     def step(self) -> tuple[Statement, ...]:
         """Return the statements of one trial."""
+        # In floating-point arithmetic t + h may equal t: then no number of steps reaches the end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
+            # The last step assigns the end itself: a sum would miss it by rounding, and a tiny step
+            # would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
-                either(self.accepted_steps + self.refused >= self.limit, stuck),
+                either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
                 (Assign(STATUS, code(LIMIT)),),
+                # The test is false for a NaN: an estimate that is not a number rejects the step.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
         )
 
     def tried(self) -> tuple[Statement, ...]:
-        """Return the statements that make a step on trial and measure its error."""
+        """Return the statements that compute a trial step and the norm of its error."""
         plan, state = self.plan, self.plan.state()
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
+        # The extrapolation assumes solutions at equal distances in time.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
-            # A step that fails is refused like one whose error is too large.
+            # A failed step is rejected like one whose error is too large: a shorter one may succeed.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )
@@ -187,21 +192,27 @@ class _Controlled:
         return number(self.plan.format.round(x))
 
     def bounded(self, most: Term) -> Call:
-        """Return the call that makes the wish a factor."""
-        return Call("between", (self.rounded(LEAST), self.wish, most), (self.factor,))
+        """Return the call that limits the proposed factor."""
+        return Call("between", (self.rounded(LEAST), self.proposed, most), (self.factor,))
 
     def accept(self) -> tuple[Statement, ...]:
-        """Return the statements after a step that was accepted."""
+        """Return the statements after an accepted step."""
         state, floor = self.plan.state(), self.rounded(FLOOR)
+        # The previous error damps the controller: step sizes oscillate less where stability limits
+        # them.
         trend = self.power(self.before, 0.4)
+        # After a rejection the estimate was just found to be too optimistic: do not increase the
+        # step at once (Hairer, Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), number(MOST))
         return (
             Assign(state, self.trial),
             Assign(self.now, self.following),
             Assign(self.accepted_steps, self.accepted_steps + 1),
-            Assign(self.wish, self.rounded(SAFETY) * self.power(self.norm, -0.7) * trend),
+            Assign(self.proposed, self.rounded(SAFETY) * self.power(self.norm, -0.7) * trend),
             self.bounded(longer),
             If(
+                # A last step is shortened to hit the end; its length is no proposal for the next
+                # call, unless the error asks for less.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -210,16 +221,16 @@ class _Controlled:
         )
 
     def refuse(self) -> tuple[Statement, ...]:
-        """Return the statements after a step that was refused.
+        """Return the statements after a rejected step.
 
-        A failure is forgotten as long as a shorter step still changes the time.
+        A failure is cleared as long as a shorter step still changes the time.
         """
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (
-            Assign(self.refused, self.refused + 1),
+            Assign(self.rejected_steps, self.rejected_steps + 1),
             Assign(self.shrunk, truth(True)),
-            Assign(self.wish, self.rounded(SAFETY) * self.power(self.norm, -1.0)),
+            Assign(self.proposed, self.rounded(SAFETY) * self.power(self.norm, -1.0)),
             self.bounded(self.rounded(SAFETY)),
             Assign(self.length, size(self.taken) * self.factor),
             Assign(following, self.now + call("copysign", self.length, self.left)),

@@ -1,16 +1,22 @@
-"""The stopping rule of every loop over implicit equations, in its one place.
+"""The stopping rule for all loops over implicit equations.
 
-A sweep changes the unknowns by at most ``change``; ``scale`` is their largest. With the sweep before it, of
-change ``previous``, the rate of convergence is change/previous. The rule has three ways to end a loop:
+``change`` is the largest change of an unknown in a sweep, ``scale`` the largest absolute value of an unknown.
+``previous`` is the change of the sweep before, so the rate of convergence is change/previous. A loop ends if
+it is
 
-- *close*: the change is at rounding, and the next one, change times rate, is below half a unit of the last
-  place. One small change alone proves nothing: a slow iteration makes small changes far from the solution.
-- *still*: the change has stopped to fall, and is near rounding. Rounding then is all that moves the unknowns.
-- *lost*: it has stopped to fall, and what it moves the state by, h times itself, is lost in rounding there.
-  Unknowns that are small differences of large numbers never come to rest by their own measure.
+- *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
+  unit in the last place. A small change alone proves nothing: a slow iteration makes small changes far from
+  the solution.
+- *still*: the change no longer decreases and is near rounding level, so that it consists of rounding errors.
+- *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
+  rounding errors of the state. Unknowns that are small differences of large numbers never reach rounding
+  level themselves.
 
-No number is small or large as such: a motion that is scaled makes the same sweeps, and what diverges is not
-taken for still because it is small yet. A change that is no number ends a loop with NOT_FINITE.
+All tests are relative: a scaled motion takes the same sweeps, and a diverging iteration is not accepted
+because its values are still small. A change that is not finite ends a loop with NOT_FINITE.
+
+A stopping test by rate times change is that of Hairer and Wanner, Solving Ordinary Differential Equations II,
+section IV.8.
 """
 
 from __future__ import annotations
@@ -47,10 +53,10 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""No rate is trusted to be smaller where the last change is made too: its own errors are of that size."""
+"""Added to the rate: the last change is applied too, and its own relative errors have this size."""
 
 FOUR_ROUNDINGS = 2.0**-50
-"""Of the sum of the unknowns: where residuals are compared, a change is a sum of sizes, too."""
+"""Four roundings, relative to the sum of the unknowns; for residuals, a change is such a sum too."""
 
 CHANGE, SCALE = real("change"), real("scale")
 
@@ -66,29 +72,32 @@ class Stopping:
 
     @property
     def previous(self) -> Term:
-        """The change of the sweep before, 0 in the first one."""
+        """The change of the sweep before; 0 in the first sweep."""
         return real(f"previous_{self.number}")
 
     @property
     def rate(self) -> Term:
-        """The rate of convergence as far as it is known: at first that of the step before."""
+        """The rate of convergence; in the first sweep that of the step before."""
         return real(f"rate_{self.number}")
 
     @property
     def kept_rate(self) -> Term:
-        """Where a step leaves the rate for the next."""
+        """The rate that a step stores for the next."""
         return self.plan.memory.field(f"rate_{self.number}")
 
     @cached_property
     def warm(self) -> bool:
-        """Whether the loop begins where solutions of earlier steps lead."""
+        """Whether the loop has a warm start."""
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
-        """Return what stands before the first sweep."""
+        """Return the statements before the first sweep."""
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
+            # Between steps of equal size the rate hardly changes, so the old one lets the first
+            # sweep be the last (Hairer and Wanner start with the old rate for the same reason).
+            # Rate 1 is pessimistic: only a change at rounding level ends the first sweep.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
@@ -100,38 +109,50 @@ class Stopping:
         ]
 
     def rates(self) -> list[Statement]:
-        """Return the statements that note how far off the guess was, and the rate."""
+        """Return the statements that store the error of the initial guess, and the rate."""
         if not self.warm:
             return []
         first = self.plan.memory.field("first")
         return [
+            # The first change measures the error of the initial guess. A step may have several
+            # loops, and the warm start judges all by the worst.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
-                self.previous > 0.0, (Assign(self.rate, greatest([CHANGE / self.previous, number(SLOWEST)])),)
+                # Near rounding level a quotient of changes may be tiny by accident.
+                self.previous > 0.0,
+                (Assign(self.rate, greatest([CHANGE / self.previous, number(SLOWEST)])),),
             ),
         ]
 
-    def settled(self) -> list[Statement]:
-        """Return the statements that set the flag ``settled``."""
+    def converged(self) -> list[Statement]:
+        """Return the statements that set the flag ``converged``."""
+        # Tolerances are multiples of the unit roundoff: single precision needs fewer sweeps.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
+        # A small change proves nothing by itself; the predicted next change, rate times change,
+        # must be below rounding. Without a stored rate the test is change^2 <= bound * previous,
+        # which needs no division; previous = 0 in the first sweep then accepts a zero change only.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
+        # Rounding errors can keep the change above every bound. Then it stops decreasing, and more
+        # sweeps are useless; ``tolerance`` distinguishes this from divergence.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
             Assign(flag("close"), both(CHANGE <= close * SCALE, next_change)),
             Assign(
-                flag("settled"),
+                flag("converged"),
                 either(flag("close"), both(flag("still"), either(CHANGE <= tolerance * SCALE, self.lost()))),
             ),
         ]
 
     def lost(self) -> Term:
-        """Return whether a change is lost in every block of the state, or of its variation."""
+        """Return the test that a change is below the rounding of every block of the state or variation."""
+        # A variation does not act on the state, so its equations are compared with the variation
+        # itself.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -148,12 +169,12 @@ class Stopping:
             Assign(SCALE, paired(map(size, unknowns))),
         ]
 
-    def settled_by_residuals(self) -> list[Statement]:
-        """Return the statements that set the flag ``settled`` where residuals are made to vanish.
+    def converged_by_residuals(self) -> list[Statement]:
+        """Return the statements that set the flag ``converged`` for a loop over residuals.
 
-        The matrix is good to first order in h, so that the rate of the step before holds in the first sweep.
-        A loop that contracts ends where the next change would be below four roundings of the sum of the
-        unknowns; one that does not, where it stands still or nothing is felt, and never in its first sweep.
+        The matrix is exact to first order in h, so the rate of the step before is valid in the first sweep. A
+        contracting loop ends if the predicted next change is below four roundings of the sum of the unknowns.
+        Another loop ends if its change is small or below the rounding of the state, never in the first sweep.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))
@@ -164,36 +185,43 @@ class Stopping:
                 (Assign(rate, CHANGE / self.previous),),
                 (Assign(first, first + CHANGE),),
             ),
+            # The estimate by rate and change is reliable only if the iteration contracts clearly.
             Assign(flag("contracts"), rate < 0.5),
             Assign(
-                flag("settled"),
+                flag("converged"),
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
+                    # One sweep that does not contract says nothing about the distance to the
+                    # solution.
                     both(SWEEPS > 1, either(CHANGE <= tolerance * SCALE, self.lost())),
                 ),
             ),
         ]
 
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
-        """Return the statement that makes a status of the flag; ``finite`` must be a number for any.
+        """Return the statement that converts the flag to a status, NOT_FINITE unless ``finite`` is finite.
 
-        ``possible`` is false where a matrix has no inverse: what looks settled then is not.
+        ``possible`` is false if the matrix is singular; the flag is then meaningless.
         """
-        # The number comes first: comparisons with a NaN are false, and would look like another sweep.
-        settled = flag("settled") if possible is None else both(possible, flag("settled"))
-        settling = select(settled, code(OK), code(NOT_CONVERGED))
-        return Assign(STATUS, select(is_finite(finite), settling, code(NOT_FINITE)))
+        # Test for finiteness first: all comparisons with a NaN are false, so the flag would ask for more
+        # sweeps.
+        converged = flag("converged") if possible is None else both(possible, flag("converged"))
+        outcome = select(converged, code(OK), code(NOT_CONVERGED))
+        return Assign(STATUS, select(is_finite(finite), outcome, code(NOT_FINITE)))
 
     def going_on(self, astray: Term | None = None) -> Term:
-        """Return whether another sweep is to be made."""
+        """Return the test for another sweep."""
+        # The limit is a safeguard for iterations that contract too slowly; the continuation then
+        # takes over.
         tests = [STATUS.equals(code(NOT_CONVERGED)), SWEEPS < self.loop.limit]
         return both(*tests, *([] if astray is None else [negated(astray)]))
 
     def after(self) -> list[Statement]:
-        """Return what stands after the last sweep, which has succeeded.
+        """Return the statements after a loop that has succeeded.
 
-        A rate that was not measured, as the first sweep was the last, counts double from step to step.
+        One sweep measures no rate. The old rate is then doubled, so that after some steps a second sweep
+        follows.
         """
         if not self.warm:
             return []

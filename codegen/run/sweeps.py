@@ -1,14 +1,15 @@
-"""Loops over implicit equations: fixed points u = g(u), and Newton's method in its three forms.
+"""Loops over implicit equations: fixed-point iteration for u = g(u), and Newton's method in three forms.
 
-A sweep computes the images of the unknowns. A fixed point takes the images for the unknowns; the values of
-the last sweep so belong to unknowns that are known to agree with their images. Newton's method adds the
-residuals times the inverse of a matrix, in the last sweep too:
+A sweep computes the images g(u) of the unknowns. Fixed-point iteration replaces the unknowns by their images,
+except in the last sweep, so that values computed there belong to the accepted unknowns. Newton's method adds
+the inverse of a matrix times the residuals, in the last sweep too:
 
-- *Newton*: the exact matrix is made in the first sweep of all and kept, from sweep to sweep and from step to
-  step, until a change is not smaller than ``Newton.CONTRACTION`` times the one before it. A matrix just made
-  that gives no smaller change, or that has no inverse, means that the loop has gone astray.
-- *chord*: the matrix to first order in h is cheap enough to be made before the sweeps of each step.
-- *residuals*: the matrix to first order in h of what is to vanish, kept for ``Newton.period`` steps.
+- *Newton*: the exact matrix is computed in the first sweep if the memory has none. It is kept from sweep to
+  sweep and from step to step, until a change exceeds ``Newton.CONTRACTION`` times the one before it. If the
+  change does not decrease right after the matrix was computed, or if the matrix is singular, the loop has
+  failed.
+- *chord*: the matrix to first order in h is cheap, and is computed before the sweeps of each step.
+- *residuals*: the matrix of residuals to first order in h is kept for ``Newton.period`` steps.
 """
 
 from __future__ import annotations
@@ -51,14 +52,14 @@ from codegen.run.terms import (
 from codegen.run.values import simple
 
 WIDE = 12
-"""The most unknowns for which each entry of a matrix stands in a statement of its own."""
+"""Up to WIDE unknowns, each entry of a matrix has a separate statement."""
 
 WIDEST = 20
-"""The most unknowns of a fixed point for which each stands in a statement of its own."""
+"""Up to WIDEST unknowns, fixed-point iteration measures each change in a separate statement."""
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
-    """Return the statements of one loop, up to what ends the function where it fails."""
+    """Return the statements of one loop; if it fails, they return its status."""
     newton = iteration.loop.newton
     if newton is None:
         return _FixedPoint(plan, iteration, counting).statements()
@@ -67,7 +68,7 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """What fixed points and Newton's method have in common; ``counting`` is off where nobody asks."""
+    """The common part of both methods; without ``counting`` the loop has no statistics."""
 
     plan: Plan
     iteration: Iteration
@@ -80,7 +81,7 @@ class _Loop:
 
     @property
     def number(self) -> int:
-        """Which loop of the kernel this is."""
+        """The number of the loop in the kernel."""
         return self.iteration.number
 
     @property
@@ -90,7 +91,7 @@ class _Loop:
 
     @cached_property
     def images(self) -> list[Term]:
-        """What the images are called: those that have names keep them."""
+        """The names of the images; an image that is a symbol already keeps its name."""
         loop = self.iteration.loop
         return [
             own(x.payload) if x.op == "sym" and x.payload not in loop.unknowns else own(f"next {u}")
@@ -102,12 +103,12 @@ class _Loop:
         return [own(f"{word} {u}") for u in self.iteration.loop.unknowns]
 
     def begin(self) -> list[Statement]:
-        """Return what stands before the first sweep."""
+        """Return the statements before the first sweep."""
         loop = self.iteration.loop
         sequence: list[Statement] = [
             Note(f"{loop.label}: {METHODS[loop.solver]}, {len(loop.unknowns)} unknowns")
         ]
-        starts = zip(self.unknowns, self.iteration.starts, strict=False)  # none where they begin together
+        starts = zip(self.unknowns, self.iteration.starts, strict=False)  # no starts with a warm start
         sequence += [Assign(u, value(x)) for u, x in starts]
         return [*sequence, *self.rule.before()]
 
@@ -116,47 +117,57 @@ class _Loop:
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
+        # All images are computed before any unknown changes (a Jacobi sweep): the order of the
+        # equations then has no effect.
         for image, x in zip(self.images, self.iteration.images, strict=True):
             if image.text.startswith("next "):
                 sequence.append(Assign(image, value(x)))
         return sequence
 
-    def until_settled(self, body: Sequence[Statement], astray: Term | None = None) -> list[Statement]:
-        """Return the loop and what follows it."""
+    def until_converged(self, body: Sequence[Statement], astray: Term | None = None) -> list[Statement]:
+        """Return the loop and the statements after it."""
+        # No loop is left from its middle, because array languages cannot do that: the status ends
+        # it. NOT_CONVERGED is also the result if the loop ends at its limit of sweeps.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if self.counting:
+            # Count before the guard returns: the statistics must name the block that failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
 
 
 class _FixedPoint(_Loop):
-    """u = g(u), taken as it stands."""
+    """Fixed-point iteration for u = g(u)."""
 
     def statements(self) -> list[Statement]:
         """Return the statements of the loop."""
+        # Unrolled statements grow with the number of unknowns; above the limit, loops over arrays
+        # keep the code small.
         many = len(self.unknowns) > WIDEST
         measured, finite = self.wide() if many else self.narrow()
         rule, body = self.rule, self.computed()
-        body += [*measured, *rule.rates(), *rule.settled(), rule.decided(finite)]
+        body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # The last sweep leaves the unknowns as they were: body values that are read later belong to them.
+        # The last sweep does not change the unknowns: values of its body that are read later belong to them.
+        # A branch and not a select: after convergence nothing needs to be copied.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
-        return [*self.begin(), *self.until_settled(body)]
+        return [*self.begin(), *self.until_converged(body)]
 
     def narrow(self) -> tuple[list[Statement], Term]:
-        """Return the statements that measure each change, and what is finite if all are."""
+        """Return the statements that measure each change, and a term that is finite only if all are."""
         changes = self.named("change")
         sequence: list[Statement] = [
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
+        # CHANGE, a maximum, cannot show a NaN: `a > b ? a : b` drops it. A sum of absolute values
+        # keeps NaNs, and infinities in it cannot cancel.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the same of many unknowns, by a loop over arrays."""
+        """Return the same for many unknowns, by a loop over arrays."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
@@ -191,13 +202,13 @@ class _Newton(_Loop):
 
     @property
     def making(self) -> Term:
-        """Whether a matrix is to be computed in this sweep."""
+        """The flag for computing a matrix in this sweep."""
         return flag(f"make_{self.number}")
 
     @property
-    def served(self) -> Term:
-        """For how many steps the matrix of the memory has served, 0 where there is none."""
-        return self.plan.memory.field(f"made_{self.number}", Kind.COUNT)
+    def age(self) -> Term:
+        """The age of the matrix in the memory, in steps; 0 without a matrix."""
+        return self.plan.memory.field(f"age_{self.number}", Kind.COUNT)
 
     @cached_property
     def inverse(self) -> Term:
@@ -211,76 +222,89 @@ class _Newton(_Loop):
         return self.by_residuals() if self.newton.residuals else self.by_images()
 
     def by_images(self) -> list[Statement]:
-        """Return the loop where images are compared with unknowns."""
+        """Return the loop over u = g(u), with residuals g(u) - u."""
         rule, residuals, changes = self.rule, self.named("residual"), self.named("change")
         sequence, body = self.begin(), self.computed()
         for residual, x, u in zip(residuals, self.images, self.unknowns, strict=True):
             body.append(Assign(residual, x - u))
         finite = total(residuals)
         if self.kept:
-            sequence.append(Assign(self.making, negated(self.served > 0)))
+            sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
+            # A matrix at unknowns that are not finite would replace a good one in the memory.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # Scale is measured before the correction: a first guess of zero then is not close to anything.
+        # Measure the scale before the correction: with an initial guess of zero no change is relatively
+        # small.
         body += self.corrected(changes)
-        body += rule.settled()
-        body.append(rule.decided(finite, self.served > 0 if self.kept and not self.newton.inverted else None))
+        body += rule.converged()
+        # ``invert`` writes its success to the age. With a singular matrix the changes mean nothing,
+        # however small.
+        body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
+            # The matrix is exact at the current unknowns and still the change does not decrease: no
+            # further sweep can help, and the step needs a better initial guess (continuation).
             astray = both(flag("still"), self.making)
             if not self.newton.inverted:
-                astray = either(astray, negated(self.served > 0))
+                astray = either(astray, negated(self.age > 0))
             body.append(Assign(flag("astray"), astray))
+            # A simplified Newton iteration contracts by the relative error of its matrix. A slow
+            # contraction means an outdated matrix, and a new one costs less than many slow sweeps.
+            # In the first sweep ``previous`` is 0 and nothing is known yet.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
-        return [*sequence, *self.until_settled(body, flag("astray") if self.kept else None)]
+        return [*sequence, *self.until_converged(body, flag("astray") if self.kept else None)]
 
     def by_residuals(self) -> list[Statement]:
-        """Return the loop where the images are what is to vanish."""
+        """Return the loop over equations whose images are the residuals."""
         rule, changes = self.rule, [own(c) for c in self.newton.changes]
         sequence, body = self.begin(), self.computed()
         inverted = not self.newton.inverted
-        sequence.append(Assign(self.making, negated(self.served > 0)))
+        sequence.append(Assign(self.making, negated(self.age > 0)))
         body.append(If(self.making, tuple(self.renewed())))
         body += self.product(changes, self.images)
         body += rule.sums(changes, self.unknowns)
         body += self.corrected(changes)
-        body += rule.settled_by_residuals()
-        body.append(rule.decided(CHANGE, self.served > 0 if inverted else None))
-        # A second matrix in one step would cost more than the sweeps that it saves.
+        body += rule.converged_by_residuals()
+        body.append(rule.decided(CHANGE, self.age > 0 if inverted else None))
+        # A second matrix in the same step costs more than the sweeps that it saves.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
-        return [*sequence, *self.until_settled(body, negated(self.served > 0) if inverted else None)]
+        return [*sequence, *self.until_converged(body, negated(self.age > 0) if inverted else None)]
 
     def corrected(self, changes: Sequence[Term]) -> list[Statement]:
         """Return the statements that add the changes."""
         return [Assign(u, u + c) for u, c in zip(self.unknowns, changes, strict=True)]
 
     def renewed(self) -> list[Statement]:
-        """Return the statements that make the matrix of the memory and invert it."""
+        """Return the statements that compute and invert the matrix of the memory."""
         sequence = self.entries()
         if self.newton.inverted:
-            return [*sequence, Assign(self.served, whole(1)), *self.matrix_counted()]
-        sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.served,)))
+            return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
+        # An explicit inverse costs more than a factorisation once, but each sweep then is a product
+        # without divisions or dependent substitutions, and the inverse lasts for many sweeps.
+        sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.age,)))
         counted = self.matrix_counted()
-        return [*sequence, *([If(self.served > 0, tuple(counted))] if counted else [])]
+        return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
 
     def matrix_counted(self) -> list[Statement]:
         """Return the statement that counts a matrix."""
         return [count_matrix(self.plan)] if self.counting else []
 
     def prepared(self) -> list[Statement]:
-        """Return the statements that make the matrix of one step and invert it, before its sweeps."""
+        """Return the statements that compute and invert the matrix of one step, before its sweeps."""
         sequence = self.entries()
         if self.newton.inverted:
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
+        # A singular matrix counts as a failure to converge, so that the continuation tries shorter
+        # steps.
         sequence.append(Assign(STATUS, code(NOT_CONVERGED)))
         singular = inverted.equals(0)
         if self.counting:
@@ -295,12 +319,15 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
+            # An initialiser and one copy: n^2 separate assignments would make very long functions.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
-        """Return an entry of the inverse: a variable where it is written out in each step."""
+        """Return an entry of the inverse; it is a variable if the inverse is computed in each step."""
         if self.iteration.loop.solver == CHORD and self.newton.inverted:
+            # This inverse is used in one step only: scalars can stay in registers, entries of an
+            # array cannot.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
@@ -309,6 +336,8 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
+            # The latency of this sum is on the critical path of every sweep, and sums of pairs
+            # halve it.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)

@@ -19,11 +19,11 @@ from codegen.ir.expr import Expr
 
 OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT = "OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT"
 STATUSES = (OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT)
-"""The status codes; each is its place in this tuple."""
+"""The status codes; the number of a code is its index in this tuple."""
 
 
 class Kind(Enum):
-    """What a term is: a WIDE real has the range and precision of a double, whatever the format is."""
+    """The type of a term; a WIDE real has the range and precision of a double in every format."""
 
     REAL = "real"
     WIDE = "wide"
@@ -136,6 +136,8 @@ _COUNT = Term("name", kind=Kind.COUNT)
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
+    # A Python number takes the kind of the other operand: 1 beside a count is a count, beside a
+    # real 1.0.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
@@ -214,12 +216,12 @@ INFINITY = Term("infinity")
 
 
 def both(*tests: Term) -> Term:
-    """Return whether all tests hold; later ones are not looked at where one before does not."""
+    """Return the conjunction of tests; evaluation ends at the first that is false."""
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
 def either(*tests: Term) -> Term:
-    """Return whether some test holds; later ones are not looked at where one before does."""
+    """Return the disjunction of tests; evaluation ends at the first that is true."""
     return reduce(lambda a, b: Term("or", (a, b), Kind.FLAG), tests)
 
 
@@ -229,7 +231,7 @@ def negated(test: Term) -> Term:
 
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
-    """Return one of two values; this is no branch: an array language computes both."""
+    """Return one of two values; this is no branch, since an array language computes both."""
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
@@ -272,20 +274,23 @@ def total(terms: Iterable[Term]) -> Term:
 
 
 def paired(terms: Iterable[Term]) -> Term:
-    """Return a sum of pairs, from left to right: fewer additions wait for one another."""
+    """Return a sum that adds pairs first, then the pairs from left to right."""
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
+    # The pairs are independent of one another, so n / 2 dependent additions remain. The order is
+    # fixed here because floating-point addition is not associative and compilers must not regroup
+    # it.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 
 def given(argument: Term) -> Term:
-    """Return whether an optional argument is there."""
+    """Return the test that an optional argument is present."""
     return Term("given", (argument,), Kind.FLAG)
 
 
 def absent(parameter: Term) -> Term:
-    """Return what is passed for an optional parameter to leave it out."""
+    """Return the argument that omits an optional parameter."""
     return replace(parameter, op="none", args=())
 
 
@@ -310,7 +315,7 @@ def narrow(x: Term) -> Term:
 
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
-    """Yield every name below some terms, those in expressions of the kernel included."""
+    """Yield every name in terms, including names in expressions of the kernel."""
     waiting = list(terms)[::-1]
     while waiting:
         term = waiting.pop()

@@ -1,9 +1,9 @@
-"""A run of steps of one size, with rows of a trajectory, and a single step for callers.
+"""A run of steps with constant size, with rows of a trajectory, and the public single step.
 
-A run ends where all steps are made or one fails; the state is then the last good one. Rows are written at the
-beginning and after every stride-th step.
+A run ends after the last step or after a failure; the state is then the last good one. Rows are written at
+the beginning and after every stride-th step.
 
-A small explicit kernel stands in the loop of the run itself: its state then stays in registers.
+A small explicit kernel is inlined in the loop of the run, so that its state stays in registers.
 """
 
 from __future__ import annotations
@@ -38,24 +38,25 @@ from codegen.run.terms import (
 )
 
 REGISTERS = 6
-"""How many numbers of a state stay in registers beside what a step computes with them."""
+"""The largest state that stays in registers next to the intermediate values of a step."""
 
 DONE = count("step")
-"""How many steps are made."""
+"""The number of completed steps."""
 
 COMPLETED = count("completed", 1, optional=True, cell=True)
 
 
 def is_looped(plan: Plan) -> bool:
-    """Whether the loop of a run holds the kernel: where nothing else calls it and its state is small."""
+    """Whether the loop of a run contains the kernel: no other function calls it, and its state is small."""
     kernel = plan.kernel
+    # A function call in each step would force the state to memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     return alone and not (plan.counting or plan.time or kernel.estimate is not None)
 
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a trajectory, where a caller wants them: at first and after every stride-th step."""
+    """The optional rows of a trajectory: the initial state, and the state after every stride-th step."""
 
     plan: Plan
 
@@ -75,7 +76,7 @@ class Rows:
         ]
 
     def due(self, step: Term = DONE) -> Term:
-        """Return whether the state after so many steps is a row."""
+        """Return the test that the state after ``step`` steps is a row."""
         return both(self.recording, (step % STRIDE).equals(0))
 
     def add(self, state: Term) -> list[Statement]:
@@ -87,12 +88,12 @@ class Rows:
 
 
 def own_memory(plan: Plan) -> list[Statement]:
-    """Return the statement that makes the memory of a run."""
+    """Return the statement that creates the memory of a run."""
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
 def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, ...]:
-    """Return what a step is called with besides the state."""
+    """Return the arguments of a step after the state."""
     return (
         *plan.moment(t),
         *plan.parameters,
@@ -103,19 +104,20 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 
 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
-    """Return the statements that make a step and set the status."""
+    """Return the statements that call a step and set the status."""
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
     return [call, *([] if plan.parts else retried(plan, state, given_arguments))]
 
 
 def step(plan: Plan) -> Function:
-    """Return the function that makes one step for a caller; run-time inputs stay the same over it."""
+    """Return the public function for one step; run-time inputs are constant over it."""
     state = plan.state()
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
+        # A step is a run of one step here: a second copy of the kernel would only add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
@@ -142,7 +144,7 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
 
 
 def run(plan: Plan) -> Function:
-    """Return the function that makes a run."""
+    """Return the public function for a run."""
     state, rows = plan.state(), Rows(plan)
     carried = plan.kernel.carried is not None
     moving, before = plan.state(MOVING), momentum_before(plan) if carried else STATUS
@@ -156,13 +158,17 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
+            # The row is first a copy of the initial state: LEAVE adds the increase of the momentum
+            # to it. The run itself continues in the body frame, without another conversion.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
+        # Each time is computed from the initial one, so that errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
+        # The counter advances after success only: it is then the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
     if carried:
-        # A momentum may be finite in the body and overflow in space: then no step counts as made.
+        # A momentum may be finite in the body frame and overflow in space: then no step counts as completed.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -172,12 +178,12 @@ def run(plan: Plan) -> Function:
 
 
 def completed() -> list[Statement]:
-    """Return the statement that tells a caller how many steps were made."""
+    """Return the statement that reports the number of completed steps."""
     return [If(given(COMPLETED), (Assign(COMPLETED[0], DONE),))]
 
 
 def _looped(plan: Plan, rows: Rows) -> list[Statement]:
-    """Return the loop of a run that holds the kernel itself."""
+    """Return the loop of a run with the kernel inlined."""
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
@@ -194,6 +200,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
+        # Local copies: the compiler cannot prove that rows of the trajectory do not alias the
+        # state, and would store the state in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

@@ -1,4 +1,4 @@
-"""The unit of a kernel: every function, record and table that a module of it needs, and no other."""
+"""The unit of a kernel: all functions, records and tables that its module needs, and no others."""
 
 from __future__ import annotations
 
@@ -33,6 +33,8 @@ def _steps(plan: Plan) -> list[Function]:
         listed += counters(plan)
     if plan.start is not None:
         listed += WarmStart(plan).functions()
+    # Here ``step`` calls ``run``, so ``run`` comes first; otherwise both call the function of the
+    # kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), run(plan), step(plan)]
     listed.append(kernel_step(plan))

@@ -8,7 +8,7 @@ from codegen.run.terms import own, value
 
 
 def simple(statement: Simple) -> list[Statement]:
-    """Return the statements of an assignment, a joint call, or a call of an outlined function."""
+    """Return the statements of an assignment, a call of Stumpff functions, or of an outlined function."""
     if isinstance(statement, Assignment):
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):

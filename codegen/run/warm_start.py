@@ -1,11 +1,11 @@
-"""Warm starts: the unknowns of a step begin at the polynomial through the solutions of the steps before.
+"""Warm start: the initial guess of a step is the extrapolation of the solutions of previous steps.
 
-Its degree grows while the backward differences of the solutions fall. After many solutions it is looked at in
-every eighth step alone. Where the guess was off by more than ``Start.ROUGH`` of what the unknowns have moved,
-the motion has changed, and only the last solution is kept.
+The degree of the polynomial grows while the backward differences of the solutions decrease. Once the memory
+is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
+times the change of the unknowns over the step, the motion has changed, and only the last solution is kept.
 
-Solutions lie in a ring, each twice, so that the last ``depth`` are neighbours in it. Up to :data:`FEW`
-unknowns each has a variable of its own; loops over arrays would take as long as the sweeps they save.
+Solutions are stored in a ring buffer, each twice, so that the last ``depth`` are always contiguous. Up to
+:data:`FEW` unknowns each sum is a scalar; loops over arrays would take as long as the sweeps they save.
 """
 
 from __future__ import annotations
@@ -46,16 +46,16 @@ from codegen.run.terms import (
 from codegen.run.values import simple
 
 FEW = 12
-"""Up to so many unknowns differences are spelled one by one."""
+"""Up to FEW unknowns, differences are computed in scalars, without inner loops."""
 
 SELDOM = 8
-"""Of many solutions the degree is chosen in every so many steps."""
+"""With a full memory, the degree is adapted in every SELDOM-th step."""
 
 _I = count("i")
 
 
 def begun(plan: Plan, statement: Beginning) -> If:
-    """Return the statement that gives the unknowns of all loops their first values."""
+    """Return the statement that sets the unknowns of all loops to their initial guess."""
     unknowns = [own(u) for u in statement.start.unknowns]
     guess = plan.memory.field("guess", Kind.REAL, (len(unknowns),))
     cold: list[Statement] = []
@@ -63,45 +63,54 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
+    # A branch and not a select: the cold start evaluates parts of the kernel, which a run needs
+    # once only.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
 def memory_record(plan: Plan) -> Record:
-    """Return the record of what one step of a run leaves for the next."""
+    """Return the record of the data that one step of a run stores for the next."""
     fields: list[tuple[Term, str]] = []
     words = []
     if plan.start is not None:
         past, depth = len(plan.start.unknowns), plan.start.depth
         fields += [
-            (count("known"), "how many solutions there are"),
-            (real("first"), "by how much the last guess was off"),
-            (count("degree"), "of the polynomial"),
-            (count("place"), "of the latest solution"),
-            (real("guess", past), "the polynomial, continued by a step"),
-            (real("values", 2 * depth, past), "each solution twice: the last ones are neighbours"),
+            (count("known"), "number of stored solutions"),
+            (real("first"), "error of the last guess"),
+            (count("degree"), "degree of the extrapolation"),
+            (count("place"), "row of the latest solution"),
+            (real("guess", past), "extrapolation to the next step"),
+            (
+                real("values", 2 * depth, past),
+                "ring buffer; each solution is stored twice, so the last ones are contiguous",
+            ),
         ]
+        # The rates of convergence belong to the solutions: both are invalid once the motion
+        # changes.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of its equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
+        # A matrix to leading order is computed in each step and needs no memory.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
-                (count(f"made_{k}"), "for how many steps the inverse has served, 0: there is none"),
+                (count(f"age_{k}"), "age of the inverse in steps, 0: no inverse"),
                 (real(f"inverse_{k}", n * n), ""),
             ]
     if plan.newton:
         words.append("inverses of Newton's matrices")
-    about = f"What one step of a run leaves for the next: {', and '.join(words)}."
+    about = f"Data that one step of a run stores for the next: {', and '.join(words)}."
     return Record(MEMORY, about, tuple(fields))
 
 
 def differences(start: Start) -> Table:
-    """Return the factors of backward differences, by their order."""
+    """Return the coefficients of backward differences, by order."""
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
+    # Padding with zeros lets a loop read terms in pairs: an odd last term meets a zero.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
-    about = "Backward differences by their order: the factors of the solutions, the latest first."
+    about = "Coefficients of backward differences by order, the latest solution first."
     return Table(_factors(start), padded, about)
 
 
@@ -110,14 +119,14 @@ def _factors(start: Start) -> Term:
 
 
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
-    """Return a statement for every index, one by one where they are few, else as a loop."""
+    """Return a statement for each index: one by one up to FEW, else as a loop."""
     if n <= FEW:
         return [statement(whole(k)) for k in range(n)]
     return [For(_I, whole(n), (statement(_I),))]
 
 
 class WarmStart:
-    """The functions that take up solutions and guess the next."""
+    """The functions that store solutions and extrapolate the next one."""
 
     def __init__(self, plan: Plan) -> None:
         assert plan.start is not None
@@ -136,9 +145,9 @@ class WarmStart:
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
-        """Return the function that fills ``sum`` by a backward difference.
+        """Return the function that fills ``sum`` with a backward difference.
 
-        The latest solution is added last: the rest of the sum does not wait for it.
+        The latest solution is added last, so that the rest of the sum can be computed before it is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
@@ -153,8 +162,8 @@ class WarmStart:
                 ),
             ]
         about = (
-            "A backward difference, times sign, of an order without its first terms, which were of later "
-            "solutions. The latest is added last: the rest of the sum does not wait for it."
+            "A backward difference times sign, from the term with index first on. The latest solution is "
+            "added last, so that the rest of the sum can be computed before it is known."
         )
         parameters = (self.memory, order, first, sign, result)
         return Function("difference", about, parameters, tuple(body), often=True)
@@ -172,46 +181,57 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
+            # Two terms for each dependent addition: the two products are independent, so half the
+            # latency remains.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
+            # From the oldest solution to the latest, which the sweeps of this step have just
+            # produced: only the last product waits for them.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
 
     def difference_size(self) -> Function:
-        """Return the function that measures a difference."""
+        """Return the function for the size of a difference."""
         order, row, size_now = count("order"), real("row", self.n), real("size")
         body = (
             Array(row),
+            # The difference of order k is the error that an extrapolation of degree k - 1 would
+            # have had.
             Call("difference", (self.memory, order, whole(0), number(1.0), row)),
             Assign(size_now, number(0.0)),
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
             Return(size_now),
         )
-        about = "The size of a backward difference."
+        about = "The sum of the absolute values of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
     def remember(self) -> Function:
-        """Return the function that takes up a solution."""
+        """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("the guess was no mere copy"),
+            Note("with fewer than three solutions the guess is only a copy: do not judge it"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [
             Assign(self.first, number(0.0)),
+            # Fill the ring downwards: row place + j is then the solution j steps ago.
             Assign(place, select(self.place > 0, self.place - 1, self.depth - 1)),
             Assign(self.place, place),
         ]
 
-        # Each solution is stored twice, so that the last ones are neighbours wherever the ring begins.
+        # Store each solution twice: the last ``depth`` are then contiguous at every position in the ring, and
+        # the inner loops need no index modulo ``depth``.
         for row in (place, place + self.depth):
             body.append(Assign(self.values[row], solution))
         body.append(If(self.known < self.depth, (Assign(self.known, self.known + 1),)))
         body += self.chosen(place)
         body += [
-            Note("the next difference vanishes where this is the next solution"),
+            Note("choose the next solution such that the difference of the next order vanishes"),
+            # The polynomial of degree k through the last solutions has zero differences of order k
+            # + 1. Solved for the first term of the difference, this is the value one step later: no
+            # nodes, no divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -221,7 +241,7 @@ class WarmStart:
         return Function("remember", about, (self.memory, solution), tuple(body), often=True)
 
     def judged(self, solution: Term) -> list[Statement]:
-        """Return the statements that forget all solutions but the next where the guess was too far off."""
+        """Return the statements that discard all earlier solutions if the guess was bad."""
         moved = real("moved")
 
         def added(k: Term) -> Statement:
@@ -231,11 +251,14 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
+            # A ratio of two changes has no unit. A guess that is off by half of the motion is
+            # hardly better than the last solution, and a high degree would carry the disturbance on
+            # for many steps.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
     def chosen(self, place: Term) -> list[Statement]:
-        """Return the statements that let the degree grow while the differences fall."""
+        """Return the statements that adapt the degree: it grows while the differences decrease."""
         size_now = real("size")
 
         def measured(order: Term, name: str) -> Statement:
@@ -250,9 +273,14 @@ class WarmStart:
             If(size_now > real("lower"), (Assign(self.degree, self.degree - 1),)),
         )
         grows = flag("grows")
-        look = (
+        adapt = (
+            # Differences decrease with the order while the motion is smooth on the scale of h,
+            # until rounding errors, which grow by 2 with each order, dominate. The least difference
+            # marks the best degree. It moves slowly, so it is enough to compare with the two
+            # neighbours.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
+            # A difference of order k needs k + 1 solutions.
             If(self.degree + 1 < self.known, higher),
             If(
                 grows,
@@ -260,8 +288,11 @@ class WarmStart:
                 (If(self.degree > 0, lower),),
             ),
         )
+        # The row of the latest solution decreases by one in each step and so counts the steps.
         often = Term("or", (self.known < self.depth, (place % SELDOM).equals(0)), Kind.FLAG)
         return [
-            Note(f"the degree grows while differences fall; with many it is chosen once in {SELDOM} steps"),
-            If(often, look),
+            Note(
+                f"raise the degree while differences decrease; with a full memory, check every {SELDOM} steps"
+            ),
+            If(often, adapt),
         ]

@@ -1,4 +1,4 @@
-"""Which parameters a function changes, itself or through what it calls."""
+"""The parameters that a function changes, directly or through calls."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from codegen.run.language import Array, Assign, Call, Function, Unit, root, stat
 
 
 def written(unit: Unit, function: Function) -> frozenset[str]:
-    """Return the names of those parameters, which are arrays and records."""
+    """Return the names of the arrays and records among a function's parameters that it changes."""
     own = {p.text for p in function.parameters if p.shape or p.record}
     changed_names: set[str] = set()
     for statement in statements(function.body):
@@ -20,6 +20,8 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
+                # Callees come first in a unit and calls are not recursive, so that this recursion
+                # ends.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
             case Array():

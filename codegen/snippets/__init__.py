@@ -1,1 +1,1 @@
-"""Run-time helpers that emitted code may call, pulled in only with what uses them."""
+"""Run-time helpers of emitted code; a module contains only the helpers that it calls."""

@@ -1,4 +1,8 @@
-"""The dependency graph of snippets: a node a helper or a function of the target's library, an edge a call."""
+"""The dependency graph of snippets.
+
+A node is a helper or a function of the target's mathematical library, an edge is a call. The folder
+``snippets/TARGET`` has a template for each helper, and ``number.j2`` for the literals in them.
+"""
 
 from __future__ import annotations
 
@@ -19,7 +23,7 @@ LIBRARY = ("cos", "cosh", "exp", "fabs", "isfinite", "log", "sin", "sinh", "sqrt
 
 @dataclass(frozen=True)
 class Snippet:
-    """A helper: the template that spells it, what it calls, and the template's variables."""
+    """A helper: its template, the functions that it calls, and the variables of the template."""
 
     name: str
     template: str
@@ -28,31 +32,31 @@ class Snippet:
 
 
 def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
-    """Return every snippet; the same names serve each target.
+    """Return every snippet; all targets use the same names.
 
-    The shorter polynomials near zero are for doubles: in single precision the longer one is as short.
+    The shorter polynomials near zero are for doubles. In single precision the long one is as short.
     """
-    found = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
-    found.append(Snippet("largest", "largest", ("fabs",)))
-    found.append(Snippet("power", "power"))
-    found.append(Snippet("all_finite", "all_finite", ("isfinite",)))
-    found.append(Snippet("invert", "invert", ("fabs",)))
+    listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
+    listed.append(Snippet("largest", "largest", ("fabs",)))
+    listed.append(Snippet("power", "power"))
+    listed.append(Snippet("all_finite", "all_finite", ("isfinite",)))
+    listed.append(Snippet("invert", "invert", ("fabs",)))
     for k in (2, 3):
         variables = {"k": k, "terms": stumpff.slopes(k, precision)}
-        found.append(Snippet(f"slope{k}", "slope", (f"stumpff_{k - 1}{k}",), variables))
+        listed.append(Snippet(f"slope{k}", "slope", (f"stumpff_{k - 1}{k}",), variables))
     for k, hyperbolic in enumerate(("cosh", "sinh")):
         needs = (f"stumpff_{k}", "sqrt", hyperbolic)
-        found.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
+        listed.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
     switch = [float(z) for z in stumpff.SWITCH]
     for k in range(4):
         first, *rest = stumpff.constants(k, None, precision)
         values: dict[str, Any] = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}
-        found.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
+        listed.append(Snippet(f"stumpff_series_{k}", "stumpff_series", (), values))
         if precision is DOUBLE:
             for size, last in (("small", stumpff.SMALL), ("tiny", stumpff.TINY)):
                 short = [precision.round(c) for c in stumpff.economised(k, last)]
                 values = {"k": k, "size": size, "last": str(last), "short": short}
-                found.append(Snippet(f"stumpff_{size}_{k}", "stumpff_small", (), values))
+                listed.append(Snippet(f"stumpff_{size}_{k}", "stumpff_small", (), values))
     for orders in stumpff.SETS:
         name = "stumpff_" + "".join(map(str, orders))
         library = ["sqrt"]
@@ -63,35 +67,35 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         series = (*library, *(f"stumpff_series_{k}" for k in orders))
         values = {"name": name, "orders": orders, "switch": switch}
         if precision is not DOUBLE:
-            found.append(Snippet(name, "stumpff", series, values | {"small": ""}))
+            listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
             continue
-        # What is small enough to be inlined everywhere stands alone; the rest is called seldom.
+        # The branch near zero is small enough to be inlined at each call; the other one is called rarely.
         far, small = f"{name}_far", float(stumpff.SMALL)
-        found.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
+        listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
         # Three functions in two forms would be too long for a C compiler to inline.
         sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
         calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
         tiny = float(stumpff.TINY) if "tiny" in sizes else ""
-        found.append(
+        listed.append(
             Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far})
         )
-    return tuple(found)
+    return tuple(listed)
 
 
 @cache
 def graph(precision: Precision = DOUBLE) -> nx.DiGraph:
-    """Return the graph: an edge from each helper to what it calls."""
-    made = nx.DiGraph()
-    made.add_nodes_from(LIBRARY, snippet=None)
+    """Return the graph: an edge from each helper to each function that it calls."""
+    result = nx.DiGraph()
+    result.add_nodes_from(LIBRARY, snippet=None)
     for snippet in snippets(precision):
-        made.add_node(snippet.name, snippet=snippet)
-        made.add_edges_from((snippet.name, called) for called in snippet.calls)
-    return made
+        result.add_node(snippet.name, snippet=snippet)
+        result.add_edges_from((snippet.name, called) for called in snippet.calls)
+    return result
 
 
 @dataclass(frozen=True)
 class Needed:
-    """What a set of functions needs: library functions, sorted, and helper texts, callees first."""
+    """The requirements of a set of functions: library functions, sorted, and helper texts, callees first."""
 
     library: tuple[str, ...]
     texts: tuple[str, ...]
@@ -107,13 +111,13 @@ def needed(
     widest: int = 0,
     chain: int = 1,
 ) -> Needed:
-    """Return what the functions called by a module need in a target, and nothing else.
+    """Return the helpers and library functions that a module of a target needs, and no others.
 
-    ``sweeps`` says that they are called in sweeps over equations, where many values are at hand that a call
-    would put aside: C then may inline all branches of Stumpff functions. ``wide`` is how many rows
-    all matrices have that are inverted, 0 where they differ or are many: C spells a row number by number.
-    ``widest`` is how many rows the largest one has: C reserves room for that.
-    ``chain`` is how many angles depend one on the other, as for :func:`codegen.snippets.stumpff.limit`.
+    ``functions`` are the functions that the module calls. ``sweeps`` says that it calls them in sweeps over
+    equations: a call there would spill many live values, so C may inline all branches of Stumpff functions.
+    ``wide`` is the common number of rows of all inverted matrices, 0 if they differ or are large; C unrolls a
+    row of this length. ``widest`` is the largest number of rows; C reserves this much memory.
+    ``chain`` is the number of angles that depend on one another (:func:`codegen.snippets.stumpff.limit`).
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -124,33 +128,32 @@ def needed(
     whole = graph(precision)
     nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
     order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
-    found = [whole.nodes[name]["snippet"] for name in order]
+    ordered = [whole.nodes[name]["snippet"] for name in order]
     given = {
         "sweeps": sweeps,
         "wide": wide,
         "widest": widest or wide,
         "limit": stumpff.limit(precision, chain),
     }
-    texts = tuple(_text(target, snippet, precision, given) for snippet in found if snippet is not None)
+    texts = tuple(_text(target, snippet, precision, given) for snippet in ordered if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
 
 
 def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, Any]) -> str:
-    template = environment(target).get_template(f"snippets/{snippet.template}.j2")
+    templates = environment(target)
+    literal = templates.get_template("snippets/number.j2")
 
     def number(x: float) -> str:
         text = precision.text(precision.round(x))
-        if target == "c":
-            return text + precision.suffix
-        return text if precision is DOUBLE else f"float32({text})"
+        return literal.render(text=text, f=precision.suffix, single=precision is not DOUBLE).strip()
 
-    # "f" follows the names of C's library functions.
-    spelled: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
+    # C appends "f" to the names of its library functions in single precision.
+    values: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
     for name, value in (given | snippet.variables).items():
         if isinstance(value, float):
-            spelled[name] = number(value)
+            values[name] = number(value)
         elif isinstance(value, list | tuple) and value and isinstance(value[0], float):
-            spelled[name] = [number(x) for x in value]
+            values[name] = [number(x) for x in value]
         else:
-            spelled[name] = value
-    return template.render(spelled).strip()
+            values[name] = value
+    return templates.get_template(f"snippets/{snippet.template}.j2").render(values).strip()

@@ -1,10 +1,10 @@
-"""Stumpff functions for z >= 0: which branch computes which, and the numbers in them.
+"""Stumpff functions for z >= 0: their branches, and the coefficients of the polynomials.
 
 c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and
 c_3 = (sqrt z - sin sqrt z)/z^(3/2). Up to a switch each is its Taylor polynomial, a shorter one where z is
-small, as it is in most steps; above it a closed form that cancels nowhere: c_2 = c_1(z/4)^2/2, and
+small, as it is in most steps; above it a closed form without cancellation: c_2 = c_1(z/4)^2/2, and
 c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of them shares one sine and cosine. Errors stay within two units
-in the last place, plus what half a unit in sqrt z causes. Beyond :func:`limit` there is no answer.
+in the last place, plus the effect of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from math import factorial
 from codegen.run.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""The polynomial of c_k serves up to z = SWITCH[k]; c_1(4) = 0.4546."""
+"""c_k is its polynomial up to z = SWITCH[k]; c_1(4) = 0.4546."""
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
-"""Up to these shorter polynomials serve: angles up to a quarter and to a sixteenth."""
+"""Shorter polynomials suffice up to these z: angles up to 1/4 and up to 1/16."""
 
 PI = Fraction("3.14159265358979323846264338327950288")
 
@@ -29,19 +29,19 @@ SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n)
 
 
 LEFT = 10
-"""Bits that are left of a step that turns as far as it may: three digits."""
+"""Bits that are correct after a step by the largest allowed angle: three digits."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
-    """Return the z beyond which c_k is not a number: no digit of what turns further is determined.
+    """Return the largest z; beyond it c_k is NaN, because no digit of the rotated vector would be correct.
 
-    A rounding of 2^-bits in what an angle a is computed from is one of a 2^-bits in the point, eight times
-    as much, say, in the field there, and so on along a ``chain`` of angles
-    (:func:`codegen.ir.angle_depth.chain`):
-    of a^chain 8^(chain-1) 2^-bits no more than 2^-LEFT may come. Stages of long chains turn by parts of the
-    step's angle, and lose no more than short ones: 2^(bits/6) is always allowed. No angle is larger than
-    2^(2 bits/5), for a momentum carried along loses twice as many digits as the angle has, by sums that go
-    with its square. A step that turns further says that its state is not finite.
+    A relative rounding error of 2^-bits in the data of an angle a gives an error of a 2^-bits in the point,
+    and about eight times as much in the field there. Along a ``chain`` of angles
+    (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain 8^(chain-1) 2^-bits; the bound on it is
+    2^-LEFT. The stages of a long chain rotate by fractions of the step's angle and lose no more digits than
+    those of a short one, so that 2^(bits/6) is always allowed. No angle is larger than 2^(2 bits/5): a
+    carried momentum loses twice as many digits as the angle has, because sums grow with its square. A step
+    with a larger angle reports a state that is not finite.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

@@ -1,6 +1,7 @@
-"""Jinja2 environments, one a target, made once; an undefined variable is an error.
+"""Jinja2 environments, one for each target, cached; an undefined variable is an error.
 
-A template named ``snippets/NAME.j2`` is found among the target's snippets, any other in its folder here.
+``snippets/NAME.j2`` is a file of ``codegen/snippets/TARGET``, ``module/NAME.j2`` one of this folder's
+``TARGET``.
 """
 
 from __future__ import annotations

@@ -21,13 +21,13 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
- *             2 mul a start, in steps that follow no other
+ *             2 mul an initial guess, in the first step of a run
  *             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
- * stack:      at most 10944 bytes, without what the mathematical library takes
- * made by:    orderconds emit dipole --method vcf:cf4 --target c -o .
+ * stack:      at most 10944 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit dipole --method vcf:cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c dipole_vcf_cf4.c
@@ -154,7 +154,7 @@ static inline void stumpff_23_far(double z, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -185,7 +185,7 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -203,7 +203,7 @@ static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -239,7 +239,7 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-/* The largest size of n numbers */
+/* The largest absolute value of n numbers */
 static double largest(const double *x, size_t n)
 {
     double size = 0.0;
@@ -249,8 +249,8 @@ static double largest(const double *x, size_t n)
     return size;
 }
 
-/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
- * none, else 1. Here n is always 12. */
+/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan with row exchanges); return 0 if it is
+ * singular, else 1. Here n is always 12. */
 static size_t invert(size_t n, double *restrict a)
 {
     double row[12];
@@ -318,22 +318,22 @@ static int all_finite(const double *x, size_t n)
 }
 
 /*
- * What one step of a run leaves for the next: solutions of its equations, the latest first, and
+ * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
 struct memory {
-    size_t known; /* how many solutions there are */
-    double first; /* by how much the last guess was off */
-    size_t degree; /* of the polynomial */
-    size_t place; /* of the latest solution */
-    double guess[12]; /* the polynomial, continued by a step */
-    double values[32][12]; /* each solution twice: the last ones are neighbours */
+    size_t known; /* number of stored solutions */
+    double first; /* error of the last guess */
+    size_t degree; /* degree of the extrapolation */
+    size_t place; /* row of the latest solution */
+    double guess[12]; /* extrapolation to the next step */
+    double values[32][12]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t made_1; /* for how many steps the inverse has served, 0: there is none */
+    size_t age_1; /* age of the inverse in steps, 0: no inverse */
     double inverse_1[144];
 };
 
-/* Backward differences by their order: the factors of the solutions, the latest first. */
+/* Coefficients of backward differences by order, the latest solution first. */
 static const double differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -378,8 +378,8 @@ static void count_matrix(dipole_vcf_cf4_statistics *statistics)
 }
 
 /*
- * A backward difference, times sign, of an order without its first terms, which were of later
- * solutions. The latest is added last: the rest of the sum does not wait for it.
+ * A backward difference times sign, from the term with index first on. The latest solution is added
+ * last, so that the rest of the sum can be computed before it is known.
  */
 static inline void difference(const struct memory *memory, size_t order, size_t first,
     double sign, double sum[static 12])
@@ -428,7 +428,7 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     sum[11] = sum_11;
 }
 
-/* The size of a backward difference. */
+/* The sum of the absolute values of a backward difference. */
 static double difference_size(const struct memory *memory, size_t order)
 {
     double row[12];
@@ -446,7 +446,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 12])
 {
-    /* the guess was no mere copy */
+    /* with fewer than three solutions the guess is only a copy: do not judge it */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -474,7 +474,7 @@ static inline void remember(struct memory *memory, const double solution[static 
     if (memory->known < 16) {
         memory->known++;
     }
-    /* the degree grows while differences fall; with many it is chosen once in 8 steps */
+    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = difference_size(memory, memory->degree);
         int grows = 0;
@@ -491,11 +491,11 @@ static inline void remember(struct memory *memory, const double solution[static 
             }
         }
     }
-    /* the next difference vanishes where this is the next solution */
+    /* choose the next solution such that the difference of the next order vanishes */
     difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
-/* Make one step. */
+/* One step. */
 static inline int advance(double state[static 12], double h, struct memory *memory,
     dipole_vcf_cf4_statistics *statistics)
 {
@@ -576,7 +576,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     /* the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns */
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
-    int make_1 = !(memory->made_1 > 0);
+    int make_1 = !(memory->age_1 > 0);
     size_t sweep = 0;
     int status = DIPOLE_VCF_CF4_NOT_CONVERGED;
     double s_p1_0_seen, s_p1_1_seen, s_p1_2_seen, d_xi1_0, d_xi1_1, d_xi1_2, d_xi2_0, d_xi2_1,
@@ -1078,8 +1078,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[141] = -h * (xi3_1 + w161 + w178);
             memory->inverse_1[142] = -h * (w171 + w225 + w179);
             memory->inverse_1[143] = 0.01;
-            memory->made_1 = invert(12, memory->inverse_1);
-            if (memory->made_1 > 0) {
+            memory->age_1 = invert(12, memory->inverse_1);
+            if (memory->age_1 > 0) {
                 count_matrix(statistics);
             }
         }
@@ -1179,16 +1179,16 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->first += change;
         }
         const int contracts = rate_1 < 0.5;
-        const int settled = contracts
+        const int converged = contracts
             ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : (sweep > 1
             && (change <= 5.684341886080802e-14 * scale
             || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
             && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
-        status = isfinite(change) ? (memory->made_1 > 0 && settled ? DIPOLE_VCF_CF4_OK
+        status = isfinite(change) ? (memory->age_1 > 0 && converged ? DIPOLE_VCF_CF4_OK
             : DIPOLE_VCF_CF4_NOT_CONVERGED) : DIPOLE_VCF_CF4_NOT_FINITE;
         make_1 = 0;
         previous_1 = change;
-    } while (status == DIPOLE_VCF_CF4_NOT_CONVERGED && sweep < 100 && !!(memory->made_1 > 0));
+    } while (status == DIPOLE_VCF_CF4_NOT_CONVERGED && sweep < 100 && !!(memory->age_1 > 0));
     count_sweeps(statistics, 0, sweep, status != DIPOLE_VCF_CF4_OK);
     if (status != DIPOLE_VCF_CF4_OK) {
         return status;
@@ -1305,7 +1305,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -1314,7 +1314,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         == 0.0)) {
         return DIPOLE_VCF_CF4_NOT_FINITE;
     }
-    memory->made_1 = memory->made_1 % 6 > 0 ? memory->made_1 + 1 : 0;
+    memory->age_1 = memory->age_1 % 6 > 0 ? memory->age_1 + 1 : 0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;
@@ -1331,8 +1331,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
 }
 
 /*
- * Make a step whose equations do not settle: without the earlier solutions, which may mislead where
- * the motion changes; then through shorter ones, whose solutions are continued in h.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
+ * if the motion has changed, then by continuation in h from shorter steps.
  */
 static int continued(double state[static 12], double h, struct memory *memory,
     dipole_vcf_cf4_statistics *statistics)
@@ -1424,7 +1424,7 @@ static inline void to_space(const double state[static 12], double momentum[stati
     momentum[2] = g20 * mu0 + g21 * mu1 + g22 * mu2;
 }
 
-/* Begin: the state with body momentum, and what this momentum is in space. */
+/* Begin: convert the state to body momentum, and store this momentum converted back to space. */
 static void enter_body(const double state[static 12], double moving[static 12],
     double before[static 3])
 {
@@ -1434,7 +1434,7 @@ static void enter_body(const double state[static 12], double moving[static 12],
     to_space(moving, before);
 }
 
-/* End: change the state to the moving one; its space momentum is increased by the gain since before. */
+/* End: update the state; add to its space momentum the increase since the beginning of the run. */
 static int leave_body(const double moving[static 12], const double before[static 3],
     double state[static 12])
 {

@@ -19,12 +19,12 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 38 add, 58 mul, 1 stumpff_12 a step
- *             2 mul a start, in steps that follow no other
+ *             2 mul an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
- * stack:      at most 3968 bytes, without what the mathematical library takes
- * made by:    orderconds emit dipole --method vcg:midpoint --target c -o .
+ * stack:      at most 3968 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit dipole --method vcg:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c dipole_vcg_midpoint.c
@@ -143,7 +143,7 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -161,7 +161,7 @@ static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -197,7 +197,7 @@ static inline void stumpff_12(double z, double *c1, double *c2)
     }
 }
 
-/* The largest size of n numbers */
+/* The largest absolute value of n numbers */
 static double largest(const double *x, size_t n)
 {
     double size = 0.0;
@@ -219,22 +219,22 @@ static int all_finite(const double *x, size_t n)
 }
 
 /*
- * What one step of a run leaves for the next: solutions of its equations, the latest first, and
+ * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
 struct memory {
-    size_t known; /* how many solutions there are */
-    double first; /* by how much the last guess was off */
-    size_t degree; /* of the polynomial */
-    size_t place; /* of the latest solution */
-    double guess[3]; /* the polynomial, continued by a step */
-    double values[32][3]; /* each solution twice: the last ones are neighbours */
+    size_t known; /* number of stored solutions */
+    double first; /* error of the last guess */
+    size_t degree; /* degree of the extrapolation */
+    size_t place; /* row of the latest solution */
+    double guess[3]; /* extrapolation to the next step */
+    double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t made_1; /* for how many steps the inverse has served, 0: there is none */
+    size_t age_1; /* age of the inverse in steps, 0: no inverse */
     double inverse_1[9];
 };
 
-/* Backward differences by their order: the factors of the solutions, the latest first. */
+/* Coefficients of backward differences by order, the latest solution first. */
 static const double differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -279,8 +279,8 @@ static void count_matrix(dipole_vcg_midpoint_statistics *statistics)
 }
 
 /*
- * A backward difference, times sign, of an order without its first terms, which were of later
- * solutions. The latest is added last: the rest of the sum does not wait for it.
+ * A backward difference times sign, from the term with index first on. The latest solution is added
+ * last, so that the rest of the sum can be computed before it is known.
  */
 static inline void difference(const struct memory *memory, size_t order, size_t first,
     double sign, double sum[static 3])
@@ -302,7 +302,7 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     sum[2] = sum_2;
 }
 
-/* The size of a backward difference. */
+/* The sum of the absolute values of a backward difference. */
 static double difference_size(const struct memory *memory, size_t order)
 {
     double row[3];
@@ -320,7 +320,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    /* the guess was no mere copy */
+    /* with fewer than three solutions the guess is only a copy: do not judge it */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -339,7 +339,7 @@ static inline void remember(struct memory *memory, const double solution[static 
     if (memory->known < 16) {
         memory->known++;
     }
-    /* the degree grows while differences fall; with many it is chosen once in 8 steps */
+    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = difference_size(memory, memory->degree);
         int grows = 0;
@@ -356,11 +356,11 @@ static inline void remember(struct memory *memory, const double solution[static 
             }
         }
     }
-    /* the next difference vanishes where this is the next solution */
+    /* choose the next solution such that the difference of the next order vanishes */
     difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
-/* Make one step. */
+/* One step. */
 static inline int advance(double state[static 12], double h, struct memory *memory,
     dipole_vcg_midpoint_statistics *statistics)
 {
@@ -393,7 +393,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     /* the equations of xi1, n1: Newton's method, 3 unknowns */
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
-    int make_1 = !(memory->made_1 > 0);
+    int make_1 = !(memory->age_1 > 0);
     size_t sweep = 0;
     int status = DIPOLE_VCG_MIDPOINT_NOT_CONVERGED;
     double s_mu_0_seen, s_mu_1_seen, s_mu_2_seen, d_xi1_0, d_xi1_1, d_xi1_2;
@@ -466,7 +466,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[6] = w38 * w39;
             memory->inverse_1[7] = w39 * (w33 * w34 + 1.01 * w30);
             memory->inverse_1[8] = w39 * (1.01 - w33 * w35);
-            memory->made_1 = 1;
+            memory->age_1 = 1;
             count_matrix(statistics);
         }
         d_xi1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
@@ -486,12 +486,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->first += change;
         }
         const int contracts = rate_1 < 0.5;
-        const int settled = contracts
+        const int converged = contracts
             ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : (sweep > 1
             && (change <= 5.684341886080802e-14 * scale
             || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
             && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
-        status = isfinite(change) ? (settled ? DIPOLE_VCG_MIDPOINT_OK
+        status = isfinite(change) ? (converged ? DIPOLE_VCG_MIDPOINT_OK
             : DIPOLE_VCG_MIDPOINT_NOT_CONVERGED) : DIPOLE_VCG_MIDPOINT_NOT_FINITE;
         make_1 = 0;
         previous_1 = change;
@@ -543,7 +543,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -552,7 +552,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         == 0.0)) {
         return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
     }
-    memory->made_1 = 0;
+    memory->age_1 = 0;
     state[0] = new_g00;
     state[1] = new_g01;
     state[2] = new_g02;
@@ -569,8 +569,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
 }
 
 /*
- * Make a step whose equations do not settle: without the earlier solutions, which may mislead where
- * the motion changes; then through shorter ones, whose solutions are continued in h.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
+ * if the motion has changed, then by continuation in h from shorter steps.
  */
 static int continued(double state[static 12], double h, struct memory *memory,
     dipole_vcg_midpoint_statistics *statistics)
@@ -662,7 +662,7 @@ static inline void to_space(const double state[static 12], double momentum[stati
     momentum[2] = g20 * mu0 + g21 * mu1 + g22 * mu2;
 }
 
-/* Begin: the state with body momentum, and what this momentum is in space. */
+/* Begin: convert the state to body momentum, and store this momentum converted back to space. */
 static void enter_body(const double state[static 12], double moving[static 12],
     double before[static 3])
 {
@@ -672,7 +672,7 @@ static void enter_body(const double state[static 12], double moving[static 12],
     to_space(moving, before);
 }
 
-/* End: change the state to the moving one; its space momentum is increased by the gain since before. */
+/* End: update the state; add to its space momentum the increase since the beginning of the run. */
 static int leave_body(const double moving[static 12], const double before[static 3],
     double state[static 12])
 {

@@ -9,18 +9,18 @@ extern "C" {
 #endif
 
 enum {
-    DIPOLE_VCG_TRIPLE_JUMP_OK = 0, /* the step was made */
+    DIPOLE_VCG_TRIPLE_JUMP_OK = 0, /* success */
     DIPOLE_VCG_TRIPLE_JUMP_NOT_CONVERGED = 1, /* an implicit block did not converge */
-    DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     DIPOLE_VCG_TRIPLE_JUMP_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
-/* Sweeps over the equations, added up over all steps since the caller set everything to zero. */
+/* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */
 typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
-    size_t most; /* the most that one block took in one step */
+    size_t most; /* the most sweeps of one block in one step */
     size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how often a matrix of Newton's method was computed */
+    size_t matrices; /* how many Newton matrices were computed */
 } dipole_vcg_triple_jump_statistics;
 
 /* Make one step of size h. When the status is not DIPOLE_VCG_TRIPLE_JUMP_OK, the state is unchanged. */
@@ -28,8 +28,8 @@ int dipole_vcg_triple_jump_step(double state[12], double h,
     dipole_vcg_triple_jump_statistics *statistics);
 
 /*
- * Make steps of size h until all are made or one fails; the state is then the last good one and
- * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * Make up to steps steps of size h, until one fails; the state is then the last good one and *completed
+ * the number of completed steps. A trajectory receives the initial state and every stride-th one after
  * it: steps/stride + 1 rows of 12. statistics, trajectory and completed may be NULL.
  */
 int dipole_vcg_triple_jump_run(double state[12], double h, size_t steps, double *trajectory,

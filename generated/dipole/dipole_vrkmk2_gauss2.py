@@ -23,12 +23,12 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 47 add, 80 mul, 1 stumpff_12 a step
-            2 mul a start, in steps that follow no other
+            2 mul an initial guess, in the first step of a run
             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of
             the equations of v1, v2, m1, m2
             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
-made by:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target python -o .
+command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target python -o .
 version:    orderconds 0.1.0
 
 Use:
@@ -48,9 +48,9 @@ BAD_STEP = 3
 
 
 class StepFailed(ArithmeticError):
-    """A step that could not be made.
+    """A step failed.
 
-    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: how many steps were made before it;
+    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
     state: the last good state, as a tuple.
     """
 
@@ -63,8 +63,8 @@ class StepFailed(ArithmeticError):
 
 
 class Statistics:
-    """Sweeps over the equations, added up over all steps since the caller set
-    everything to zero.
+    """Sweeps over the equations, summed over all steps since the caller set all
+    fields to zero.
     """
 
     def __init__(self):
@@ -73,9 +73,9 @@ class Statistics:
     def clear(self):
         """Set all fields to zero."""
         self.sweeps = [0] * 1  # by block: the equations of v1, v2, m1, m2
-        self.most = 0  # the most that one block took in one step
+        self.most = 0  # the most sweeps of one block in one step
         self.failed = 0  # 1 + the block that failed, 0 if none has
-        self.matrices = 0  # how often a matrix of Newton's method was computed
+        self.matrices = 0  # how many Newton matrices were computed
 
     labels = [
         "the equations of v1, v2, m1, m2",
@@ -83,8 +83,8 @@ class Statistics:
 
 
 class _Memory:
-    """What one step of a run leaves for the next: solutions of its equations, the
-    latest first, and inverses of Newton's matrices.
+    """Data that one step of a run stores for the next: solutions of its equations,
+    the latest first, and inverses of Newton's matrices.
     """
 
     def __init__(self):
@@ -92,14 +92,14 @@ class _Memory:
 
     def clear(self):
         """Set all fields to zero."""
-        self.known = 0  # how many solutions there are
-        self.first = 0.0  # by how much the last guess was off
-        self.degree = 0  # of the polynomial
-        self.place = 0  # of the latest solution
-        self.guess = [0.0] * 6  # the polynomial, continued by a step
+        self.known = 0  # number of stored solutions
+        self.first = 0.0  # error of the last guess
+        self.degree = 0  # degree of the extrapolation
+        self.place = 0  # row of the latest solution
+        self.guess = [0.0] * 6  # extrapolation to the next step
         self.values = [[0.0] * 6 for _ in range(32)]
         self.rate_1 = 0.0
-        self.made_1 = 0  # for how many steps the inverse has served, 0: there is none
+        self.age_1 = 0  # age of the inverse in steps, 0: no inverse
         self.inverse_1 = [0.0] * 36
 
 
@@ -199,7 +199,7 @@ def _stumpff_23_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_2(z), _stumpff_series_3(z)
-    # the answer is no number where the angle is so large that it has no correct digit
+    # NaN if the angle is so large that no digit of the result is correct
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -219,7 +219,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    # the answer is no number where the angle is so large that it has no correct digit
+    # NaN if the angle is so large that no digit of the result is correct
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -229,7 +229,7 @@ def _stumpff_123_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z), _stumpff_series_3(z)
-    # the answer is no number where the angle is so large that it has no correct digit
+    # NaN if the angle is so large that no digit of the result is correct
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     c3 = _stumpff_series_3(z) if z <= 4.0 else (1.0 - ratio * cos(half)) / z
@@ -253,7 +253,7 @@ def _stumpff_12(z):
 
 
 def invert(n, matrix):
-    """Replace an n x n matrix, by rows, by its inverse; return 0 where it has none, else 1."""
+    """Replace an n x n matrix, by rows, by its inverse; return 0 if it is singular, else 1."""
     a = [matrix[n * i : n * i + n] for i in range(n)]
     order = [0] * n
     for k in range(n):
@@ -276,7 +276,7 @@ def invert(n, matrix):
     return 1
 
 
-# Backward differences by their order: the factors of the solutions, the latest first.
+# Coefficients of backward differences by order, the latest solution first.
 differences = (
     (
         1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
@@ -366,9 +366,9 @@ def _count_matrix(statistics):
 
 
 def _difference(memory, order, first, sign, sum):
-    """A backward difference, times sign, of an order without its first terms, which
-    were of later solutions. The latest is added last: the rest of the sum does
-    not wait for it.
+    """A backward difference times sign, from the term with index first on. The
+    latest solution is added last, so that the rest of the sum can be computed
+    before it is known.
     """
     sum_0 = 0.0
     sum_1 = 0.0
@@ -403,7 +403,7 @@ def _difference(memory, order, first, sign, sum):
 
 
 def _difference_size(memory, order):
-    """The size of a backward difference."""
+    """The sum of the absolute values of a backward difference."""
     row = [0.0] * 6
     _difference(memory, order, 0, 1.0, row)
     size = 0.0
@@ -416,7 +416,7 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # the guess was no mere copy
+    # with fewer than three solutions the guess is only a copy: do not judge it
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])
@@ -435,7 +435,7 @@ def _remember(memory, solution):
     memory.values[place + 16][:] = solution
     if memory.known < 16:
         memory.known += 1
-    # the degree grows while differences fall; with many it is chosen once in 8
+    # raise the degree while differences decrease; with a full memory, check every 8
     # steps
     if memory.known < 16 or place % 8 == 0:
         size = _difference_size(memory, memory.degree)
@@ -449,12 +449,12 @@ def _remember(memory, solution):
             lower = _difference_size(memory, memory.degree - 1)
             if size > lower:
                 memory.degree -= 1
-    # the next difference vanishes where this is the next solution
+    # choose the next solution such that the difference of the next order vanishes
     _difference(memory, memory.degree + 1, 1, -1.0, memory.guess)
 
 
 def _advance(state, h, memory, statistics):
-    """Make one step."""
+    """One step."""
     try:
         if not isfinite(h):
             return BAD_STEP
@@ -481,7 +481,7 @@ def _advance(state, h, memory, statistics):
         # the equations of v1, v2, m1, m2: Newton's method, 6 unknowns
         previous_1 = 0.0
         rate_1 = memory.rate_1 if memory.known > 0 else 1.0
-        make_1 = not memory.made_1 > 0
+        make_1 = not memory.age_1 > 0
         sweep = 0
         status = NOT_CONVERGED
         while True:
@@ -701,8 +701,8 @@ def _advance(state, h, memory, statistics):
                     0.0, -h * (w108 + w111 + 0.005 * v2_1),
                     -h * (w109 + w112 + 0.005 * v2_0), 0.01,
                 )
-                memory.made_1 = invert(6, memory.inverse_1)
-                if memory.made_1 > 0:
+                memory.age_1 = invert(6, memory.inverse_1)
+                if memory.age_1 > 0:
                     _count_matrix(statistics)
             d_v1_0 = (
                 memory.inverse_1[0] * residual_0 + memory.inverse_1[1] * residual_1
@@ -759,21 +759,21 @@ def _advance(state, h, memory, statistics):
             else:
                 memory.first += change
             contracts = rate_1 < 0.5
-            settled = (
+            converged = (
                 change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale
                 if contracts else sweep > 1 and (change <= 5.684341886080802e-14 * scale
                 or (change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[0:9]))
                 and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12]))))
             )
             status = (
-                (OK if memory.made_1 > 0 and settled else NOT_CONVERGED)
+                (OK if memory.age_1 > 0 and converged else NOT_CONVERGED)
                 if isfinite(change) else NOT_FINITE
             )
             make_1 = False
             previous_1 = change
             if (
                 not (status == NOT_CONVERGED and sweep < 100
-                and not (not memory.made_1 > 0))
+                and not (not memory.age_1 > 0))
             ):
                 break
         _count_sweeps(statistics, 0, sweep, status != OK)
@@ -833,7 +833,7 @@ def _advance(state, h, memory, statistics):
         new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8
         if not all(map(isfinite, (new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21, new_g22, w128, w130, w132))):
             return NOT_FINITE
-        memory.made_1 = memory.made_1 + 1 if memory.made_1 % 3 > 0 else 0
+        memory.age_1 = memory.age_1 + 1 if memory.age_1 % 3 > 0 else 0
         state[:] = (
             new_g00, new_g01, new_g02, new_g10, new_g11, new_g12, new_g20, new_g21,
             new_g22, w128, w130, w132,
@@ -844,9 +844,9 @@ def _advance(state, h, memory, statistics):
 
 
 def _continued(state, h, memory, statistics):
-    """Make a step whose equations do not settle: without the earlier solutions,
-    which may mislead where the motion changes; then through shorter ones, whose
-    solutions are continued in h.
+    """Repeat a step whose equations did not converge: first without the earlier
+    solutions, which mislead if the motion has changed, then by continuation in h
+    from shorter steps.
     """
     if not (h < 0.0 or h > 0.0):
         return OK if all(map(isfinite, state)) else NOT_FINITE
@@ -913,7 +913,9 @@ def _to_space(state, momentum):
 
 
 def _enter_body(state, moving, before):
-    """Begin: the state with body momentum, and what this momentum is in space."""
+    """Begin: convert the state to body momentum, and store this momentum converted
+    back to space.
+    """
     _to_body(state, before)
     moving[0:9] = state[0:9]
     moving[9:12] = before
@@ -921,8 +923,8 @@ def _enter_body(state, moving, before):
 
 
 def _leave_body(moving, before, state):
-    """End: change the state to the moving one; its space momentum is increased by
-    the gain since before.
+    """End: update the state; add to its space momentum the increase since the
+    beginning of the run.
     """
     momentum = [0.0] * 3
     _to_space(moving, momentum)
@@ -967,7 +969,7 @@ def _run(state, h, steps, trajectory, stride, statistics, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state."""
+    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 12:
         raise ValueError(f"expected 12 numbers in state, found {len(numbers)}")
@@ -975,7 +977,7 @@ def _numbers(state):
 
 
 def _failure(status, step, state, h, statistics):
-    """Return the error of a step that could not be made."""
+    """Return the error of a failed step."""
     reason = "the new state is not finite"
     if status == BAD_STEP:
         reason = f"the step size h = {h} is not finite"
@@ -991,16 +993,16 @@ def _failure(status, step, state, h, statistics):
 def step(state, h, *, statistics=None):
     """Return the state after one step of size h as a list; the given state is unchanged.
 
-    A step that cannot be made raises StepFailed.
+    If the step fails, StepFailed is raised.
     """
     return run(state, h, 1, statistics=statistics)
 
 
 def run(state, h, steps, *, stride=0, statistics=None):
-    """Return the state after that many steps of size h, as a list.
+    """Return the state after ``steps`` steps of size h, as a list.
 
     With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. A step that cannot be made raises StepFailed, which holds the last good state.
+    after it. If a step fails, StepFailed is raised, with the last good state.
     """
     state = _numbers(state)
     h = float(h)

@@ -10,10 +10,10 @@
  * left out:   1 evaluation of the field: equal values are computed once
  *             5 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit here
+ *             equation solving: every stage is explicit
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 704 bytes, without what the mathematical library takes
- * made by:    orderconds emit duffing_sl2 --method cf4 --target c -o .
+ * stack:      at most 704 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c duffing_sl2_cf4.c
@@ -109,7 +109,7 @@ static double stumpff_1_far(double z)
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double s = sqrt(z <= 65536.0 ? z : NAN);
     return sin(s) / s;
 }
@@ -129,7 +129,7 @@ static double stumpff_0_far(double z)
     if (z <= 1.0) {
         return stumpff_series_0(z);
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double s = sqrt(z <= 65536.0 ? z : NAN);
     return cos(s);
 }
@@ -214,7 +214,7 @@ int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *
         const double w26 = signed_stumpff1(w23);
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
-        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
         if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
             z0 = new_z0;
             z1 = new_z1;

@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 enum {
-    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_OK = 0, /* the step was made */
-    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_OK = 0, /* success */
+    FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     FAST_HEAVY_TOP_SPLITTING_BLANES_MOAN_RKN4_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
@@ -18,8 +18,8 @@ enum {
 int fast_heavy_top_splitting_blanes_moan_rkn4_step(double state[12], double h);
 
 /*
- * Make steps of size h until all are made or one fails; the state is then the last good one and
- * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * Make up to steps steps of size h, until one fails; the state is then the last good one and *completed
+ * the number of completed steps. A trajectory receives the initial state and every stride-th one after
  * it: steps/stride + 1 rows of 12. trajectory and completed may be NULL.
  */
 int fast_heavy_top_splitting_blanes_moan_rkn4_run(double state[12], double h, size_t steps,

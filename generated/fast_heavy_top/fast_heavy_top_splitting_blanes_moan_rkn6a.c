@@ -13,12 +13,12 @@
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   14 flows: flows of one part are joined across flows that commute
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit here
+ *             equation solving: every stage is explicit
  * operations: 473 add, 786 mul, 14 stumpff_12 a step
  *             29 add, 49 mul, 1 stumpff_12 once in a run of steps
  *             9 add, 21 mul, 1 stumpff_12 once in a run of steps
- * stack:      at most 4544 bytes, without what the mathematical library takes
- * made by:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn6a --target c -o .
+ * stack:      at most 4544 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn6a --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c fast_heavy_top_splitting_blanes_moan_rkn6a.c
@@ -114,7 +114,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);

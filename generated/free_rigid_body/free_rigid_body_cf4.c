@@ -11,10 +11,10 @@
  *             5 exponentials: exp(x).y is computed without exp(x)
  *             parameters, folded: alpha = 0
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit here
+ *             equation solving: every stage is explicit
  * operations: 89 add, 149 mul, 5 stumpff_12 a step
- * stack:      at most 1088 bytes, without what the mathematical library takes
- * made by:    orderconds emit free_rigid_body --method cf4 --target c -o .
+ * stack:      at most 1088 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit free_rigid_body --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c free_rigid_body_cf4.c
@@ -110,7 +110,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 65536.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -227,7 +227,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
         const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
         const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
-        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -10,10 +10,10 @@
  *             6 exponentials: exp(x).y is computed without exp(x)
  *             parameters, folded: alpha = 0
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit here
+ *             equation solving: every stage is explicit
  * operations: 84 add, 161 mul, 6 stumpff_12 a step
- * stack:      at most 1024 bytes, without what the mathematical library takes
- * made by:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
+ * stack:      at most 1024 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit free_rigid_body --method cg:cg3 --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c free_rigid_body_cg3.c
@@ -109,7 +109,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 16777216.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -221,7 +221,7 @@ int free_rigid_body_cg3_run(double state[static 3], double h, size_t steps,
         const double new_m0 = w34 - w63 * c1_6 - (w57 * w65 + w58 * w66) * c2_6;
         const double new_m1 = w62 + w66 * c1_6 - (w58 * w63 + w56 * w65) * c2_6;
         const double new_m2 = w61 + w65 * c1_6 + (w56 * w66 - w57 * w63) * c2_6;
-        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

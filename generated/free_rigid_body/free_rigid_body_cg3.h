@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 enum {
-    FREE_RIGID_BODY_CG3_OK = 0, /* the step was made */
-    FREE_RIGID_BODY_CG3_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    FREE_RIGID_BODY_CG3_OK = 0, /* success */
+    FREE_RIGID_BODY_CG3_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     FREE_RIGID_BODY_CG3_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
@@ -18,8 +18,8 @@ enum {
 int free_rigid_body_cg3_step(double state[3], double h);
 
 /*
- * Make steps of size h until all are made or one fails; the state is then the last good one and
- * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * Make up to steps steps of size h, until one fails; the state is then the last good one and *completed
+ * the number of completed steps. A trajectory receives the initial state and every stride-th one after
  * it: steps/stride + 1 rows of 3. trajectory and completed may be NULL.
  */
 int free_rigid_body_cg3_run(double state[3], double h, size_t steps, double *trajectory,

@@ -13,10 +13,10 @@
  *             4 exponentials: exp(x).y is computed without exp(x)
  *             parameters, folded: alpha = 0
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit here
+ *             equation solving: every stage is explicit
  * operations: 101 add, 164 mul, 4 stumpff_12 a step
- * stack:      at most 1024 bytes, without what the mathematical library takes
- * made by:    orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target c -o .
+ * stack:      at most 1024 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c free_rigid_body_rkmk2_rk4.c
@@ -112,7 +112,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 65536.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -223,7 +223,7 @@ int free_rigid_body_rkmk2_rk4_run(double state[static 3], double h, size_t steps
         const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
         const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
         const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
-        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

@@ -12,10 +12,10 @@
  *             4 exponentials: exp(x).y is computed without exp(x)
  *             parameters, folded: alpha = 0
  *             the time: the scene does not depend on it
- *             equation solving: every stage is explicit here
+ *             equation solving: every stage is explicit
  * operations: 77 add, 141 mul, 4 stumpff_12 a step
- * stack:      at most 960 bytes, without what the mathematical library takes
- * made by:    orderconds emit free_rigid_body --method rkmk:rk4 --target c -o .
+ * stack:      at most 960 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit free_rigid_body --method rkmk:rk4 --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c free_rigid_body_rkmk_rk4.c
@@ -111,7 +111,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 65536.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -217,7 +217,7 @@ int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
         const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
         const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
         const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
-        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

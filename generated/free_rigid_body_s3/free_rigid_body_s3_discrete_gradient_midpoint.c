@@ -13,11 +13,11 @@
  *             3 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
- *             21 add, 42 mul a start, in steps that follow no other
+ *             21 add, 42 mul an initial guess, in the first step of a run
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
- * stack:      at most 6592 bytes, without what the mathematical library takes
- * made by:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
+ * stack:      at most 6592 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
  *
@@ -176,7 +176,7 @@ static inline void stumpff_23_far(double z, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -207,7 +207,7 @@ static inline void stumpff_01_far(double z, double *c0, double *c1)
         *c1 = stumpff_series_1(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
     const double ratio = sin(s) / s;
     *c0 = cos(s);
@@ -228,13 +228,13 @@ static inline void stumpff_01(double z, double *c0, double *c1)
     }
 }
 
-/* a/b, and 0 where b = 0, which is the limit there */
+/* a/b, or 0 if b = 0, which is the limit */
 static inline double quotient(double a, double b)
 {
     return b > 0.0 || b < 0.0 ? a / b : b;
 }
 
-/* The largest size of n numbers */
+/* The largest absolute value of n numbers */
 static double largest(const double *x, size_t n)
 {
     double size = 0.0;
@@ -261,22 +261,22 @@ static int all_finite(const double *x, size_t n)
 }
 
 /*
- * What one step of a run leaves for the next: solutions of its equations, the latest first, and
+ * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
 struct memory {
-    size_t known; /* how many solutions there are */
-    double first; /* by how much the last guess was off */
-    size_t degree; /* of the polynomial */
-    size_t place; /* of the latest solution */
-    double guess[3]; /* the polynomial, continued by a step */
-    double values[32][3]; /* each solution twice: the last ones are neighbours */
+    size_t known; /* number of stored solutions */
+    double first; /* error of the last guess */
+    size_t degree; /* degree of the extrapolation */
+    size_t place; /* row of the latest solution */
+    double guess[3]; /* extrapolation to the next step */
+    double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t made_1; /* for how many steps the inverse has served, 0: there is none */
+    size_t age_1; /* age of the inverse in steps, 0: no inverse */
     double inverse_1[9];
 };
 
-/* Backward differences by their order: the factors of the solutions, the latest first. */
+/* Coefficients of backward differences by order, the latest solution first. */
 static const double differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -321,8 +321,8 @@ static void count_matrix(free_rigid_body_s3_discrete_gradient_midpoint_statistic
 }
 
 /*
- * A backward difference, times sign, of an order without its first terms, which were of later
- * solutions. The latest is added last: the rest of the sum does not wait for it.
+ * A backward difference times sign, from the term with index first on. The latest solution is added
+ * last, so that the rest of the sum can be computed before it is known.
  */
 static inline void difference(const struct memory *memory, size_t order, size_t first,
     double sign, double sum[static 3])
@@ -344,7 +344,7 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     sum[2] = sum_2;
 }
 
-/* The size of a backward difference. */
+/* The sum of the absolute values of a backward difference. */
 static double difference_size(const struct memory *memory, size_t order)
 {
     double row[3];
@@ -362,7 +362,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    /* the guess was no mere copy */
+    /* with fewer than three solutions the guess is only a copy: do not judge it */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -381,7 +381,7 @@ static inline void remember(struct memory *memory, const double solution[static 
     if (memory->known < 16) {
         memory->known++;
     }
-    /* the degree grows while differences fall; with many it is chosen once in 8 steps */
+    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = difference_size(memory, memory->degree);
         int grows = 0;
@@ -398,11 +398,11 @@ static inline void remember(struct memory *memory, const double solution[static 
             }
         }
     }
-    /* the next difference vanishes where this is the next solution */
+    /* choose the next solution such that the difference of the next order vanishes */
     difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
-/* Make one step. */
+/* One step. */
 static inline int advance(double state[static 4], double h, struct memory *memory,
     free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics)
 {
@@ -466,7 +466,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     /* the equations of xi: Newton's method, 3 unknowns */
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
-    int make_1 = !(memory->made_1 > 0);
+    int make_1 = !(memory->age_1 > 0);
     int astray = 0;
     size_t sweep = 0;
     int status = FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED;
@@ -981,7 +981,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
             memory->inverse_1[6] = w454 * w455;
             memory->inverse_1[7] = w455 * (w446 * w448 - w414 * w444);
             memory->inverse_1[8] = w455 * (w381 * w444 - w446 * w450);
-            memory->made_1 = 1;
+            memory->age_1 = 1;
             count_matrix(statistics);
         }
         const double change_xi_0 = memory->inverse_1[0] * residual_xi_0
@@ -1005,9 +1005,9 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const int still = previous_1 > 0.0 && change >= previous_1;
         const int close = change <= 9.094947017729282e-13 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        const int settled = close || (still && (change <= 5.684341886080802e-14 * scale
+        const int converged = close || (still && (change <= 5.684341886080802e-14 * scale
             || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 4)));
-        status = isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2) ? (settled
+        status = isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2) ? (converged
             ? FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED)
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
@@ -1037,7 +1037,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
@@ -1050,8 +1050,8 @@ static inline int advance(double state[static 4], double h, struct memory *memor
 }
 
 /*
- * Make a step whose equations do not settle: without the earlier solutions, which may mislead where
- * the motion changes; then through shorter ones, whose solutions are continued in h.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
+ * if the motion has changed, then by continuation in h from shorter steps.
  */
 static int continued(double state[static 4], double h, struct memory *memory,
     free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics)

@@ -11,11 +11,11 @@
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   the time: the scene does not depend on it
  * operations: 50 add, 71 mul, 1 stumpff_1 a step
- *             3 mul a start, in steps that follow no other
+ *             3 mul an initial guess, in the first step of a run
  *             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1, n1
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 5248 bytes, without what the mathematical library takes
- * made by:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
+ * stack:      at most 5248 bytes; functions of the mathematical library add to this
+ * command:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c heavy_top_slgi_midpoint.c
@@ -142,7 +142,7 @@ static inline void stumpff_23_far(double z, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -171,7 +171,7 @@ static inline double stumpff_1_far(double z)
     if (z <= 1.0) {
         return stumpff_series_1(z);
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
     return sin(s) / s;
 }
@@ -184,7 +184,7 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -202,7 +202,7 @@ static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
         *c3 = stumpff_series_3(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -285,7 +285,7 @@ static inline double slope2(double z)
     return total;
 }
 
-/* The largest size of n numbers */
+/* The largest absolute value of n numbers */
 static double largest(const double *x, size_t n)
 {
     double size = 0.0;
@@ -295,8 +295,8 @@ static double largest(const double *x, size_t n)
     return size;
 }
 
-/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan, rows exchanged); return 0 where it has
- * none, else 1. Here n is always 6. */
+/* Replace an n x n matrix, by rows, by its inverse (Gauss-Jordan with row exchanges); return 0 if it is
+ * singular, else 1. Here n is always 6. */
 static size_t invert(size_t n, double *restrict a)
 {
     double row[6];
@@ -363,22 +363,22 @@ static int all_finite(const double *x, size_t n)
 }
 
 /*
- * What one step of a run leaves for the next: solutions of its equations, the latest first, and
+ * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
 struct memory {
-    size_t known; /* how many solutions there are */
-    double first; /* by how much the last guess was off */
-    size_t degree; /* of the polynomial */
-    size_t place; /* of the latest solution */
-    double guess[6]; /* the polynomial, continued by a step */
-    double values[32][6]; /* each solution twice: the last ones are neighbours */
+    size_t known; /* number of stored solutions */
+    double first; /* error of the last guess */
+    size_t degree; /* degree of the extrapolation */
+    size_t place; /* row of the latest solution */
+    double guess[6]; /* extrapolation to the next step */
+    double values[32][6]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t made_1; /* for how many steps the inverse has served, 0: there is none */
+    size_t age_1; /* age of the inverse in steps, 0: no inverse */
     double inverse_1[36];
 };
 
-/* Backward differences by their order: the factors of the solutions, the latest first. */
+/* Coefficients of backward differences by order, the latest solution first. */
 static const double differences[17][18] = {
     {1.0},
     {1.0, -1.0},
@@ -423,8 +423,8 @@ static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
 }
 
 /*
- * A backward difference, times sign, of an order without its first terms, which were of later
- * solutions. The latest is added last: the rest of the sum does not wait for it.
+ * A backward difference times sign, from the term with index first on. The latest solution is added
+ * last, so that the rest of the sum can be computed before it is known.
  */
 static inline void difference(const struct memory *memory, size_t order, size_t first,
     double sign, double sum[static 6])
@@ -455,7 +455,7 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     sum[5] = sum_5;
 }
 
-/* The size of a backward difference. */
+/* The sum of the absolute values of a backward difference. */
 static double difference_size(const struct memory *memory, size_t order)
 {
     double row[6];
@@ -473,7 +473,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 6])
 {
-    /* the guess was no mere copy */
+    /* with fewer than three solutions the guess is only a copy: do not judge it */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -495,7 +495,7 @@ static inline void remember(struct memory *memory, const double solution[static 
     if (memory->known < 16) {
         memory->known++;
     }
-    /* the degree grows while differences fall; with many it is chosen once in 8 steps */
+    /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
         const double size = difference_size(memory, memory->degree);
         int grows = 0;
@@ -512,11 +512,11 @@ static inline void remember(struct memory *memory, const double solution[static 
             }
         }
     }
-    /* the next difference vanishes where this is the next solution */
+    /* choose the next solution such that the difference of the next order vanishes */
     difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
-/* Make one step. */
+/* One step. */
 static inline int advance(double state[static 12], double h, struct memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
@@ -556,7 +556,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     /* the equations of xi1, n1: Newton's method, 6 unknowns */
     double previous_1 = 0.0;
     double rate_1 = memory->known > 0 ? memory->rate_1 : 1.0;
-    int make_1 = !(memory->made_1 > 0);
+    int make_1 = !(memory->age_1 > 0);
     int astray = 0;
     size_t sweep = 0;
     int status = HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED;
@@ -730,8 +730,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[33] = 0.0;
             memory->inverse_1[34] = 0.0;
             memory->inverse_1[35] = 1.0;
-            memory->made_1 = invert(6, memory->inverse_1);
-            if (memory->made_1 > 0) {
+            memory->age_1 = invert(6, memory->inverse_1);
+            if (memory->age_1 > 0) {
                 count_matrix(statistics);
             }
         }
@@ -779,14 +779,14 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const int still = previous_1 > 0.0 && change >= previous_1;
         const int close = change <= 3.552713678800501e-15 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        const int settled = close || (still && (change <= 5.684341886080802e-14 * scale
+        const int converged = close || (still && (change <= 5.684341886080802e-14 * scale
             || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
             && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
         status = isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
-            + residual_n1_1 + residual_n1_2) ? (memory->made_1 > 0 && settled
+            + residual_n1_1 + residual_n1_2) ? (memory->age_1 > 0 && converged
             ? HEAVY_TOP_SLGI_MIDPOINT_OK : HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED)
             : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
-        astray = (still && make_1) || !(memory->made_1 > 0);
+        astray = (still && make_1) || !(memory->age_1 > 0);
         make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     } while (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED && sweep < 100 && !astray);
@@ -838,7 +838,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -863,8 +863,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
 }
 
 /*
- * Make a step whose equations do not settle: without the earlier solutions, which may mislead where
- * the motion changes; then through shorter ones, whose solutions are continued in h.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
+ * if the motion has changed, then by continuation in h from shorter steps.
  */
 static int continued(double state[static 12], double h, struct memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)

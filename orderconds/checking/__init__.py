@@ -1,14 +1,14 @@
-"""Checking: the exact order of a tableau in each family that its file claims, with a certificate.
+"""Compute the exact order of a tableau in each family that its file claims, with a certificate.
 
 Orders 1, 2, ... are evaluated over the tableau's own ring until the first with a condition that fails. A
 claim is an equality: a method that is better than its file says fails the claim as well.
 
-Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file says
-which equations its decimals solve, and interval arithmetic proves that they have one solution within the last
+Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file names
+equations for its decimals, and interval arithmetic proves that they have exactly one solution within the last
 digits, which has the order (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain
-zero, so the order is what the printed digits support, and no more than that is claimed: a ball never
-proves zero. A ball too wide to decide (see :data:`orderconds.checking.residuals.RESOLUTION`) leaves the
-order ``undecided`` and its certificate ``none``; one that excludes zero proves that the condition fails.
+zero. The printed digits support the order, but do not prove it. A ball too wide to decide (see
+:data:`orderconds.checking.residuals.RESOLUTION`) leaves the order ``undecided`` and its certificate ``none``;
+a ball that excludes zero proves that the condition fails.
 """
 
 from __future__ import annotations

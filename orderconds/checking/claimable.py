@@ -1,10 +1,10 @@
-"""The families that a tableau can claim: those in which its file should state an order.
+"""The claimable families of a tableau: its file should state an order in each of them.
 
 A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``, and with non-zero weights ``sprk``, ``vcg`` and
 ``vrkmk`` (any cut-off of ``rkmk`` and ``vrkmk`` is a claim); a commutator-free method claims ``rk``,
 ``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``, and where it is symplectic
-``sprk_separable`` instead. Families that say the same of a tableau (``prk`` of an ``rk`` one) are not
-demanded. Each family decides for itself (:meth:`orderconds.families.Family.claimable`).
+``sprk_separable`` instead. A family whose order follows from another one, as ``prk`` for an ``rk`` tableau,
+is not included. Each family decides (:meth:`orderconds.families.Family.claimable`).
 """
 
 from __future__ import annotations
@@ -17,21 +17,26 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    Those that divide by weights come last; before them, those whose own format it is come first.
+    Families that divide by weights come last, and families on groups after the others. Among equals, a
+    family whose preferred format is the tableau's comes first.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]
     ['rk', 'cg', 'rkmk', 'sprk', 'vcg', 'vrkmk']
     >>> [[f.name for f in claimable_families(read(name))] for name in ("cg4", "cf3")]
-    [['rk', 'cg', 'rkmk'], ['cf', 'rk']]
+    [['rk', 'cg', 'rkmk'], ['rk', 'cf']]
     """
     classes = map(families.family_class, families.names())
-    found = [family for c in classes if (family := c.claimable(tableau)) is not None]
-    return tuple(sorted(found, key=lambda f: (f.needs_nonzero_weights, f.formats[0] != tableau.family)))
+    members = [family for c in classes if (family := c.claimable(tableau)) is not None]
+
+    def place(family: Family) -> tuple[bool, bool, bool]:
+        return family.needs_nonzero_weights, family.on_groups, family.formats[0] != tableau.family
+
+    return tuple(sorted(members, key=place))
 
 
 def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
-    """Return the families that the tableau can claim and its file claims no order in.
+    """Return the claimable families in which the file claims no order.
 
     >>> from orderconds.tableau import find
     >>> unclaimed(Tableau.load(find("kutta3")))

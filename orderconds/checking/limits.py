@@ -1,4 +1,4 @@
-"""Limits on the work of a check, so that it ends in finite time with what it has found."""
+"""Limits on the work of a check, after which it reports its results so far."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import time
 from dataclasses import dataclass, field
 
 MAX_CONDITIONS = 50_000
-"""No more conditions of one order are evaluated than this where no limit is given."""
+"""The default limit on the number of conditions of one order."""
 
 
 @dataclass(frozen=True)
 class Limits:
     """At most ``conditions`` of one order, ``seconds`` in all, ``megabytes`` of memory; None: no limit.
 
-    Time and memory are looked at between batches of conditions: a batch may exceed them.
+    Time and memory are compared with their limits after each batch of conditions, so a batch may exceed them.
     """
 
     conditions: int = MAX_CONDITIONS
@@ -23,7 +23,7 @@ class Limits:
 
 @dataclass
 class Meter:
-    """Counts the conditions of one check and says when a limit is reached.
+    """A counter for the conditions of one check, which reports when a limit is reached.
 
     >>> meter = Meter(Limits(conditions=10))
     >>> meter.count(8)
@@ -46,7 +46,7 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Whether a limit forbids to evaluate so many conditions more."""
+        """Whether evaluating this number of further conditions would exceed a limit."""
         limits = self.limits
         if self.of_order + more > limits.conditions:
             return True
@@ -56,7 +56,11 @@ class Meter:
 
 
 def resident_megabytes() -> float:
-    """Return the memory that this process occupies now, or at most so far where the system tells no more."""
+    """Return the memory that this process occupies; the largest so far where the system reports no other.
+
+    >>> resident_megabytes() >= 0
+    True
+    """
     try:
         with open("/proc/self/statm", encoding="ascii") as stream:
             pages = int(stream.read().split()[1])

@@ -19,11 +19,11 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""An order with more conditions than this is evaluated in batches, the simplest trees first, up to the first
-batch in which one fails; those that fail in it are named, and the error norm is left out."""
+"""Above this number the conditions of an order are evaluated in batches, simplest trees first, up to the
+first batch with a failure. Then only failures of that batch are reported, and no error norm."""
 
 STOPPED = "stopped"
-"""The verdict on an order that a limit left open."""
+"""The verdict on an order that was not decided because of a limit."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """A family's own encoding of a tree, and a function that returns its condition."""
@@ -31,12 +31,12 @@ Tree = tuple[Key, Callable[[], OrderCondition]]
 
 @dataclass(frozen=True)
 class FamilyOrder:
-    """The order of one tableau in one family, against what was claimed or required.
+    """The order of one tableau in one family, and the claimed or required order.
 
     ``failing`` are the conditions of order ``order + 1`` that fail, ``error_norm`` the 2-norm of their
-    residuals. ``limit`` is the order at which the search stopped without a failing condition, None when
-    it found one; ``stopped`` how many conditions had been evaluated where a limit on work ended it.
-    ``required`` is a lower bound that was asked for; without it ``claimed`` is an equality.
+    residuals. ``limit`` is the order at which the search stopped without a failing condition; None if a
+    condition failed. ``stopped`` is the number of conditions evaluated before a limit on work ended the
+    search. ``required`` is a lower bound; without it ``claimed`` must be equal to the order.
     """
 
     family: str
@@ -93,17 +93,17 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
-    An order at the family's limit is not exceeded where ``bound``, the order in a family whose conditions
-    are among its own, says so, and with ``brief`` no order is: the conditions that fail are then those of
-    ``bound``. Conditions that follow from others, and from the orders ``proved`` in other
-    families, are not evaluated (:mod:`orderconds.families.reductions`). The search ends where ``meter`` says
-    that a limit is reached.
+    ``bound`` is the order in a family whose conditions are a subset of this one's, so it is an upper bound.
+    At the search limit of the family (with ``brief`` at every order), the search stops at this bound, and the
+    failing conditions are those of ``bound``. Conditions that follow from others, and from the orders
+    ``proved`` in other families, are not evaluated (:mod:`orderconds.families.reductions`). The search also
+    ends when ``meter`` reports that a limit is reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
     >>> kutta3 = Tableau.load(find("kutta3"))
-    >>> found = family_order(kutta3, get("cg"))
-    >>> found.order, found.certificate
+    >>> computed = family_order(kutta3, get("cg"))
+    >>> computed.order, computed.certificate
     (2, 'exact')
     """
     method = _method(tableau, family)
@@ -115,7 +115,7 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return the one condition of this order that fails first in the family, where a method does not meet it.
+    """Return the first condition that no method of the family meets at this order, if this method does not.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -131,7 +131,7 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 
 @dataclass(frozen=True)
 class _Search:
-    """A family, a method as the family reads it, and the conditions of it that need not be evaluated."""
+    """A family, a method in its format, and the conditions that need not be evaluated."""
 
     family: Family
     method: Method
@@ -173,7 +173,7 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # A theorem about balls may not say more than that their digits support an order.
+        # For balls a theorem proves no more than that their digits support an order.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -194,7 +194,7 @@ class _Search:
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     """Yield the conditions that decide order n: all at once (True), or in batches that double in size.
 
-    They are an independent set, or every tree where a set costs more. Batches share an engine's work.
+    They are an independent set or, if that costs more, those of every tree. Batches share results.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The order that the embedded row was said to have in the family ``own``, and its orders by family.
+    """The claimed order of the embedded row in the family ``own``, and its orders by family.
 
     ``certificates`` are those of the orders, by family. ``own`` is ``rk`` for weights, ``cf`` for an update
     of exponentials; ``failing`` are the conditions of the next order that fail in it.
@@ -44,7 +44,7 @@ class Report:
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
     undecided: dict[str, str] = field(default_factory=dict)
-    """Property to the reason why it is neither true nor false."""
+    """The reason why a property is undecided, by property."""
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
@@ -58,7 +58,7 @@ class Report:
         return "undecided" if "undecided" in verdicts else "holds"
 
     def summary(self) -> str:
-        """Return in a few lines the claims that do not hold, each with its first failing condition."""
+        """Return a short text with the claims that do not hold, each with its first failing condition."""
         lines = [f"{self.name}: {self.verdict}" + (f"  ({self.file})" if self.file else "")]
         for family in self.orders:
             if family.verdict != "holds":
@@ -68,7 +68,7 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau; ``undecided``, ``broken_claims`` where there are any."""
+        """Return the JSON object of one tableau; ``undecided`` and ``broken_claims`` only if not empty."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

@@ -1,7 +1,7 @@
-"""Residuals of the conditions of one order, each judged: zero, not zero, or a ball too wide to decide.
+"""The residuals of the conditions of one order, with verdicts: zero, not zero, or a ball too wide to decide.
 
-In a number field, balls show at a fraction of the cost that most residuals of a failing order are not zero.
-Exact arithmetic remains for residuals that balls do not separate from zero, and for those that are printed.
+In a number field, balls are much cheaper than exact arithmetic, and show that most residuals of a failing
+order are not zero. Exact arithmetic is used for the others, and for residuals that are printed.
 """
 
 from __future__ import annotations
@@ -42,13 +42,14 @@ ROUNDED = Context(prec=DIGITS)
 
 @dataclass(frozen=True, eq=False)
 class Failure:
-    """A condition that does not hold: ``value`` is the method's minus the exact flow's, in ``ring``."""
+    """A condition that does not hold: ``value`` is its left-hand side minus its right-hand side, in
+    ``ring``."""
 
     condition: OrderCondition
     ring: Ring = field(repr=False)
     exact: Callable[[], Element] = field(repr=False)
     enclosure: arb | None = field(default=None, repr=False)
-    """A flint ball around the value, where it is known without it."""
+    """A flint ball around the value, if one was computed."""
 
     @cached_property
     def value(self) -> Element:
@@ -57,7 +58,7 @@ class Failure:
 
     @cached_property
     def residual(self) -> str:
-        """The residual, exact where the ring is."""
+        """The text of the residual, exact if the ring is exact."""
         return self.ring.text(self.value)
 
     @cached_property
@@ -67,7 +68,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The same number, from the ball where it tells all digits."""
+        """The same text, from the ball if it determines all digits."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -108,7 +109,7 @@ def judge(
     """Return the verdicts that occur, and the conditions that fail.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (a narrow ball around zero), ``undecided`` (a wide one).
-    ``balls_first`` suits conditions most of which are expected to fail; the answers are the same.
+    ``balls_first`` is faster if most conditions fail; it does not change the result.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -161,7 +162,7 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Say whether the family evaluates the method without arithmetic in the field, faster than in balls."""
+    """Whether the family evaluates the method over Q, which is faster than balls."""
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
     return nodal_algebra(ring, (method.A,), method.b) is not None
@@ -180,8 +181,8 @@ class _OnDemand:
     def __call__(self, place: int) -> Element:
         if place not in self._known:
             wanted = list(self._missing()) if self._known else [place]
-            found = self._evaluate([self._conditions[k] for k in wanted])
-            self._known.update(zip(wanted, found, strict=True))
+            residuals = self._evaluate([self._conditions[k] for k in wanted])
+            self._known.update(zip(wanted, residuals, strict=True))
         return self._known[place]
 
     def _missing(self) -> Iterator[int]:
@@ -189,7 +190,7 @@ class _OnDemand:
 
 
 def _rational(x: Element) -> fmpq | None:
-    """Return an exact number as a quotient, None where it is none or a ball."""
+    """Return an exact number as a quotient, or None if it is a ball or not rational."""
     if isinstance(x, Algebraic):
         return x.rational_value if x.is_rational else None
     return x if isinstance(x, fmpq) else None

@@ -31,13 +31,13 @@ def check(
     certified: bool = False,
     limits: Limits | None = None,
 ) -> Report:
-    """Find the exact order of ``tableau`` (or of the file, or the library name) in each family it claims.
+    """Find the exact order of ``tableau`` (or of a file, or of a library name) in each family that it claims.
 
-    With ``family`` (``"vcg"``, ``"rkmk(1)"``) that family alone, claimed or not. With ``order`` the order
-    must be at least that, in place of the claims. With ``complete`` a claim is missing, and fails, for each
-    family that the tableau can claim; with ``certified`` an order that rounded decimals support, and no more,
-    fails. A tableau without claims is checked in the family of its format. ``limits`` bound the work; an
-    order that they leave open is a lower bound.
+    With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, claimed or not. With ``order`` the
+    order must be at least that, and claims are ignored. With ``complete`` the check fails unless there is a
+    claim for each claimable family. With ``certified`` it fails if only rounded decimals support an order. A
+    tableau without claims is checked in the family of its format. ``limits`` bound the work; if one is
+    reached, the order is a lower bound.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
@@ -82,9 +82,9 @@ def check(
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
-    """Return the orders of the embedded row in the families whose stages do not depend on the weights.
+    """Return the orders of the embedded row in families whose stages do not depend on the weights.
 
-    Those of them that are wanted, always the classical one and that of the tableau's format.
+    These are the wanted families, the classical one, and that of the format.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -93,18 +93,19 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
     asked = {family.label(): family for family in wanted if family.fixed_stages}
     always = (families.get("rk"), families.get(own))
     asked = {family.label(): family for family in always} | asked
-    found: dict[str, FamilyOrder] = {}
+    computed: dict[str, FamilyOrder] = {}
     for label, family in asked.items():
-        known = list(found.values())
+        known = list(computed.values())
         bound = None if label == own else _bound(family, known)
-        found[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
-    orders = {label: family.order for label, family in found.items()}
-    certificates = {label: family.certificate for label, family in found.items()}
-    return EmbeddedOrder(claimed, orders, certificates, own, found[own].failing)
+        computed[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
+    orders = {label: family.order for label, family in computed.items()}
+    certificates = {label: family.certificate for label, family in computed.items()}
+    return EmbeddedOrder(claimed, orders, certificates, own, computed[own].failing)
 
 
 def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
-    """Return the proof that the file's decimals stand for a solution, or why there is none."""
+    """Return the proof that there is a solution near the decimals of the file, or the reasons why there is
+    none."""
     if tableau.proof is None:
         return None, []
     from orderconds.proof.certificate import certify
@@ -125,111 +126,114 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family, from theorems where evaluating it goes beyond the family's limit."""
+    """Return the order in each family; beyond the limit of a family, from theorems."""
     beside = _beside(tableau, wanted, required or 0)
-    found: list[FamilyOrder] = []
+    known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
-        known = _settled(tableau, family, found, facts)
+        known = _settled(tableau, family, known_orders, facts)
         if known is None:
-            bound = _bound(family, found)
-            order = family_order(read_as, family, claimed, required, bound, _proved(found), meter=meter)
+            bound = _bound(family, known_orders)
+            order = family_order(
+                read_as, family, claimed, required, bound, _proved(known_orders), meter=meter
+            )
             known = _certified(order, family, facts)
             if known.limit is not None and not beside:
                 known = _beyond(tableau, family, known, facts, meter)
         else:
             known = replace(known, claimed=claimed, required=required)
-        found.append(known)
-    return tuple(found[len(beside) :])
+        known_orders.append(known)
+    return tuple(known_orders[len(beside) :])
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau in a form that a family reads, the family, and the order that is claimed."""
+"""A tableau in a format of the family, the family, and the claimed order."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return families, beside those wanted, from whose orders a claim beyond a family's limit may follow."""
+    """Return further families whose orders may imply a claim beyond the limit of a family."""
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
     return _bounding(tableau, {family.label() for family, _ in wanted})
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families that bound the orders of others, but for those named.
+    """Return the families whose orders bound those of others, without the families in ``labels``.
 
-    A plain array that is a composition of midpoints is read as one, too.
+    A plain array that is a composition of midpoints is also read as a composition.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
 
-    found: dict[str, Reading] = {}
+    readings: dict[str, Reading] = {}
     for read_as in filter(None, (as_composition(tableau), tableau)):
         for family in claimable_families(read_as):
             if family.bounds_others and family.label() not in labels:
-                found.setdefault(family.label(), (read_as, family, tableau.claims.order(family.name)))
-    return list(found.values())
+                readings.setdefault(family.label(), (read_as, family, tableau.claims.order(family.name)))
+    return list(readings.values())
 
 
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order where theorems decide it beyond the end of the search, else ``ended``.
+    """Return the order if theorems decide it beyond the end of the search, else ``ended``.
 
-    They bound it from below; from above, the order in another family does, or one condition that fails.
+    Theorems bound the order from below. The order in another family, or a failing condition, bounds it from
+    above.
     """
     bounding = _bounding(tableau, [family.label()])
-    found = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
-    known = _settled(tableau, family, found, facts)
+    bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
+    known = _settled(tableau, family, bounding_orders, facts)
     if known is not None:
         return replace(known, claimed=ended.claimed, required=ended.required)
     from orderconds.proof.implications import least_order
 
-    orders = _decided(found) if ended.certificate == "decimal" else _proved(found)
+    orders = _decided(bounding_orders) if ended.certificate == "decimal" else _proved(bounding_orders)
     least = least_order((*facts, *orders.items()), family)
     failing = first_failing(tableau, family, least + 1) if least >= ended.order else ()
     return replace(ended, order=least, failing=failing, limit=None, stopped=None) if failing else ended
 
 
-def _bound(family: Family, found: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return, of the families whose conditions are among those of ``family``, the one of least order."""
-    if not found:
+def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
+    """Return the lowest order in a family whose conditions are a subset of those of ``family``."""
+    if not computed:
         return None
     from orderconds.proof.implications import consequences
 
     among = consequences([(family.label(), 1)])
-    bounds = [f for f in found if f.family in among and f.decided and f.failing]
+    bounds = [f for f in computed if f.family in among and f.decided and f.failing]
     return min(bounds, key=lambda f: f.order, default=None)
 
 
-def _decided(found: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the orders by label, those that rounded decimals support among them."""
-    return {f.family: f.order for f in found if f.decided}
+def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
+    """Return the decided orders by label, including those that rounded decimals support."""
+    return {f.family: f.order for f in computed if f.decided}
 
 
-def _proved(found: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the orders, by label, that are more than what rounded decimals support."""
-    return _decided([f for f in found if f.certificate != "decimal"])
+def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
+    """Return the proved orders by label."""
+    return _decided([f for f in computed if f.certificate != "decimal"])
 
 
 def _settled(
-    tableau: Tableau, family: Family, found: Sequence[FamilyOrder], facts: tuple[Fact, ...]
+    tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return an order that follows from those found before, where it is at least the family's search limit.
+    """Return an order that follows from earlier ones, if it is at least the search limit of the family.
 
-    The conditions that fail are those of the family that bounds it from above. What follows from orders that
-    decimals support is supported by decimals.
+    The failing conditions are those of the family that bounds it from above. An order that follows from
+    orders with certificate ``decimal`` has this certificate too.
     """
-    proved = [f for f in found if f.certificate != "decimal"]
+    proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
-    if settled is None and len(found) > len(proved):
-        settled = _settled_by(tableau, family, found, facts)
+    if settled is None and len(computed) > len(proved):
+        settled = _settled_by(tableau, family, computed, facts)
         return settled and _certified(replace(settled, certificate="decimal"), family, facts)
     return settled
 
 
 def _settled_by(
-    tableau: Tableau, family: Family, found: Sequence[FamilyOrder], facts: tuple[Fact, ...]
+    tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    known = {f.family: f for f in found if f.decided and f.failing}
+    known = {f.family: f for f in computed if f.decided and f.failing}
     beyond = family.search_limit
     if all(f.order < beyond for f in known.values()):
         return None
@@ -237,25 +241,26 @@ def _settled_by(
 
     orders = {label: f.order for label, f in known.items()}
     own = family.order_of_tableau(tableau.method, tableau.ring, orders)
-    order = settled((*facts, *_decided(found).items(), (family.label(), own)), orders, family)
+    order = settled((*facts, *_decided(computed).items(), (family.label(), own)), orders, family)
     if order is None or order < beyond:
         return None
     bound = min(known.values(), key=lambda f: (f.order != order, f.certificate != "exact"))
-    certificate = "ball" if any(f.certificate == "ball" for f in found if f.decided) else "exact"
+    certificate = "ball" if any(f.certificate == "ball" for f in computed if f.decided) else "exact"
     return FamilyOrder(family.label(), order, certificate, True, bound.failing, None)
 
 
-def _certified(found: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Raise the certificate from ``decimal`` to ``ball`` where proved facts imply the order."""
-    if found.certificate != "decimal" or not facts:
-        return found
+def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
+    """Change the certificate from ``decimal`` to ``ball`` if proved facts imply the order."""
+    if computed.certificate != "decimal" or not facts:
+        return computed
     from orderconds.proof.implications import implied
 
-    return replace(found, certificate="ball") if implied(facts, family, found.order) else found
+    return replace(computed, certificate="ball") if implied(facts, family, computed.order) else computed
 
 
 def read(given: str | PathLike[str]) -> Tableau:
-    """Read a file of any format that :mod:`orderconds.exchange` reads, or the library's tableau of this name.
+    """Read a file of any format that :mod:`orderconds.exchange` reads, or the tableau of this name in the
+    library.
 
     >>> read("rk4").name
     'rk4'
@@ -271,12 +276,12 @@ def read(given: str | PathLike[str]) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check and what is claimed: the one asked for, else all claimed, else the
-    format's."""
+    """Yield the families to check with their claims: the given one, else all claimed, else that of the
+    format."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
-        found = families.get(family)
-        yield found, claims.get(found.label())
+        member = families.get(family)
+        yield member, claims.get(member.label())
         return
     for label, order in claims.items():
         yield _claimed(tableau, label), order
@@ -285,7 +290,8 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family of a claim; a name that there is not is an error of the file, at its key."""
+    """Return the family of a claim; InputError with the key in the file if there is no family of this
+    name."""
     try:
         return families.get(label)
     except InputError as problem:
@@ -296,11 +302,11 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 def _broken_claims(
     tableau: Tableau, computed: dict[str, bool | None], embedded: EmbeddedOrder | None
 ) -> Iterator[str]:
-    """Yield what the file says of properties and of its embedded row, and what was computed instead."""
+    """Yield a message for each false claim on a property or on the embedded row."""
     for name, claimed in tableau.claims.properties.items():
-        found = computed.get(name)
-        if found is not claimed:
-            said = "undecided" if found is None else str(found).lower()
+        holds = computed.get(name)
+        if holds is not claimed:
+            said = "undecided" if holds is None else str(holds).lower()
             yield f"{name} is {said}, claimed {str(claimed).lower()}"
     if embedded is not None and embedded.orders[embedded.own] != embedded.claimed:
         order = embedded.orders[embedded.own]
@@ -309,9 +315,9 @@ def _broken_claims(
 
 
 def _missing_claims(tableau: Tableau, unclaimed: Sequence[Family]) -> Iterator[str]:
-    """Yield each of the ``unclaimed`` families with the claim that would hold."""
+    """Yield a message for each family without a claim, with the order that it could claim."""
     for family in unclaimed:
-        found = family_order(tableau, family)
-        least = " at least" if found.limit is not None or not found.decided else ""
-        order = f"its order there is{least} {found.order}"
+        computed = family_order(tableau, family)
+        least = " at least" if computed.limit is not None or not computed.decided else ""
+        order = f"its order there is{least} {computed.order}"
         yield f"no order is claimed in family {family.label()}, which it can serve: {order}"

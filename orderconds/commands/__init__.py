@@ -1,1 +1,1 @@
-"""The program's own commands, a module each, whose ``command`` is a click command that returns its status."""
+"""The commands of ``orderconds``. Each module has a click ``command``, which returns its exit status."""

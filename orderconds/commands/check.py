@@ -27,17 +27,21 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""How many failing conditions the text names where a verdict is not ``holds``; else one. JSON lists all."""
+"""How many failing conditions the text lists if a claim does not hold; otherwise one. JSON lists all."""
 
 WIDTH = 200
-"""Where the text cuts the formula of a condition and its residual; JSON has them whole."""
+"""The text cuts longer formulas and residuals; JSON has them in full."""
 
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
-@click.option("--family", "-f", help="This family alone (vcg, 'rkmk(1)'), claimed or not.")
+@click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), claimed or not.")
 @click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
-@click.option("--complete", is_flag=True, help="Require a claim for every family that a tableau can claim.")
+@click.option(
+    "--complete",
+    is_flag=True,
+    help="Require a claim for every family in which the tableau can have an order.",
+)
 @click.option(
     "--certified",
     is_flag=True,
@@ -46,7 +50,7 @@ WIDTH = 200
 @click.option(
     "--max-conditions",
     type=click.IntRange(1),
-    help="Stop before more conditions of one order than this; 50000 where left out.",
+    help="Evaluate at most this many conditions of one order. Default: 50000.",
 )
 @click.option(
     "--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop each tableau after this time."
@@ -67,14 +71,14 @@ def command(
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
-    name from the library. A claim is an equality. Where a limit ends the search the order is a lower bound.
+    name from the library. A claim is an equality. If a limit ends the search, the order is a lower bound.
 
     Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
     from orderconds.families import get
 
     if family is not None:
-        get(family)  # an unknown family is one error, not one a file
+        get(family)  # an unknown family is one error for the command, not one for each file
     excused = _excused(tableaux)
     limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
     paths = list(_files(tableaux))
@@ -116,7 +120,8 @@ def command(
 
 @contextmanager
 def _without_collection(paths: Sequence[str]) -> Iterator[None]:
-    """Switch garbage collection off for one file: a check makes many small objects and then ends."""
+    """Switch garbage collection off for one file, because a check creates many small objects that live to its
+    end."""
     collects = gc.isenabled()
     if len(paths) == 1:
         gc.disable()
@@ -142,7 +147,7 @@ class _Job(Struct, frozen=True):
 
 
 class _Outcome(Struct, frozen=True):
-    """A verdict with the text to print; the verdict is None where the file could not be read."""
+    """A verdict and the text to print; the verdict is None if the file cannot be read."""
 
     verdict: str | None
     text: str
@@ -168,7 +173,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # here, where a terminal is a terminal
+    if not job.one_of_many:  # format in the main process, which knows the terminal
         _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
     with redirect_stdout(io.StringIO()) as printed:
@@ -200,10 +205,10 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
         if not os.path.isdir(argument):
             yield argument
             continue
-        found = sorted(str(path) for path in Path(argument).rglob("*.toml") if meant_as_tableau(path))
-        if not found:
+        paths = sorted(str(path) for path in Path(argument).rglob("*.toml") if meant_as_tableau(path))
+        if not paths:
             raise TableauError("no tableau below this directory", where=argument, expected="files *.toml")
-        yield from found
+        yield from paths
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
@@ -278,7 +283,7 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Name the conditions that end a family's order, with their residuals."""
+    """Return lines with the conditions that fail at the next order, and their residuals."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"

@@ -55,7 +55,7 @@ def bibliography() -> dict[str, str]:
 
 
 def split_entries(text: str) -> list[tuple[str, str]]:
-    """Split BibTeX text in entries (key, entry); an entry ends with its matching brace.
+    """Split BibTeX text into pairs (key, entry).
 
     >>> split_entries("@book{a, title = {A {B}}}\\n\\n@misc{c,\\n}")
     [('a', '@book{a, title = {A {B}}}'), ('c', '@misc{c,\\n}')]

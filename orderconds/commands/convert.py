@@ -18,18 +18,20 @@ from orderconds.tableau.record import from_data
 NAMES = click.Choice(list(FORMATS))
 
 
-@click.command(name="convert", short_help="Write a tableau in another format, or read one from it.")
+@click.command(name="convert", short_help="Convert a tableau to or from another file format.")
 @click.argument("source", metavar="FILE|NAME")
-@click.option("--from", "of", type=NAMES, help="The format of FILE; by its suffix where left out.")
-@click.option("--to", type=NAMES, help="The format to write; by the suffix of --output, else toml.")
+@click.option("--from", "of", type=NAMES, help="The format of FILE; without it the suffix decides.")
+@click.option(
+    "--to", type=NAMES, help="The format to write; without it the suffix of --output decides, else toml."
+)
 @click.option("--name", help="A name for a tableau whose file gives none.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
 def command(
     source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
 ) -> int:
-    """Convert a tableau: a file, or one of the library by name. Nothing that is read is run as code, and
-    what is written reads back as the same method.
+    """Convert a tableau: a file, or one of the library by name. Input is never executed as code. Reading the
+    output back gives the same method.
     """
     bare = of is None and not os.path.exists(source) and "." not in os.path.basename(source)
     path = find(source) if bare else Path(source)
@@ -39,7 +41,7 @@ def command(
     data = read_data(content, of, str(path), name or name_of(path))
     if name is not None:
         data["name"] = name
-    from_data(data, str(path))  # the grammar, shapes and numbers are sound
+    from_data(data, str(path))  # to raise an error if the tableau is invalid
     lost = list(left_out(data, to))
     if not as_json:
         for key in lost:

@@ -1,4 +1,4 @@
-"""``orderconds derive``: print a family's order conditions, as index sums or written out for S stages."""
+"""``orderconds derive``: print the order conditions of a family, as index sums or expanded for S stages."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.command(name="derive", short_help="Print the independent order conditions of a family.")
 @click.argument("family")
 @click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="Highest order.")
-@click.option("--stages", "-s", type=click.IntRange(1, 12), help="Write the sums out for this many stages.")
+@click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
 @click.option("--explicit", is_flag=True, help="With --stages: a_ij = 0 for j >= i.")
-@click.option("--format", "form", type=click.Choice(FORMATS), help="text where left out.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="Default: text.")
 @click.option(
     "--all",
     "every",
     is_flag=True,
-    help="Every tree's condition, dependent ones with what they equal; <tree> is a tree's left-hand side.",
+    help="The conditions of all trees; a dependent one also as a polynomial in others (<tree>).",
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
@@ -83,7 +83,7 @@ def _print_text(derivation: Derivation, explain: bool) -> None:
 
 
 def _print_entries(derivation: Derivation, order: int) -> None:
-    """Print the conditions of an order, each under a drawing of its tree and what that names."""
+    """Print the conditions of an order, each below a drawing of its tree and its elementary differential."""
     from orderconds.explain import kinds
 
     kind = kinds.of_family(derivation.family)
@@ -97,7 +97,7 @@ def _print_entries(derivation: Derivation, order: int) -> None:
 
 
 def _print_json(derivation: Derivation, explain: bool) -> None:
-    """Print the record; with ``explain`` each condition says what its tree names."""
+    """Print the JSON; with ``explain`` each condition has its elementary differential."""
     record = derivation.as_json()
     if explain:
         from orderconds.explain.kinds import named_by

@@ -1,4 +1,5 @@
-"""``orderconds list``: families and tableaux, and what other packages list (``codegen``: groups and scenes).
+"""``orderconds list``: list families, tableaux, and the listings of other packages (``codegen``: groups and
+scenes).
 
 A listing of another package is an entry point in the group ``orderconds.listings``: a function without
 arguments that returns records {"name", "about"}, about being one line.
@@ -21,7 +22,7 @@ LISTING_GROUP = "orderconds.listings"
 Records = Iterable[dict[str, str]]
 
 
-@click.command(name="list", short_help="List families, tableaux, and what other packages offer.")
+@click.command(name="list", short_help="List families, tableaux, groups and scenes.")
 @click.argument("kind", required=False)
 @click.option("--json", "as_json", is_flag=True, help="Names and descriptions on stdout as JSON.")
 def command(kind: str | None, as_json: bool) -> int:
@@ -49,7 +50,7 @@ def kinds_offered() -> list[str]:
 
 
 def listing(kind: str) -> Callable[[], Records]:
-    """Return the function that lists one kind; entry points are scanned only when it is not built in.
+    """Return the function that lists one kind; entry points are scanned only if it is not built in.
 
     >>> next(iter(listing("families")()))["name"]
     'rk'
@@ -88,4 +89,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""What this package lists itself."""
+"""The listings of this package."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 @click.command(name="modified", short_help="Print the modified equation of a method.")
 @click.argument("tableau", metavar="FILE|NAME")
 @click.option("--order", "-p", type=click.IntRange(1, 10), required=True, help="Terms up to h^(ORDER - 1).")
-@click.option("--family", help="Read the tableau in this family; by its format where left out.")
+@click.option("--family", help="Read the tableau in this family. Default: rk or cf, by its format.")
 @click.option(
     "--modifying",
     is_flag=True,

@@ -1,4 +1,4 @@
-"""The places that commands write to: an empty name is a mistake, and files are whole or as they were."""
+"""The output files and folders of commands: names must not be empty, and files are written atomically."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from orderconds.output_file import write_files
 
 
 class Place(click.ParamType[str]):
-    """The name of a folder or file to write; refused where it is empty or blank.
+    """The type of an option for an output file or folder; an empty or blank name is an error.
 
     >>> FOLDER.convert("out", None, None)
     'out'
@@ -33,13 +33,14 @@ FILE = Place("file", "leave the option out for stdout")
 
 
 def put(path: str, content: bytes) -> None:
-    """Write a file under another name and rename it; devices and pipes are written to as they are.
+    """Write a file under another name and rename it; write directly to devices and pipes.
 
-    Raises :class:`~orderconds.errors.InputError` where that cannot be done.
+    Raises :class:`~orderconds.errors.InputError` if that fails.
 
+    >>> import os
     >>> put(os.devnull, b"gone")
     """
-    target = Path(path).resolve()  # a link stays a link
+    target = Path(path).resolve()  # write to the target of a link, and keep the link
     try:
         if target.exists() and not target.is_file():
             target.write_bytes(content)

@@ -32,17 +32,17 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     text = text_of(file)
     try:
         with screen.working(f"refining {file}"):
-            found = refine(text, file, digits)
-            proof = certify(Tableau.loads(found.text, file))
+            refined = refine(text, file, digits)
+            proof = certify(Tableau.loads(refined.text, file))
     except NotProved as problem:
         click.echo(f"orderconds: {file}: no proof: {problem}", err=True)
         if as_json:
             screen.print_json({"decimals": {}, "proof": None, "reason": str(problem)})
         return 1
     if output is not None:
-        put(output, found.text.encode())
+        put(output, refined.text.encode())
     if as_json:
-        screen.print_json({"decimals": found.decimals, "proof": proof.as_json()})
+        screen.print_json({"decimals": refined.decimals, "proof": proof.as_json()})
     elif output is None:
-        click.echo(found.text.encode(), nl=False)  # a file is UTF-8, whatever the terminal is
+        click.echo(refined.text.encode(), nl=False)  # a file is UTF-8, also if the terminal is not
     return 0

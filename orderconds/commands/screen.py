@@ -1,4 +1,4 @@
-"""What commands print: JSON for machines, tables through rich on a terminal, plain columns elsewhere."""
+"""The output of commands: JSON for machines, tables with rich on a terminal, plain columns elsewhere."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def is_terminal() -> bool:
-    """Say whether a person is reading stdout; colours, rules and progress are only for them.
+    """Whether stdout is a terminal; only then is there colour and a progress line.
 
     >>> isinstance(is_terminal(), bool)
     True
@@ -25,7 +25,8 @@ def is_terminal() -> bool:
 
 
 def drawing_style(plain: bool = False) -> Style:
-    """Return how to draw trees on stdout: in Unicode, or in ASCII if asked to or if the encoding has no more.
+    """Return the style of tree drawings on stdout: Unicode, or ASCII if requested or if the encoding requires
+    it.
 
     >>> drawing_style(plain=True).signs["dot"]
     'o'
@@ -43,9 +44,8 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Show on a terminal what is being worked on, while it is; elsewhere show nothing.
-
-    What it gives is called to change the message.
+    """Show a message on a terminal during the work; show nothing elsewhere. The result is a function that
+    changes the message.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -62,9 +62,8 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 @contextmanager
 def counting(message: str) -> Iterator[Callable[[str], object]]:
-    """Show on a terminal what is being worked on, what is done and how long it has taken; else nothing.
-
-    What it gives is called with what has just been done; work of unknown length is counted, not foretold.
+    """Show a progress bar on a terminal; show nothing elsewhere. The result is a function, to be called with
+    the name of each finished item. If the total is unknown, the items are counted.
 
     >>> with counting("measuring") as done:
     ...     _ = done("first")
@@ -102,7 +101,7 @@ def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: i
     rk      4
     """
     if is_terminal():
-        from rich.console import Console  # a person is watching, so its import time does not matter
+        from rich.console import Console  # only on a terminal, where the import time does not matter
         from rich.padding import Padding
         from rich.table import Table
 

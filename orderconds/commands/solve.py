@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 @click.option("--fsal", is_flag=True, help="The last stage is the first of the next step.")
 @click.option("--fix", multiple=True, metavar="a21=1/2", help="A linear equation; may be given often.")
 @click.option("--positive", multiple=True, metavar="NAME", help="A coefficient, or b for all weights.")
-@click.option("--size", metavar="X", help="No coefficient beyond X in size.")
+@click.option("--size", metavar="X", help="No coefficient is larger than X in absolute value.")
 @click.option(
     "--exponentials", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in the update."
 )
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 )
 @click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
 @click.option(
-    "--minimise", type=click.Choice(["error"]), help="Try all starts and take the least principal error."
+    "--minimise", type=click.Choice(["error"]), help="Use all starts and choose the least principal error."
 )
 @click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; minimising 1024]")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
@@ -54,10 +54,10 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
     Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
-    options. The same seed gives the same file, however many processes there are. An interrupted
+    options. The same seed gives the same file for any number of processes. An interrupted
     search keeps its finished batches in the checkpoint, and the same command continues from there.
     """
-    # One thread a process: results then do not depend on how many there are.
+    # One thread for each process: results then do not depend on the number of threads.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -69,15 +69,15 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     except KeyboardInterrupt as interrupt:
         path = order.checkpoint
         if path is not None and path.exists():
-            interrupt.add_note(f"finished starts are kept in {path}; the same command goes on from there")
+            interrupt.add_note(f"finished starts are kept in {path}; repeat the command to continue")
         raise
-    if outcome.found is not None and output is not None:
-        put(output, outcome.found.text.encode())
+    if outcome.solution is not None and output is not None:
+        put(output, outcome.solution.text.encode())
     if as_json:
         screen.print_json(_record(order, outcome, output))
     else:
         _print(order, outcome, output)
-    return 0 if outcome.found is not None else 1
+    return 0 if outcome.solution is not None else 1
 
 
 def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
@@ -113,7 +113,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"  # no exponent that fills the memory
+    # Long exponents would give numbers that fill the memory.
+    number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
     except (ValueError, ZeroDivisionError):  # 1/0, 1/2e3
@@ -124,18 +125,18 @@ def _size(text: str | None) -> Fraction | None:
 
 
 def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, object]:
-    verdict = "found" if outcome.found else "infeasible" if outcome.none else "nothing found"
+    verdict = "found" if outcome.solution else "infeasible" if outcome.none else "nothing found"
     record: dict[str, object] = {"verdict": verdict, "family": order.family, "order": order.order}
     record |= {"stages": order.spec.stages, "seed": order.seed, "command": order.command()}
     if outcome.none is not None:
         return {**record, "proof": outcome.none.as_json()}
     record |= {"tried": outcome.tried, "best_residual": outcome.best}
-    if outcome.found is not None:
+    if outcome.solution is not None:
         record |= {
-            "certificate": outcome.found.certificate,
-            "error_norm": outcome.found.error,
+            "certificate": outcome.solution.certificate,
+            "error_norm": outcome.solution.error,
             "file": output,
-            "tableau": outcome.found.text,
+            "tableau": outcome.solution.text,
         }
     return record
 
@@ -143,7 +144,7 @@ def _record(order: Order, outcome: Outcome, output: str | None) -> dict[str, obj
 def _print(order: Order, outcome: Outcome, output: str | None) -> None:
     if outcome.none is not None:
         _print_proof(order, outcome.none)
-    elif outcome.found is None:
+    elif outcome.solution is None:
         click.echo(
             f"orderconds: no {order.family} method of order {order.order} with {_stages(order)} "
             f"was found; best residual {outcome.best:.3g}",
@@ -152,10 +153,12 @@ def _print(order: Order, outcome: Outcome, output: str | None) -> None:
         for line in outcome.tried:
             click.echo(f"  tried {line}", err=True)
     elif output is None:
-        click.echo(outcome.found.text, nl=False)
+        click.echo(outcome.solution.text, nl=False)
     else:
-        error = "" if outcome.found.error is None else f", principal error {outcome.found.error:.6g}"
-        click.echo(f"{output}: {order.family} {order.order}, certificate {outcome.found.certificate}{error}")
+        error = "" if outcome.solution.error is None else f", principal error {outcome.solution.error:.6g}"
+        click.echo(
+            f"{output}: {order.family} {order.order}, certificate {outcome.solution.certificate}{error}"
+        )
 
 
 def _stages(order: Order) -> str:

@@ -1,4 +1,5 @@
-"""``orderconds table``: the library as a table for people, and whether a file shows it as it is."""
+"""``orderconds table``: the library as a Markdown table; write the table to a file or compare it with a
+file."""
 
 from __future__ import annotations
 
@@ -19,15 +20,14 @@ BEGIN, END = "<!-- begin: orderconds table -->", "<!-- end: orderconds table -->
 COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "error norm", "certificate")
 
 
-@click.command(name="table", short_help="The library as a Markdown table; keep it current in a file.")
+@click.command(name="table", short_help="Print the library as a Markdown table, or update it in a file.")
 @click.option("--write", metavar="FILE", help="Put the table between the marks in FILE.")
-@click.option("--check", "against", metavar="FILE", help="Fail unless FILE has the table as it is.")
+@click.option("--check", "against", metavar="FILE", help="Fail unless FILE has the current table.")
 @click.option("--json", "as_json", is_flag=True, help="The rows on stdout as JSON, nothing else.")
 def command(write: str | None, against: str | None, as_json: bool) -> int:
-    """Print a line for each tableau of the library: its orders, and in the family of the highest order its
-    exponentials, the norm of the leading error and the certificate, computed.
-
-    Exits with 1 where --check finds another table.
+    """Print a line for each tableau of the library: its orders and, for the family of highest order, the
+    number of exponentials, the norm of the leading error and the certificate. Exits with 1 if --check finds a
+    different table.
     """
     texts = {path: _around(path) for path in (write, against) if path is not None}
     rows = list(computed())
@@ -88,8 +88,8 @@ def row(name: str) -> tuple[str, ...]:
         best[claim.family] = max(best.get(claim.family, 0), claim.order)
     main = min(tableau.claims.orders, key=_first, default=None)
     report = check(tableau, family=main.label if main else None)
-    found = report.orders[0]
-    cost = report.work.get(found.family)
+    own = report.orders[0]
+    cost = report.work.get(own.family)
     method = tableau.method
     return (
         name,
@@ -97,13 +97,13 @@ def row(name: str) -> tuple[str, ...]:
         ", ".join(f"{family} {order}" for family, order in sorted(best.items(), key=lambda x: (-x[1], x[0]))),
         str(getattr(method, "s", None) or len(getattr(method, "stages", ())) or "-"),
         str(cost.exponentials) if cost and cost.exponentials is not None else "-",
-        "-" if found.error_norm is None else f"{found.error_norm:.2e}",
-        found.certificate,
+        "-" if own.error_norm is None else f"{own.error_norm:.2e}",
+        own.certificate,
     )
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Sort the highest order first, and among equals a family on groups, whose exponentials count."""
+    """Return the sort key: highest order first, and among equals families on groups."""
     from orderconds import families
 
     family = families.get(claim.label)
@@ -112,7 +112,7 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 
 def _around(path: str) -> tuple[str, str, str]:
-    """Return the text of a file, and what stands in it before and behind the place of the table."""
+    """Return the text of a file, and its parts before and after the table."""
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:

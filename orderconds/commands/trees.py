@@ -17,9 +17,13 @@ if TYPE_CHECKING:
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
 @click.argument("kind")
 @click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="How many vertices.")
-@click.option("--count", is_flag=True, help="Only their number, from its generating function.")
-@click.option("--draw", is_flag=True, help="A drawing of each.")
-@click.option("--explain", is_flag=True, help="A drawing of each, what it names, and its order condition.")
+@click.option("--count", is_flag=True, help="Print only their number, from a generating function.")
+@click.option("--draw", is_flag=True, help="Draw each.")
+@click.option(
+    "--explain",
+    is_flag=True,
+    help="Show a drawing, the elementary differential and the order condition of each.",
+)
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII signs only.")
 @click.option("--svg", type=FILE, metavar="FILE", help="Write all drawings to this file as SVG.")
 @click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
@@ -43,23 +47,23 @@ def command(
     graded       Lyndon words of letters 1, 2, ... of weight 1, 2, ...  composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    In drawings the root stands on top. A directed edge leads from a derivative in q to one in p (or mu); a
-    diamond (L) is a coadjoint action on mu. (>*>) behind a vertex says where, among its branches, its
-    own direction stands in the word of derivatives.
+    In drawings the root is at the top. A directed edge leads from a derivative in q to one in p (or mu); a
+    diamond (L) is a coadjoint action on mu. (>*>) after a vertex is the position of its own direction among
+    its branches in the word of derivatives.
     """
     from orderconds.explain import kinds
 
-    found = kinds.get(kind)
+    chosen = kinds.get(kind)
     if count and (draw or (explain and svg is None)):
         raise click.UsageError("--count gives a number alone; leave --draw and --explain out")
     if svg is not None:
-        _write_svg(found, order, svg, explain)
+        _write_svg(chosen, order, svg, explain)
     if as_json:
-        screen.print_json(_record(kind, found, order, count, draw, explain, plain))
+        screen.print_json(_record(kind, chosen, order, count, draw, explain, plain))
     elif count:
-        click.echo(found.count(order))
+        click.echo(chosen.count(order))
     elif svg is None:
-        for line in _listed(found, order, draw, explain, plain):
+        for line in _listed(chosen, order, draw, explain, plain):
             click.echo(line)
     return 0
 

@@ -30,7 +30,7 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""Name of a format to its module, which has ``write`` and ``read``, and its suffix."""
+"""For the name of a format, its module, with ``write`` and ``read``, and its suffix."""
 
 
 def export(data: Data, to: str) -> bytes:
@@ -49,9 +49,9 @@ def export(data: Data, to: str) -> bytes:
 
 
 def _require_same(given: Tableau, back: Tableau, to: str) -> None:
-    """Refuse a file that does not read back as the tableau that was written.
+    """Raise an error unless reading the output gives the same tableau.
 
-    Balls are compared to the digits that both have, since a written one may be rounded otherwise.
+    Balls are compared up to their common digits, because rounding may differ.
     """
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
     if not (same and equal_coefficients(given, back)):
@@ -65,7 +65,7 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
     """Return the keys and values of a file in the format ``of``; ``name`` is used if the file has no name.
 
-    Tables of other programs give no order for embedded weights, so it is computed. Raises
+    Files of other programs do not state the order of embedded weights, so it is computed. Raises
     :class:`~orderconds.errors.InputError` naming ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
@@ -107,7 +107,7 @@ def load_foreign(path: str | Path) -> Tableau | None:
 
 
 def name_of(path: str | Path) -> str:
-    """Return a name, made from the path, for the tableau of a file that has no name in it.
+    """Return a name for the tableau of a file without a name, from its path.
 
     >>> name_of("my files/my method (2).csv")
     'my_method_2'

@@ -2,9 +2,9 @@
 
 The proof of rounded decimals is left out, because it refers to names in the file.
 ``rk`` gives A, b and embedded_b with embedded_order; ``prk`` A, b, A_hat, b_hat; ``composition`` gamma, or
-alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``;
-``count`` says how many belong to each stage and, last, to the update, ``start`` which stage each starts
-from, 0 for y0; with embedded_order the update is the last but one and the embedded update the last.
+alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``.
+``count`` has the number of exponentials of each stage and, last, of the update; ``start`` has the stage from
+which each starts, 0 for y0. With embedded_order the last product is the embedded update.
 """
 
 from __future__ import annotations
@@ -17,16 +17,17 @@ from orderconds.errors import TableauError
 from orderconds.exchange.unevaluated import CoefficientTooLong, with_names_inlined
 from orderconds.ring import Balls
 from orderconds.tableau import Tableau
-from orderconds.tableau.file_format import Data
+from orderconds.tableau.file_format import Data, Format
+from orderconds.tableau.formats import FORMATS, array_format
 from orderconds.tableau.record import from_data
-from orderconds.tableau.write import written_out
+from orderconds.tableau.write import without_names
 
 Row = list[str]
 Arrays = Data
-"""Name to text (name, family, ...), to a row, or to rows of one length."""
+"""Texts (name, family, ...), rows, and matrices, by name."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a file that become JSON texts; ``numbers`` only where coefficients need their names."""
+"""Tables of a file that become JSON texts; ``numbers`` only if coefficients need names."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
@@ -43,7 +44,8 @@ def to_arrays(data: Data, target: str) -> Arrays:
     [['0', '0'], ['1', '0']]
     """
     family = data.get("family")
-    if family not in ("rk", "prk", "composition", "cf"):
+    kind = FORMATS.get(str(family))
+    if kind is None or not kind.in_arrays:
         raise TableauError(
             f"a tableau of format {family} in {target}",
             where=str(data.get("name")),
@@ -57,7 +59,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
                 raise
     entries: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
     entries |= {key: json.dumps(data[key]) for key in TABLES if data.get(key)}
-    if family == "cf":
+    if kind.as_products:
         return {**entries, **_products(data)}
     width = len(data["b"]) if "b" in data else 0
     for key in MATRICES + ROWS:
@@ -70,7 +72,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys of a tableau's file, no coefficient using a name other than that of a root.
+    """Return the keys of a tableau's file, without names in coefficients other than those of roots.
 
     Exact coefficients are in lowest terms; rounded ones keep the digits of the file.
 
@@ -80,7 +82,7 @@ def data_without_names(tableau: Tableau) -> Data:
     """
     if isinstance(tableau.ring, Balls) and tableau.file is not None:
         tableau = with_names_inlined(tableau, tableau.file)
-    return written_out(tableau, name_radicals=False)
+    return without_names(tableau, name_radicals=False)
 
 
 def _filled(rows: Sequence[Sequence[str | int]], width: int) -> list[Row]:
@@ -117,23 +119,20 @@ def from_arrays(entries: Arrays, where: str) -> Data:
                 f"the array {name!r}", where=where, expected=f"one of {', '.join(sorted(known))}"
             )
     tables = {key: json_table(entries[key], f"{where}: {key}") for key in TABLES if key in entries}
-    family = entries.get("family") or next(
-        (f for key, f in (("A_hat", "prk"), ("A", "rk"), ("exponentials", "cf")) if key in entries),
-        "composition",
-    )
+    family = entries.get("family") or array_format(entries)
+    kind = FORMATS.get(family, Format)
     data = {key: entries[key] for key in ("name", "source", "bibtex", "base") if key in entries} | {
         "family": family,
         **tables,
     }
-    if family == "cf":
+    if kind.as_products:
         return data | _stages(entries, where)
     data |= {
         key: entries[key]
         for key in ("A", "b", "A_hat", "b_hat", "gamma", "alpha", "beta", "c")
         if key in entries
     }
-    if family == "composition":
-        data.setdefault("base", "symmetric-2" if "gamma" in entries else "adjoint-pair")
+    data = data | {key: value for key, value in kind.defaults(entries).items() if key not in data}
     if "embedded_b" in entries:
         stated = entries.get("embedded_order")
         order = {} if stated is None else {"order": _integer(stated, where)}
@@ -142,7 +141,7 @@ def from_arrays(entries: Arrays, where: str) -> Data:
 
 
 def _verify_types(entries: Arrays, where: str) -> None:
-    """Refuse an array that is no row or matrix of texts, and a text that is none."""
+    """Raise an error for a value of the wrong type: texts, rows and matrices of texts are allowed."""
     for name, value in entries.items():
         depth = 0 if name in TEXTS else 2 if name in MATRICES else 1
         if not _has_depth(value, depth):

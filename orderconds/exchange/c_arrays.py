@@ -23,7 +23,7 @@ _TOKEN = re.compile(r"/\*|//|[{}\"]")
 
 
 def write(data: Data) -> bytes:
-    """Return C definitions, every name under the tableau's own.
+    """Return C definitions; every name begins with that of the tableau.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     static const double m_b[1] = {1.0};
@@ -72,8 +72,8 @@ def read(content: bytes, where: str) -> Data:
     text, comments = _without_comments(text, where)
     entries: Arrays = {}
     for comment in comments:
-        if (found := _TEXT.fullmatch(comment)) and found[1] in TEXTS and "\n" not in comment:
-            entries.setdefault(found[1], unescaped(found[2]))
+        if (match := _TEXT.fullmatch(comment)) and match[1] in TEXTS and "\n" not in comment:
+            entries.setdefault(match[1], unescaped(match[2]))
     for name, brackets, value in _ARRAY.findall(text):
         key = next(
             (k for k in sorted(ROWS + MATRICES, key=len, reverse=True) if re.search(rf"(^|_){k}$", name)),
@@ -92,9 +92,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return C source without comments and strings, but for comments in initialisers; and the comments.
-
-    Of those, the ones before the first initialiser.
+    """Return C source without strings and comments, except comments in initialisers; and the comments before
+    them.
     """
     kept: list[str] = []
     comments: list[str] = []

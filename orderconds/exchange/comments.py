@@ -1,7 +1,7 @@
 """Texts of a tableau in comments of source files: one line each, so that no text ends its comment.
 
 A backslash and every character that could end a line, a comment, or change the direction of writing is
-escaped as in Python; ``*/`` and ``/*`` are parted for C.
+escaped as in Python; ``*/`` and ``/*`` are separated for C.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def unescaped(text: str) -> str:
 
 
 def _is_control(character: str) -> bool:
-    """Whether a character is a control or format character, or parts lines or paragraphs."""
+    """Whether a character is a control or format character, or a separator of lines or paragraphs."""
     return unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp")
 
 

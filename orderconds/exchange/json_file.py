@@ -35,7 +35,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _unique(pairs: list[tuple[str, object]]) -> Data:
-    """Return an object and refuse repeated names, of which Python's reader would take the last."""
+    """Return an object; raise an error for a repeated name, of which Python would take the last."""
     members: Data = {}
     for name, value in pairs:
         if name in members:

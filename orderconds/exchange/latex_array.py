@@ -1,6 +1,6 @@
 r"""LaTeX: a Butcher tableau as an ``array`` with rules, other methods as matrices by name.
 
-Read back are ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
+The reader accepts ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
 ``A = \begin{pmatrix} ... \end{pmatrix}``.
 """
 
@@ -71,7 +71,7 @@ def write(data: Data) -> bytes:
 
 
 def _node(tableau: Tableau, x: Element) -> str:
-    """Return an abscissa as text; a ball has few digits, as nothing depends on them."""
+    """Return an abscissa as text; a ball has few digits, since the reader does not use them."""
     return SHORT.text(SHORT.enclose(x.value) + 0) if isinstance(x, Ball) else tableau.ring.text(x)
 
 
@@ -86,10 +86,10 @@ def read(content: bytes, where: str) -> Data:
     except UnicodeDecodeError:
         raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
     entries = _texts(text)
-    found = list(_environments(_COMMENT.sub("", text), where))
-    if (array := next((body for name, body in found if name is None), None)) is not None:
+    environments = list(_environments(_COMMENT.sub("", text), where))
+    if (array := next((body for name, body in environments if name is None), None)) is not None:
         return from_arrays({**entries, **_butcher(array, where)}, where)
-    for name, body in found:
+    for name, body in environments:
         if name is None:
             continue
         if name in entries:
@@ -109,13 +109,13 @@ def _texts(text: str) -> Arrays:
     for line in text.split("\n"):
         if line.strip() and not line.startswith("%"):
             break
-        if (found := _TEXT.fullmatch(line.rstrip("\r"))) and found[1] in TEXTS:
-            entries.setdefault(found[1], unescaped(found[2]))
+        if (match := _TEXT.fullmatch(line.rstrip("\r"))) and match[1] in TEXTS:
+            entries.setdefault(match[1], unescaped(match[2]))
     return entries
 
 
 def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
-    """Yield the body of each Butcher array with None, of each matrix with the name before it."""
+    """Yield (None, body) for each Butcher array, and (name, body) for each matrix."""
     opened: re.Match[str] | None = None
     for token in _ENVIRONMENT.finditer(text):
         if token[1] == "begin":

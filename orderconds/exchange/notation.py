@@ -41,7 +41,7 @@ def _number(x: Fraction) -> str:
 
 
 def _python(x: Expression, tight: int) -> str:
-    """Return x as Python source; ``tight`` is 1 within a product, 2 as a divisor or base."""
+    """Return x as Python source; ``tight`` is 1 inside a product, 2 in a divisor or a base."""
     if isinstance(x, Constant):
         if x.unit:
             places = len(str(x.unit.denominator)) - 1
@@ -128,7 +128,7 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Say whether x prints as a product and not as one fraction; regrouped factors would change balls."""
+    """Whether x is printed as a product and not as one fraction; regrouping factors would change balls."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 

@@ -59,9 +59,9 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield the named numbers, each after those that it refers to: the text of a number, or a root.
+    """Yield the named numbers, each after those to which it refers: the text of a number, or a root.
 
-    A root is given by descending coefficients and its place among the real roots, counted as by ``CRootOf``.
+    A root has descending coefficients and its index among the real roots, as in ``CRootOf``.
     """
     remaining = json_table(entries.get("numbers", "{}"), "numbers")
     while remaining:
@@ -115,8 +115,8 @@ def _header(text: str) -> Arrays:
     for line in text.split("\n"):
         if line.strip() and not line.startswith("#"):
             break
-        if (found := _TEXT.fullmatch(line.rstrip("\r"))) and found[1] in TEXTS:
-            entries.setdefault(found[1], unescaped(found[2]))
+        if (match := _TEXT.fullmatch(line.rstrip("\r"))) and match[1] in TEXTS:
+            entries.setdefault(match[1], unescaped(match[2]))
     return entries
 
 
@@ -143,7 +143,7 @@ def _closing(text: str, start: int, where: str) -> int:
 
 
 def _with_python_names(data: Data) -> Data:
-    """Return the keys with other names for numbers whose names Python, or the source written, uses."""
+    """Return the keys with new names for numbers whose names would conflict in Python source."""
     taken = {*keyword.kwlist, *keyword.softkwlist, *_NAME.findall(IMPORT), *MATRICES, *ROWS}
     numbers = data.get("numbers") or {}
     renamed = dict[str, str]()
@@ -156,16 +156,18 @@ def _with_python_names(data: Data) -> Data:
     if not renamed:
         return data
 
-    def spelled(x: object) -> object:
+    def formatted(x: object) -> object:
         if isinstance(x, str):
             return _NAME.sub(lambda m: renamed.get(m[0], m[0]), x)
         if isinstance(x, list):
-            return [spelled(y) for y in x]
-        return {key: spelled(y) for key, y in x.items()} if isinstance(x, dict) else x
+            return [formatted(y) for y in x]
+        return {key: formatted(y) for key, y in x.items()} if isinstance(x, dict) else x
 
     texts = {key: data[key] for key in TEXTS if key in data and key not in TABLES}
-    rest = {key: spelled(x) for key, x in data.items() if key not in texts and key not in TABLES}
-    roots = {renamed.get(name, name): x if isinstance(x, dict) else spelled(x) for name, x in numbers.items()}
+    rest = {key: formatted(x) for key, x in data.items() if key not in texts and key not in TABLES}
+    roots = {
+        renamed.get(name, name): x if isinstance(x, dict) else formatted(x) for name, x in numbers.items()
+    }
     claims = {"claims": data["claims"]} if "claims" in data else {}
     return {**texts, **rest, "numbers": roots, **claims}
 

@@ -146,11 +146,11 @@ def with_names_inlined(tableau: Tableau, file: File) -> Tableau:
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a/2"]]\\nb = ["1"]\\nnumbers = { a = "0.99~" }'
-    >>> found = with_names_inlined(Tableau.loads(text), Tableau.loads(text).file)
-    >>> found.ring.text(found.method.A[0][0])
+    >>> inlined = with_names_inlined(Tableau.loads(text), Tableau.loads(text).file)
+    >>> inlined.ring.text(inlined.method.A[0][0])
     '0.99~/2'
     """
-    ring, texts = UnevaluatedNumbers(), file.spelled
+    ring, texts = UnevaluatedNumbers(), file.symbolic
     values = evaluate_in(ring, texts.expressions, texts.numbers, texts.where)
     method, embedded = texts.build(values, ring)
     return replace(tableau, ring=ring, method=method, embedded=embedded, file=None)

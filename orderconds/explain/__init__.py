@@ -1,5 +1,6 @@
-"""Explanations of conditions: drawings of trees, and the elementary differentials or Hamiltonians they name.
+"""Explanations of conditions: drawings of trees, and their elementary differentials or Hamiltonians.
 
 ``diagram`` turns every kind of tree into one record of vertices and edges, ``lines`` draws that as text,
-``svg`` as a picture; ``differentials`` names trees; ``kinds`` lists all kinds with their members and numbers.
+``svg`` as a picture; ``differentials`` writes elementary differentials; ``kinds`` lists all kinds with their
+members and numbers.
 """

@@ -38,9 +38,9 @@ class Branch:
 class Vertex:
     """A vertex with its branches from left to right.
 
-    ``legs`` = (before, letters) says that the first ``letters`` branches are letters of one word, and that
-    the edge to the parent comes after ``before`` of them; None where there is no choice. ``label`` is the
-    text of a letter.
+    ``legs`` = (before, letters) means that the first ``letters`` branches are letters of one word, and that
+    the edge to the parent comes after ``before`` of them; None if there is no choice. ``label`` is the text
+    of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -1,6 +1,6 @@
-"""The kinds of trees: their members, numbers, texts, drawings, and what they name.
+"""The kinds of trees: enumeration, numbers, texts, drawings, and elementary differentials.
 
-A kind is assembled on demand, so that listing rooted trees loads nothing about words.
+A kind loads its modules on demand.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ Member = Any
 class Kind:
     """One kind of trees, words or forests.
 
-    ``members`` enumerates those of an order and ``count`` finds their number another way, from generating
-    functions; ``text`` is the text of a member, ``diagram`` its drawing, ``names`` that of the elementary
-    differential or Hamiltonian it names. With ``independent`` the members carry an independent set of
-    conditions of the family that illustrates the kind, else all of its conditions.
+    ``members`` enumerates those of an order; ``count`` computes their number independently, from generating
+    functions. ``text`` is the text of a member, ``diagram`` its drawing, ``names`` the text of its elementary
+    differential or Hamiltonian. With ``independent`` the members have an independent set of conditions of the
+    family that illustrates the kind, else all of its conditions.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -58,7 +58,8 @@ class Kind:
         return {condition.key: condition for condition in conditions}
 
     def entry(self, member: Member, condition: OrderCondition | None, style: Style | None) -> list[str]:
-        r"""Return the lines that explain a member: its text, a drawing, what it names, its condition.
+        r"""Return the lines that explain a member: its text, a drawing, its elementary differential, its
+        condition.
 
         Without a style there is no drawing.
 
@@ -100,7 +101,7 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees of a family's conditions; None for words, which need no drawing.
+    r"""Return the kind of trees of a family's conditions; None for words, which have no drawing.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -110,7 +111,7 @@ def of_family(label: str) -> Kind | None:
 
 
 def named_by(condition: OrderCondition) -> str:
-    """Return the elementary differential or Hamiltonian that a condition names, or else its tree's text.
+    """Return the elementary differential or Hamiltonian of a condition, or else the text of its tree.
 
     >>> from orderconds.derivation import derive
     >>> print(*map(named_by, derive("vcg", order=2).conditions))

@@ -1,4 +1,4 @@
-"""Diagrams as text: the root on top, a vertex a line, in Unicode or in ASCII."""
+"""Diagrams as text, with the root at the top and one line for each vertex, in Unicode or in ASCII."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class Style:
     """The signs of one way of drawing.
 
     ``fork`` and ``last`` join a branch to its parent, ``rail`` runs down beside the branches of a fork.
-    A force is followed by its place in the word at its vertex, ``(▸*▸)`` for f(t * u).
+    A force is followed by its position in the word at its vertex, ``(▸*▸)`` for f(t * u).
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

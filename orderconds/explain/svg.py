@@ -24,7 +24,7 @@ SIZE = 11.0
 class Layout:
     """A placed vertex: ``x`` in steps, relative to its parent, and its branches.
 
-    ``left`` and ``right`` are its outlines, relative to the vertex, one number a level.
+    ``left`` and ``right`` are its outlines relative to the vertex, one number for each level.
     """
 
     x: float

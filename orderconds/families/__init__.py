@@ -1,6 +1,6 @@
-"""Families of methods: each says how a tableau becomes a series, and which values of it are order conditions.
+"""Families of methods. A family defines the series of a tableau and its order conditions.
 
-One module a family. Built-in families load when they are asked for by name; :func:`register` adds others:
+Each family has a module. Built-in families load when they are used; :func:`register` adds others:
 
 >>> from orderconds import families
 >>> families.get("rkmk(1)").label()

@@ -1,4 +1,4 @@
-"""Variational families: action conditions, their independent sets, their left-hand sides."""
+"""The base class of variational families: their conditions on action trees and the values of these."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class ActionFamily(Family):
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of random members of the family, one for each sample of the ring.
 
-        They have as many stages as conditions up to ``order`` can tell apart.
+        They have enough stages for the conditions up to ``order``.
         """
 
     @abstractmethod
@@ -69,7 +69,8 @@ class ActionFamily(Family):
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Return what each dependent tree's left-hand side, as printed, equals in those of independent trees.
+        """Return the printed left-hand side of each dependent tree as a polynomial in those of independent
+        trees.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -77,12 +78,12 @@ class ActionFamily(Family):
         """
         from orderconds.series.action_relations import relations
 
-        found = relations(partial(self.random_series, order=order), _independent(self, order))
+        polynomials = relations(partial(self.random_series, order=order), _independent(self, order))
         return {
             tree: tuple(
                 (q * multiplier(tree) / prod(map(multiplier, trees)), trees) for q, trees in polynomial
             )
-            for tree, polynomial in found.items()
+            for tree, polynomial in polynomials.items()
         }
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -95,7 +96,7 @@ class ActionFamily(Family):
             yield of_class[0], partial(self.condition, of_class[0])
 
     def decisive_count(self, order: int) -> int:
-        """Return how many they are, at no cost."""
+        """Return the number of decisive conditions."""
         return class_count(order)
 
     @cached_property
@@ -121,7 +122,7 @@ class ActionFamily(Family):
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:
-        """Return the elementary Hamiltonian whose coefficient a condition fixes."""
+        """Return the elementary Hamiltonian that belongs to a condition."""
         return hamiltonian(condition.key)
 
     def condition(self, tree: Velocity) -> OrderCondition:
@@ -172,7 +173,7 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """The varied velocity is a letter of its own."""
+    """The varied velocity is a separate letter."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

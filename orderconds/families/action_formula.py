@@ -1,9 +1,10 @@
-"""Action conditions as index sums that people read: the tree walked once, symbols instead of numbers.
+"""Action conditions as readable index sums, from one walk over the tree with symbols for numbers.
 
 A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with 1/run! for
-each run of equal ones; here it is written with strict inequalities, one sum for each way of forming runs. A
-word that repeats one letter needs none: its coefficient is a power of one sum, divided by k!. That factor is
-left out on both sides of a condition (:func:`multiplier`), so that ``sum_i b_i c_i^2 = 1/3`` is printed.
+each run of equal ones; this module writes it with strict inequalities, one sum for each way of forming runs.
+For a word that repeats one letter this is not necessary: its coefficient is a power of one sum, divided by
+k!. That factor is left out on both sides of a condition (:func:`multiplier`), so that ``sum_i b_i c_i^2 =
+1/3`` is printed.
 """
 
 from __future__ import annotations
@@ -27,14 +28,14 @@ from orderconds.formula import (
     total,
     zero,
 )
-from orderconds.formula.nodes import Relation
+from orderconds.formula.notation import Relation
 from orderconds.series.action_lie import Terms, pade_terms
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word in which a stage's index may stand once, for a variation of that stage's velocity."""
+"""A word that may contain the index of a stage once, for a variation of the velocity of that stage."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -56,7 +57,7 @@ def _momentum_multiplier(tree: Momentum) -> int:
 
 
 class ActionFormula(ABC):
-    """Writes action conditions; subclasses say how stages and update depend on the stage velocities.
+    """The index sums of action conditions. Subclasses define how stages and update depend on the velocities.
 
     ``row`` is the index of a stage, None for the update.
 
@@ -72,7 +73,7 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v, x once in place of a stage's velocity."""
+        """Return the coefficient of u x v, where x replaces the velocity of a stage once."""
 
     def condition(self, tree: Velocity) -> Formula:
         """Return ``sum_i b_i tau_t(i)`` times :func:`multiplier`."""
@@ -100,7 +101,7 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """Writes the conditions of products of exponentials; ``place`` is the index of one of them.
+    """The index sums for products of exponentials; ``place`` is the index of an exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -133,7 +134,7 @@ class ExponentialsFormula(ActionFormula):
         """Return a word's coefficient in the exponentials strictly between two places (None: no bound)."""
         if not word:
             return one()
-        lengths = reversed(list(compositions(len(word))))  # all places different first
+        lengths = reversed(list(compositions(len(word))))  # begin with all places different
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
@@ -149,7 +150,7 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v with x in the exponential at ``place``, x's own factor left out."""
+        """Return the coefficient of u x v with x in the exponential at ``place``, without the factor of x."""
         terms = []
         for r in range(len(before) + 1):
             for q in range(len(after) + 1):
@@ -242,7 +243,7 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i^n, or in Y^n: written once for all stages."""
+        """Return the coefficient of a word in X_i^n, or in Y^n: computed once for all stages."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -268,7 +269,7 @@ class MuntheKaasFormula(ActionFormula):
     def _argument(self, row: str | None, word: Marked) -> Formula:
         """Return the coefficient of a word in X_i, or in Y.
 
-        Each letter in turn is the velocity that dexpinv acts on; that of a variation is of one stage only.
+        Each letter in turn is the velocity to which dexpinv applies; a varied velocity belongs to one stage.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -289,7 +290,7 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # A power of X has a word's coefficient only if the word is empty where the power is 1.
+            # The power 0 of X is 1, which has a coefficient only on the empty word.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

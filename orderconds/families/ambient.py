@@ -1,7 +1,7 @@
 """Runge-Kutta methods on the space around the manifold: ``rk`` in coordinates of the ambient space.
 
-A step leaves the manifold by its own error, so that its order there is the classical one. The family is the
-baseline with which methods that stay on the manifold are compared.
+A step leaves the manifold by its local error, and the order is the classical one. The family is a baseline
+for methods that stay on the manifold.
 """
 
 from __future__ import annotations
@@ -23,16 +23,17 @@ class AmbientFamily(RungeKuttaFamily):
     """
 
     name = "ambient"
-    description = "Runge-Kutta methods in the space around the manifold, which a step leaves."
+    description = "Runge-Kutta methods in coordinates of the ambient space; a step leaves the manifold."
     illustrates = ()
     implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is its own ambient space"}
     bounds_others = False
+    default_series = False
     low_storage = ()
     keeps_manifold = False
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """No tableau: the order is that of ``rk``."""
+        """Return None: the order is that of ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -1,6 +1,6 @@
-"""The base class of families: every question that the rest of the program asks about a family.
+"""The base class of families, with every attribute and method that the rest of the program uses.
 
-A family says how a tableau becomes a series. Its conditions compare that series with the exact flow's. Facts
+A family defines the series of a tableau. Its conditions compare that series with the exact flow's. Facts
 about a family are attributes and methods of its class, with defaults declared here; no other module keeps a
 table of family names.
 """
@@ -41,7 +41,8 @@ class Family(ABC):
 
     A subclass sets ``name``, ``description`` and ``formats`` and implements :meth:`conditions` and
     :meth:`evaluate`; all else has a default. :func:`orderconds.families.register` makes it known to every
-    command. Options of a family are the parameters of its class, ``cutoff`` of RKMK; they are integers.
+    command. The options of a family, such as ``cutoff`` of RKMK, are parameters of its class; they are
+    integers.
     """
 
     name: ClassVar[str] = ""
@@ -55,9 +56,9 @@ class Family(ABC):
     needs_nonzero_weights: ClassVar[bool] = False
     """Whether the family divides by the weights b_i."""
     search_limit: ClassVar[int] = 8
-    """The order up to which ``check`` searches where nothing is claimed; one beyond the claim in any case."""
+    """The order up to which ``check`` searches without a claim; with a claim, at least one order higher."""
     order_bound: ClassVar[int | None] = None
-    """The highest order of any member, where a theorem bounds it; no condition beyond it has a meaning."""
+    """The highest order of any member, by a theorem; None without such a bound."""
     over_rationals: ClassVar[bool] = False
     """Whether conditions are evaluated by :mod:`orderconds.ring.nodal`, without field arithmetic."""
     trees: ClassVar[str | None] = None
@@ -67,16 +68,16 @@ class Family(ABC):
 
     # Other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Names of families whose conditions are among its own at every order, each with the theorem."""
+    """Names of families whose conditions are a subset of its own at every order, each with the theorem."""
     abelian: ClassVar[str | None] = None
-    """The family that the method is where brackets vanish and exponents add up; None where no family reads
-    all of its tableaux that way."""
+    """The family of the same method on an abelian group, where brackets vanish; None if no family reads all
+    tableaux."""
     low_order: ClassVar[str | None] = None
-    """A family with exactly the same conditions up to order 2: no bracket or momentum enters before."""
+    """A family with the same conditions up to order 2, which involve no bracket and no momentum."""
     bounds_others: ClassVar[bool] = False
-    """Whether its orders bound those of other families, and are worth computing for that."""
+    """Whether ``check`` computes its order in order to bound those of other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """Families in which a 2N scheme has the order that it has in this one."""
+    """Families in which a 2N scheme has the same order as in this one."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -92,7 +93,10 @@ class Family(ABC):
     minimal_brackets: ClassVar[int] = 0
     """The highest order at which members without a cut-off are compiled with the fewest brackets."""
     cutoff: int | None = None
-    """After how many brackets dexpinv is cut; None: not at all."""
+    """The number of brackets after which dexpinv is cut; None: no cut."""
+
+    default_series: ClassVar[bool] = False
+    """Whether ``orderconds modified`` may read a tableau in this family if the user names none."""
 
     # Search
     unknowns: ClassVar[str | None] = None
@@ -121,7 +125,7 @@ class Family(ABC):
         """
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return those of :meth:`conditions` that follow neither from one another nor from lower ones.
+        """Return a subset of :meth:`conditions` in which none follows from the others or from lower orders.
 
         By default all of them. A family overrides this where its conditions are a generating set that is
         not independent, and explains the difference in :meth:`remark`.
@@ -129,7 +133,7 @@ class Family(ABC):
         return self.conditions(order)
 
     def remark(self, order: int) -> str:
-        """Return what a reader of the conditions up to ``order`` should know; or an empty text."""
+        """Return a remark on the conditions up to ``order`` for the reader; or an empty text."""
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -152,7 +156,7 @@ class Family(ABC):
             yield condition.key, partial(_itself, condition)
 
     def decisive_count(self, order: int) -> int | None:
-        """Return how many decisive conditions there are, where that is known at no cost, else None."""
+        """Return the number of decisive conditions if a formula gives it, else None."""
         return None
 
     def residuals(
@@ -172,11 +176,11 @@ class Family(ABC):
         if not conditions:
             return ()
         if isinstance(ring, Balls):
-            with precision(ring.bits):  # once, and not in each operation
-                found = self._residuals(*_UNWRAPPED(method, ring), conditions)
-            if not all(x.is_finite() for x in found):
+            with precision(ring.bits):  # set the precision once, not in each operation
+                differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
+            if not all(x.is_finite() for x in differences):
                 raise ZeroDivisionError("division by a ball that contains zero")
-            return tuple(map(ring.enclose, found))
+            return tuple(map(ring.enclose, differences))
         return self._residuals(method, ring, conditions)
 
     def _residuals(
@@ -195,7 +199,7 @@ class Family(ABC):
     # Tableaux
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the method of a tableau as this family reads it, None where it does not."""
+        """Return the method of a tableau in a format of this family, or None."""
         return tableau.read_as(self.formats)
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -203,7 +207,8 @@ class Family(ABC):
         return
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which a file without claims is checked; its format has this family's name."""
+        """Return the family in which to check a file without claims whose format has the name of this
+        family."""
         return self
 
     @classmethod
@@ -215,19 +220,19 @@ class Family(ABC):
         return None
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim that the family has this order, as files spell it."""
+        """Return the claim of this order in a tableau file."""
         from orderconds.tableau.claims import OrderClaim
 
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the members whose orders a complete file claims, by rising cost."""
+        """Return the members in which a complete file claims an order, by rising cost."""
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the field evaluations, exponentials and brackets of a step, None where they are not counted.
+        """Return the field evaluations, exponentials and brackets of a step, None if they are not counted.
 
-        By default the evaluations alone.
+        By default only the evaluations.
         """
         from orderconds.tableau.work import evaluations
 
@@ -244,7 +249,7 @@ class Family(ABC):
         if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
-            f"family {self.label()} is not written out by a number of stages alone",
+            f"family {self.label()} is not determined by the number of stages",
             where="--stages",
             expected="a family whose coefficients are numbered by stages, as rk, sprk, cg, vcg or splitting",
             hint="leave --stages out",
@@ -253,14 +258,14 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order that theorems give a method from its orders in other families, by label; or 0.
+        """Return a lower bound of the order by theorems, from the orders in other families by label; or 0.
 
         Families that name this one in :attr:`implies` need not be considered here.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return an order that a theorem about the tableau's coefficients gives, without trees; or 0."""
+        """Return a lower bound of the order by a theorem about the coefficients, without trees; or 0."""
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -268,15 +273,16 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions that imply all of this one's for this method, or None."""
+        """Return a family with fewer conditions, which for this method imply those of this family; or
+        None."""
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition that fails first where no member of the family has this order, or None."""
+        """Return the first failing condition if no member of the family has this order, else None."""
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return which trees do not see the cut of dexpinv, None for a family without one."""
+        """Return the trees on which the cut of dexpinv has no effect; None for a family without a cut."""
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
@@ -286,8 +292,8 @@ class Family(ABC):
         >>> from orderconds.ring import QQ
         >>> from orderconds.tableau import Tableau, find
         >>> rk4 = Tableau.load(find("rk4")).method
-        >>> found = get("vrkmk(2)").reductions(rk4, QQ, {"sprk": 4})
-        >>> found.cut.order, found.cut.longest
+        >>> reductions = get("vrkmk(2)").reductions(rk4, QQ, {"sprk": 4})
+        >>> reductions.cut.order, reductions.cut.longest
         (4, 4)
         """
         cut = self.unseen_cut(method, orders)
@@ -296,9 +302,9 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return the family whose conditions are enough for a symmetric ``method``, None for this one's own.
+        """Return a family whose conditions suffice for a symmetric ``method``, or None.
 
-        It is asked of the family that the method's format is named after.
+        The caller uses the family with the name of the format.
         """
         return None
 

@@ -1,10 +1,10 @@
 """Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0, cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is made of brackets and of products that pair up with their reverses, as A_i A_j A_k + A_k A_j A_i:
-they lie in the algebra {X: X^T P + P X = 0}. Its coefficients at a word and at the reversed word differ by
-the sign (-1)^(n+1), and nothing else relates them: a condition for each pair, and for each word of odd length
-that reads the same backwards (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv.
-Comput. Math. 8 (1998) 317).
+Omega is a sum of brackets, and of products with their reverses, as A_i A_j A_k + A_k A_j A_i; these lie in
+the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n and of its reverse differ by the
+factor (-1)^(n+1). There is no other relation, hence one condition for each pair, and for each palindrome of
+odd length (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998)
+317).
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Write the value on a word by that on its reverse."""
+        """Return the value on a word as a polynomial in the value on its reverse."""
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}

@@ -1,8 +1,9 @@
 """Commutator-free methods: each stage and the update is a product of exponentials of combinations of stages.
 
 exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, the first acting first; stage i alike with alpha_iJj
-(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage that starts from another one has that one's
-exponentials before its own. In print b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
+(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage that starts from another stage begins with the
+exponentials of that stage. In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j
+a_ij.
 """
 
 from __future__ import annotations
@@ -51,6 +52,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
     )
     formats = ("cf", "rk")
     implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a group"}
+    default_series = True
     unknowns = "cf"
 
     def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
@@ -85,18 +87,18 @@ def exponentials(method: Method) -> list[Exponentials]:
     >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
     [0, 1, 1, 2, 2]
     """
-    found: list[Exponentials] = []
+    paths: list[Exponentials] = []
     commutator_free = expect(method, CommutatorFree)
     for stage in (*commutator_free.stages, commutator_free.update):
-        before = found[stage.start] if stage.start is not None else ()
-        found.append((*before, *stage.exponentials))
-    return found
+        before = paths[stage.start] if stage.start is not None else ()
+        paths.append((*before, *stage.exponentials))
+    return paths
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the tables that the formulas name, filled up with zeros.
+    """Return the coefficients in formulas, filled with zeros.
 
-    alpha_iJj and beta_Jj, and summed over the exponentials a_ij and b_j; c_i = sum_j a_ij.
+    These are alpha_iJj and beta_Jj, their sums over exponentials a_ij and b_j, and c_i = sum_j a_ij.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -130,7 +132,7 @@ def _word(
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # One letter does not see the order of the exponentials: only their totals count.
+        # For one letter the order of the exponentials does not matter, only their sums.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

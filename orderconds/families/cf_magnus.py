@@ -1,6 +1,6 @@
 """Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h).
 
-Letter k stands for X_k in A(t) = X_1 + t X_2 + ... and weighs k; the exact values are iterated integrals
+Letter k is X_k in A(t) = X_1 + t X_2 + ... and has weight k; the exact values are iterated integrals
 (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
 """
 

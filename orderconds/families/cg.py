@@ -87,8 +87,7 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Whether a tableau read as a Crouch-Grossman method is proved to be symmetric.
 
-    A variational method is symmetric where its discrete Lagrangian is; that is symmetric where the paths to
-    the stages are.
+    A variational method is symmetric if its discrete Lagrangian is, that is, if the paths to the stages are.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))
@@ -104,7 +103,8 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # The coefficient of t^k is the k-th power of that of t, by k!: exponentials of one letter commute.
+        # Exponentials of one letter commute, so the coefficient of t^k is that of t to the power k, divided
+        # by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

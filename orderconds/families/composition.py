@@ -1,8 +1,9 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi.
 
-Phi_h = exp(h X_1 + h^2 X_2 + ...), X_1 the field itself, so that letter k weighs k; in Phi_{alpha h} it has
-the value alpha^k, in the adjoint Phi*_{beta h} the value -(-beta)^k. The exact flow has 1/n! on the word of n
-letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+Phi_h = exp(h X_1 + h^2 X_2 + ...), X_1 is the field itself, and letter k has weight k; in Phi_{alpha h} it
+has the value alpha^k, in the adjoint Phi*_{beta h} the value -(-beta)^k. The exact flow has 1/n! on the word
+of n letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999)
+1079).
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h} of any basic method.
 
-    A composition of symmetric methods reads as one whose fields X_2, X_4, ... vanish.
+    For a composition of symmetric methods X_2, X_4, ... vanish.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
@@ -111,7 +112,7 @@ class CompositionFamily(WordFamily):
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the family of symmetric compositions: steps that read the same backwards are looked for."""
+        """Return the family of symmetric compositions, because a search uses palindromic steps."""
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -135,11 +136,12 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""What r letters in one stage i give: a formula times 1/repeats."""
+"""The value of r letters in one stage i: a formula and a divisor."""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
-    """Return the index sum of n! times the value on a word of n letters; ``block`` is what one stage adds.
+    """Return the index sum of n! times the value on a word of n letters; ``block`` is the contribution of one
+    stage.
 
     ``kind`` is lower-case for indices of stages, upper-case for indices of exponentials.
 

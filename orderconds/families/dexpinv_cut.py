@@ -1,10 +1,10 @@
-"""Families that cut dexpinv after the power r, which is their option ``cutoff``; without it nothing is cut.
+"""Families that cut dexpinv after the power r, their option ``cutoff``; without it there is no cut.
 
 Without a cut, RKMK and VRKMK are the Runge-Kutta method and its symplectic partner in coordinates of the
-first kind, and have their order (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1). The cut
-leaves an error of h^(r+3), and B_(r+1) = 0 for even r >= 2 makes the cut after r that after R = r + 1. Hence
-the order is min(p, R + 2) (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). A cut changes only
-the values of trees in which a word is long enough to see it.
+first kind, and have their order (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1). The error
+of the cut is of order h^(r+3). For even r >= 2, B_(r+1) = 0, so that the cut after r is the cut after R = r +
+1. Hence the order is min(p, R + 2) (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). A cut
+changes only the values of trees with long words.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The cut-offs of which a complete file claims orders, as long as the order rises."""
+"""The cut-offs for which a complete file claims orders, while the order rises."""
 
 
 class DexpinvCut(Family):
@@ -71,14 +71,15 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return the order without the cut, and how long the words are that do not see the cut."""
+        """Return the order without the cut, and the length of the longest words that the cut does not
+        change."""
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
         return UnseenCut(orders.get(self.abelian, 0), longest_unseen(self.cutoff), self.longest_word)
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return how long a word may be to have its whole value: one letter and no power of ad that is cut.
+    """Return the length of the longest word whose value the cut does not change.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

@@ -1,6 +1,6 @@
-"""Elementary weights of rooted trees as index sums, and the conditions made of them.
+"""Elementary weights of rooted trees as index sums, and the conditions on them.
 
-A tree with directed edges or coloured vertices has edges of two kinds, which stand for a_ij and ahat_ij.
+A tree with directed edges or coloured vertices has edges of two kinds, for a_ij and ahat_ij.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ MATRICES = ("a", "ahat")
 WEIGHTS = ("b", "bhat")
 
 kept_branches = lru_cache(maxsize=1 << 16)(branches)
-"""The branches of a tree, remembered."""
+"""The branches of a tree, cached."""
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
@@ -74,8 +74,8 @@ def weight_conditions(
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
     ['sum_i b_i c_i = 1/2']
     """
-    found = [weight_condition(family, tree, text, formula) for tree in trees]
-    return tuple(found) if switching is None else with_relations(found, switching, text)
+    conditions = [weight_condition(family, tree, text, formula) for tree in trees]
+    return tuple(conditions) if switching is None else with_relations(conditions, switching, text)
 
 
 def weight_condition(
@@ -103,7 +103,7 @@ def _summed(
 ) -> Formula:
     """Sum ``factors`` times the stage value of a tree, at the last index, over the indices.
 
-    Built without the smart constructors: equal factors are known from equal subtrees.
+    The formula is built directly: equal subtrees give equal factors.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

@@ -1,6 +1,6 @@
-"""Exponents of methods for Y' = A(t) Y in words: A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k put in brackets.
+"""Exponents of methods for Y' = A(t) Y as series of words, from A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k.
 
-Letter k stands for X_k, the coefficient of t^(k-1) in A, and weighs k; words are in the order of action.
+Letter k is X_k, the coefficient of t^(k-1) in A, and has weight k; words are in the order of action.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return the values on words, not empty, of each exponent of a method, the first acting first.
 
-    Elements are never expanded in products of nodes: a bracket's value is a sum over the places at which its
-    word is cut in two, each value found once.
+    Elements are not expanded in products of nodes: the value of a bracket is a sum over all ways to cut the
+    word in two, and each value is computed once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

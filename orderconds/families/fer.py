@@ -1,9 +1,9 @@
 """Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), F_1 = sum_i b_i A_i acting last and F_2 made of brackets.
 
-Letters are judged on F_1, whose values are those of a quadrature; Lyndon words of two letters and more on the
-logarithm of what acts before it, F_2 = sum_{ij} phi_ij A_j A_i + ..., to be that of exp(-F_1) Y (Fer 1958;
+Conditions on letters are those of a quadrature for F_1. Conditions on longer Lyndon words compare the
+logarithm F_2 = sum_{ij} phi_ij A_j A_i + ... of the other factors with that of exp(-F_1) Y (Fer 1958;
 Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and
-Ros, J. Phys. A 31 (1998) 259). Up to order six that is Fer's F_2; F_3 begins with weight seven.
+Ros, J. Phys. A 31 (1998) 259). Up to order six this is Fer's F_2; F_3 begins with weight seven.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Methods whose last exponential is free of commutators and whose others hold nothing else.
+    """Methods with exponents of commutators only, except the last exponent, which has none.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)

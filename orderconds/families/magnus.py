@@ -1,9 +1,9 @@
 """Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h).
 
-Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ...; in print omega_{ij...} is the coefficient of the
-product in which A_i acts first. Expanded in X_k, A(t) = X_1 + t X_2 + ..., it must agree with the Magnus
-expansion at every Lyndon word over letters k of weight k (Iserles, Munthe-Kaas, Noersett and Zanna, Acta
-Numerica 9 (2000) 215, Section 5). A product of exponentials is judged by its logarithm.
+Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ...; in printed conditions omega_{ij...} is the
+coefficient of the product in which A_i acts first. Expanded in X_k, A(t) = X_1 + t X_2 + ..., it must agree
+with the Magnus expansion at every Lyndon word over letters k of weight k (Iserles, Munthe-Kaas, Noersett and
+Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of exponentials, Omega is the logarithm.
 """
 
 from __future__ import annotations
@@ -50,16 +50,16 @@ class MagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
-        ("cf_magnus", "fer"), "one step reads as this or that product of exponentials, of one order"
+        ("cf_magnus", "fer"), "the order of a product of exponentials does not depend on how it is written"
     )
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` for a method that uses another map."""
-        found = expect(method, Magnus).transform
-        if found != self.transform:
+        transform = expect(method, Magnus).transform
+        if transform != self.transform:
             raise InputError(
-                f'map = "{found}"',
+                f'map = "{transform}"',
                 where=f"family {self.name}",
                 expected=f'map = "{self.transform}"',
                 hint=f"ask for the family {self.for_method(method).name!r}",
@@ -92,7 +92,7 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Write the value of a Lie element on a word by those on Lyndon words, linearly: shuffles vanish."""
+        """Return the value of a Lie element on a word as a linear combination of those on Lyndon words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:

@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods with the fewest brackets, as compiled for ``rkmk`` without a cut-off.
 
 The conditions are those of ``rkmk``; the left-hand sides are values of the compiled program,
-from its own Lie-Butcher series. So the order of the program is computed, not taken from the uncut method.
+from its own Lie-Butcher series. Hence the order is that of the compiled program.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """The family that has one member: a program of arguments and brackets.
+    """A family with one member: a program of arguments and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -33,7 +33,7 @@ class MinimalBrackets(MuntheKaasFamily):
         self.program = program
 
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the series of the program; ``method``, the tableau it was made from, is not read again."""
+        """Return the series of the program; ``method``, the tableau of the program, is not used."""
         return BracketedSeries(ring, self.program)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:

@@ -1,6 +1,6 @@
 """Partitioned Runge-Kutta methods: one condition a rooted tree with vertices of two colours (HLW III.2.2).
 
-A single tableau is read as the pair of it with itself.
+A single tableau is read as a pair of two equal tableaux.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class PartitionedFamily(Family):
 
 
 def as_pair(method: Method) -> PartitionedRungeKutta:
-    """Return a pair of tableaux, of a single tableau the pair of it with itself.
+    """Return a pair of tableaux; for a single tableau, twice the same.
 
     >>> as_pair(RungeKutta(((0,),), (1,))).b_hat
     (1,)

@@ -1,15 +1,15 @@
-"""Conditions that need not be evaluated, since theorems derive them from what a check has already decided.
+"""Conditions that need not be evaluated, because theorems derive them from earlier results of a check.
 
-``check`` walks up the orders 1, 2, ...; at order n all lower conditions hold. Then
+``check`` evaluates orders 1, 2, ...; at order n all lower conditions hold. Then
 
 - *symmetry*: a symmetric method of odd order n - 1 has order n (HLW II.3, Theorem 3.2);
-- *substitution*: the conditions of another family may imply all of order n at a lower price. For a symplectic
+- *substitution*: the conditions of another family may imply all of order n and cost less. For a symplectic
   pair with b = bhat those of free trees with directed edges imply those of all rooted trees of two colours
   (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
 - *a cut of dexpinv* changes only values of trees with long words (:mod:`orderconds.families.dexpinv_cut`).
 
-The assumptions of a reduction are decided exactly for the tableau at hand. Where coefficients are balls, only
-the last one is used, for a proved solution, and it never raises a certificate.
+The assumptions of a reduction are verified exactly for each tableau. For balls only the last reduction is
+used, for proved solutions, and it never improves a certificate.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ if TYPE_CHECKING:
 
 
 class Substitute(Struct, frozen=True):
-    """Another family whose conditions imply those of a method, and the method as that family reads it."""
+    """Another family whose conditions imply those of a method, and the method in its format."""
 
     family: Family
     method: Method
 
 
 class UnseenCut(Struct, frozen=True):
-    """Which conditions of a method do not see its cut of dexpinv.
+    """The conditions on which the cut of dexpinv has no effect.
 
-    Without the cut it has order ``order``; words up to the length ``longest`` do not see the cut. ``length``
-    returns the length of the longest word whose value enters that of a tree or forest.
+    Without the cut it has order ``order``; the cut does not change words up to the length ``longest``.
+    ``length`` returns the length of the longest word whose value enters that of a tree or forest.
     """
 
     order: int
@@ -73,5 +73,5 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Whether the condition of order n of a tree or forest holds because it does not see the cut."""
+        """Whether the condition of order n of a tree or forest holds because the cut has no effect on it."""
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

@@ -1,4 +1,4 @@
-"""The registry of families: built in by module, registered by class, installed by entry point."""
+"""The registry of families: built-in modules, registered classes, and entry points of installed packages."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ BUILT_IN = {
     "fer": "orderconds.families.fer",
     "cayley": "orderconds.families.cayley",
 }
-"""Family name to the module that registers it, in the order of ``orderconds list families``."""
+"""The module of each built-in family, in the order of ``orderconds list families``."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
 """The entry-point group in which other packages offer families: name = "module:Class"."""
@@ -51,10 +51,9 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 def register(family: FamilyClass) -> FamilyClass:
     """Make a family known to every command and to claims in tableau files; return the class.
 
-    It may be used as a decorator. A package that is installed names its class in the entry-point group
-    ``orderconds.families`` instead, and ``orderconds`` on the command line finds it. Raises
-    :class:`~orderconds.errors.InputError` for a class without name, description or formats, and for a name
-    that is taken.
+    It may be used as a decorator. An installed package uses the entry-point group ``orderconds.families``
+    instead. Raises :class:`~orderconds.errors.InputError` for a class without name, description or formats,
+    and for a name that is taken.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -116,7 +115,7 @@ def names() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return the same, then the names of families that installed packages offer.
+    """Return :func:`names`, then the names of families that installed packages offer.
 
     >>> set(names()) <= set(installed_names())
     True
@@ -147,8 +146,8 @@ def family_class(name: str) -> type[Family]:
     """
     if name not in _registered and name in BUILT_IN:
         import_module(BUILT_IN[name])  # which registers it
-    found = _registered.get(name) or _installed(name)
-    if found is None:
+    kind = _registered.get(name) or _installed(name)
+    if kind is None:
         import difflib
 
         known = installed_names()
@@ -158,7 +157,7 @@ def family_class(name: str) -> type[Family]:
             expected=f"one of {', '.join(known)}",
             hint=f"did you mean {close[0]!r}?" if close else "",
         )
-    return found
+    return kind
 
 
 def _installed(name: str) -> type[Family] | None:

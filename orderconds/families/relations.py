@@ -2,7 +2,8 @@
 
 Two laws make conditions dependent. The root of a tree of a symplectic method moves across an edge by
 phi(u o v) = phi(u) phi(v) - phi(v o u) (HLW VI.7.1). Values on words of a group-like series multiply by
-shuffles, a(u) a(v) = a(u sh v), so that Lyndon words give them all (Reutenauer, Free Lie Algebras, Thm 6.1).
+shuffles, a(u) a(v) = a(u sh v), so those on Lyndon words determine all others (Reutenauer, Free Lie Algebras,
+Thm 6.1).
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
-    r"""Write a polynomial, ``<tree>`` standing for a condition's left-hand side, products last.
+    r"""Return a polynomial as text, with ``<tree>`` for the left-hand side of a condition and products last.
 
     >>> spell({(b"\0", b"\0"): Fraction(1, 2), (b"\0\1",): Fraction(-1)}, str)
     "-<b'\\x00\\x01'> + 1/2 <b'\\x00'> <b'\\x00'>"
@@ -69,7 +70,7 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """Writes the weight of any rooted tree of a symplectic method by those of ``independent(n)``.
+    """The weights of rooted trees of a symplectic method as polynomials in those of ``independent(n)``.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING
     >>> from orderconds.trees.levels import parse, text
@@ -91,7 +92,7 @@ class RootSwitching:
         goals = frozenset(self._independent(len(tree)))
         waiting: list[tuple[bytes, int, Polynomial]] = [(tree, 1, {})]
         seen = {tree}
-        for root, sign, so_far in waiting:  # the list grows as the root moves on
+        for root, sign, so_far in waiting:  # the list grows during the loop
             if root in goals:
                 return add(so_far, {(root,): Fraction(1)}, sign)
             for u, v, moved in self._moves(root):
@@ -109,19 +110,19 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Give each condition that its ``polynomial`` does not name itself the relation it obeys.
+    """Return the conditions with relations, except the independent ones.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
     >>> [c.relation for c in with_relations(SymplecticFamily().all_conditions(2), SWITCHING, text)]
     ['1/2 <.> <.>']
     """
-    found = []
+    result = []
     for condition in conditions:
         equal = polynomial(condition.key)
         alone = equal == {(condition.key,): 1}
-        found.append(condition if alone else replace(condition, relation=spell(equal, text)))
-    return tuple(found)
+        result.append(condition if alone else replace(condition, relation=spell(equal, text)))
+    return tuple(result)
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
@@ -150,15 +151,15 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
 
 
 def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> dict[tuple[Tree, ...], int]:
-    found: dict[tuple[Tree, ...], int] = {}
+    counts: dict[tuple[Tree, ...], int] = {}
     for word, times in words.items():
         for shuffled, more in shuffle(word, factor).items():
-            found[shuffled] = found.get(shuffled, 0) + times * more
-    return found
+            counts[shuffled] = counts.get(shuffled, 0) + times * more
+    return counts
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
-    r"""Write a group-like value on a word of trees by those on Lyndon words, each times its ``scale``.
+    r"""Return a group-like value on a word of trees as a polynomial in those on Lyndon words, with scales.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -44,6 +44,7 @@ class RungeKuttaFamily(Family):
     implies: ClassVar[Mapping[str, str]] = {"symplectic_rk": "a symplectic method is a Runge-Kutta method"}
     low_order = "rk"
     bounds_others = True
+    default_series = True
     low_storage: ClassVar[tuple[str, ...]] = ("rk", "cf")
     fixed_stages = True
     unknowns = "rk"
@@ -64,7 +65,7 @@ class RungeKuttaFamily(Family):
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau, of other formats that which the method is on an abelian group."""
+        """Return the tableau (A, b); for other formats, that of the method on an abelian group."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod
@@ -92,7 +93,7 @@ def symmetric_tableau(method: Method, ring: Ring) -> bool:
 
 
 def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
-    """Return the weights b_i of a tableau that reads as (A, b), None for other formats.
+    """Return the weights b_i of a tableau that reads as (A, b), or None for other formats.
 
     >>> from orderconds.tableau import find
     >>> [str(x) for x in weights_of(Tableau.load(find("rk4")))]

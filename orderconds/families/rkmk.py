@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``; without r it is not cut.
 
-The conditions are values of the method's own series on Lyndon words; nothing about the order is assumed. It
-comes out as min(p, R + 2), where p is the Runge-Kutta order and R = r for r = 0 and odd r, R = r + 1 for
+The conditions are values of the series of the method on Lyndon words, without assumptions on the order. The
+computed order is min(p, R + 2), where p is the Runge-Kutta order and R = r for r = 0 and odd r, R = r + 1 for
 even r >= 2, since B_{r+1} = 0.
 """
 
@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 
 
 RANKED = 8
-"""The highest order whose essential conditions are computed: ranks take seconds there."""
+"""The highest order at which essential conditions are computed; the ranks take seconds."""
 
 
 @register
@@ -87,7 +87,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .``, on which a cut of dexpinv shows first."""
+        """Return the condition of the word ``[.] . ... .``, the first that a cut of dexpinv changes."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
@@ -95,9 +95,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return those of :meth:`conditions` that do not follow from the others and from lower ones.
 
-        They are as many as rooted trees, 1, 1, 2, 4, 9 ..., for dexpinv turns the problem into one on a
-        vector space; and at order R + 3 there is one more, which no tableau meets. Computed by ranks
-        (imports NumPy) up to order :data:`RANKED`; beyond it all of :meth:`conditions`.
+        Their number is that of rooted trees, 1, 1, 2, 4, 9 ..., because dexpinv transforms the problem to a
+        vector space. At order R + 3 there is one more, which no tableau meets. Computed by ranks (imports
+        NumPy) up to order :data:`RANKED`; beyond it all of :meth:`conditions`.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -105,7 +105,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self.conditions(order) if order > RANKED else self._of(_essential(self.cutoff, order)[-1])
 
     def remark(self, order: int) -> str:
-        """Return what the conditions of Lyndon words are beside the essential ones."""
+        """Return a remark on the conditions that are not essential."""
         if order < 3:
             return ""
         counts = ", ".join(str(len(lyndon_forests(n))) for n in range(1, min(order, RANKED) + 1))
@@ -118,7 +118,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the order that this cut of dexpinv allows at most, or ``limit``: R + 2.
+        """Return the highest order that this cut of dexpinv allows, R + 2, but at most ``limit``.
 
         Beyond it the values of every tableau obey a relation that the exact flow's do not: there is one
         essential condition more than there are rooted trees. Computed by ranks (imports NumPy).
@@ -137,7 +137,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """Writes coefficients of words; i None means the step. Each word is written once for all stages."""
+    """The index sums of coefficients of words; i is None for the step."""
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff
@@ -187,7 +187,7 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # A power of u has a word's coefficient only if the word is empty where the power is 1.
+                # The power 0 of u is 1, which has a coefficient only on the empty word.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
                     # As in the series: u^(k-m) x u^m reads the word of u^m first.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
@@ -201,7 +201,7 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # Trees of an order are told apart by as many stages.
+        # A method with n stages distinguishes the trees of order n.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

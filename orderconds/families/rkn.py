@@ -1,10 +1,10 @@
 """Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, where brackets vanish.
 
 The bracket of functions of degrees i and j in p has degree i + j - 1, so that functions of q alone commute:
-V, [V,[T,V]] and what else x o y = [x,[T,y]] makes of V. The lightest consequence is [V,[V,[V,T]]] = 0.
-Conditions are the combinations of words over T and V that vanish on the ideal of these commutators: 2, 1, 2,
-2, 4, 5, 10, 14, 25, ... of them at order 1, 2, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan
-and Murua, J. Comput. Dyn. 6 (2019) 345).
+V, [V,[T,V]] and all iterates of x o y = [x,[T,y]] on V. The consequence of lowest weight is [V,[V,[V,T]]] =
+0. Conditions are the combinations of words over T and V that vanish on the ideal of these commutators: 2, 1,
+2, 2, 4, 5, 10, 14, 25, ... of them at order 1, 2, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151;
+McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -86,13 +86,13 @@ class NystroemFamily(Family):
         swap = splitting.rkn == T
         steps = [(1 - part if swap else part, x) for part, x in splitting.steps]
         values = SplittingFamily().series(Splitting(("T", "V"), tuple(steps)), ring)
-        found = []
+        results = []
         for condition in conditions:
             value = ring.zero
             for word, scale in condition.key:
                 value = value + values(word) * scale
-            found.append(value * _scale(condition.key))
-        return tuple(found)
+            results.append(value * _scale(condition.key))
+        return tuple(results)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the form of splittings T + V."""
@@ -101,7 +101,7 @@ class NystroemFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Splittings whose file says which part is V."""
+        """Splittings whose file names the part V."""
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
@@ -111,7 +111,7 @@ class NystroemFamily(Family):
         return ((self.label(), order), ("splitting", min(order, 4)))
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None: what a flow costs is not known here."""
+        """Return None: the cost of a flow depends on the problem."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
@@ -136,7 +136,7 @@ def _nystroem(method: Method) -> Splitting:
 
 
 def text(functional: Functional) -> str:
-    """Spell a combination of words.
+    """Return a combination of words as text.
 
     >>> text((((0, 1, 1, 1), 1), ((1, 1, 1, 0), 1)))
     'TVVV + VVVT'
@@ -188,16 +188,16 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return what x o y = [x,[T,y]] makes of V, with this weight, as words."""
+    """Return the iterates of x o y = [x,[T,y]] on V with this weight, as words."""
     if weight == 1:
         return (expand(V),)
-    found = []
+    potentials = []
     for left in range(1, weight // 2 + 1):
         right = weight - 1 - left
         for i, x in enumerate(_potentials(left)):
             for y in _potentials(right)[i if left == right else 0 :] if right >= left else ():
-                found.append(_commutator(x, _commutator(expand(T), y)))
-    return tuple(found)
+                potentials.append(_commutator(x, _commutator(expand(T), y)))
+    return tuple(potentials)
 
 
 @lru_cache(maxsize=32)
@@ -252,18 +252,18 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return the products of two independent combinations or more of this weight in all."""
+    """Return the products of at least two independent combinations with this total weight."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:
         if left == 0:
             return [()]
-        found = []
+        extensions = []
         for place in range(start, len(known)):
             n = len(known[place][0][0])
             if n <= left:
-                found += [(known[place], *rest) for rest in extend(left - n, place)]
-        return found
+                extensions += [(known[place], *rest) for rest in extend(left - n, place)]
+        return extensions
 
     return extend(order, 0)
 

@@ -1,6 +1,6 @@
 """Symplectic Lie group integrators of Marthinsen's thesis, Section 2.5; with one stage the theta-method.
 
-They are ``vrkmk(0)``, VRKMK with no bracket in dexpinv, differently written. Their order is two at most
+They are equal to ``vrkmk(0)``, VRKMK without brackets in dexpinv. Their order is at most two
 (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, thesis, NTNU Trondheim, 2014).
 """
 
@@ -45,7 +45,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the family alone."""
+        """Return only the family itself."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

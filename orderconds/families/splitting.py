@@ -86,7 +86,7 @@ class SplittingFamily(WordFamily):
         return tuple(tuples(range(self.parts), repeat=order))
 
     def text(self, word: Word) -> str:
-        """Spell a word as ``AAB``."""
+        """Return a word as text, as ``AAB``."""
         return "".join(chr(ord("A") + letter) for letter in word)
 
     def exact(self, word: Word) -> Fraction:
@@ -100,7 +100,7 @@ class SplittingFamily(WordFamily):
     def formula(self, word: Word) -> Formula:
         """Return the index sum of the scaled value; a_i, b_i, ... are the steps of A, B, ... in stage i.
 
-        In two parts c_i = a_1 + ... + a_i takes the place of sums over a.
+        For two parts, c_i = a_1 + ... + a_i replaces sums over a.
         """
         return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
@@ -121,7 +121,7 @@ class SplittingFamily(WordFamily):
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None for a splitting: what a flow costs is not known here."""
+        """Return None for a splitting: the cost of a flow depends on the problem."""
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
@@ -197,7 +197,7 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # A run of B has A before its first block alone.
+        # Only the first block of a run of B has A before it.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)
@@ -225,9 +225,9 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return the tables a, b, ... that the formulas name, with zeros where a stage lacks a part.
+    """Return the coefficients a, b, ... in formulas, with zeros for missing parts of a stage.
 
-    Of a splitting in two parts ``c`` holds the sums a_1 + ... + a_i.
+    For two parts, ``c`` are the sums a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

@@ -1,7 +1,7 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
-Conditions belong to free trees with directed edges, since b_i ahat_ij = b_i b_j - b_j a_ji lets the root move
-across an edge at the price of products of conditions of lower order (Abia and Sanz-Serna 1993; HLW VI.7).
+Conditions belong to free trees with directed edges, since b_i ahat_ij = b_i b_j - b_j a_ji allows to move the
+root across an edge, up to products of conditions of lower order (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from orderconds.trees.directed import (
 )
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
-"""Every rooted tree's weight by those of free trees."""
+"""The weight of every rooted tree as a polynomial in those of free trees."""
 
 
 @register
@@ -94,7 +94,7 @@ class SymplecticPartitionedFamily(Family):
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
         """Return an order that the order p under ``rk`` and simplifying assumptions give, without trees.
 
-        Where ahat = a, it is p. Otherwise C(m) and D(m) of a with B(2m) give C(m) and D(m) of ahat, by its
+        If ahat = a, it is p. Otherwise C(m) and D(m) of a with B(2m) give C(m) and D(m) of ahat, by its
         definition; trees with edges of both kinds then simplify as those with one do in Butcher's theorem,
         since c = chat, and the order is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
 

@@ -29,7 +29,7 @@ from orderconds.trees.bicoloured import alternating, alternating_free_trees, mov
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
-"""Every rooted tree's weight by those of free trees."""
+"""The weight of every rooted tree as a polynomial in those of free trees."""
 
 
 @register
@@ -96,7 +96,7 @@ class SeparableFamily(Family):
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
-    Balls pass where they contain zero: the conditions are then checked to the digits given.
+    Balls that contain zero are accepted; the conditions then hold to the given digits.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

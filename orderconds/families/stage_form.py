@@ -1,4 +1,5 @@
-"""The coefficients of a method with a fixed number of stages: their names, and the method they make."""
+"""The coefficients of a method with a fixed number of stages: their names, and a function that builds the
+method."""
 
 from __future__ import annotations
 
@@ -12,13 +13,13 @@ from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
 
 Name = tuple[str, tuple[str, ...]]
-"""A coefficient's letter and indices, as ``("a", ("2", "1"))``."""
+"""The letter and the indices of a coefficient, as ``("a", ("2", "1"))``."""
 
 
 class StageForm(Struct, frozen=True):
-    """Names of coefficients, and the function that makes a method of their values in a ring.
+    """Names of coefficients, and a function from their values in a ring to the method.
 
-    ``divides`` says that the family divides by the coefficients called b.
+    ``divides``: whether the family divides by the coefficients b.
     """
 
     names: tuple[Name, ...]
@@ -45,7 +46,8 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` where ``explicit`` is asked of a family without tableaux.
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is given for a family without tableaux (A,
+    b).
 
     >>> refuse_explicit("splitting", False)
     """

@@ -1,7 +1,7 @@
 """Symmetric compositions of a symmetric method of order two: words over letters 1, 3, 5, ... of odd weight.
 
-A step and its adjoint agree, so that the logarithm of a step holds odd weights only: conditions of even order
-follow from those before (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+A step is equal to its adjoint, so its logarithm has only odd weights, and conditions of even order follow
+from lower ones (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None: no format is named after this family."""
+        """Return None: no format has the name of this family."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:

@@ -1,6 +1,6 @@
 """Symplectic Runge-Kutta methods, b_i a_ij + b_j a_ji = b_i b_j: conditions belong to free trees.
 
-Of the free trees those that an edge parts in two equal halves are superfluous (Sanz-Serna and Abia 1991; HLW
+Free trees that an edge divides into two equal halves are superfluous (Sanz-Serna and Abia 1991; HLW
 VI.7.1, Theorem 7.3).
 """
 
@@ -23,7 +23,7 @@ from orderconds.trees.levels import Tree, text
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
-"""Every rooted tree's weight by those of essential free trees."""
+"""The weight of every rooted tree as a polynomial in those of essential free trees."""
 
 
 @register

@@ -1,8 +1,9 @@
 """Variational commutator-free methods: VCG with several stages in one exponential.
 
 The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0``,
-``X_iJ = h sum_j alpha_iJj xi_j``, the update alike with beta_Jj, and ``b_i = sum_J beta_Ji``: the future work
-that Section 3.5 of Bogfjellmo and Marthinsen points to. Negative weights are not needed for order 3.
+``X_iJ = h sum_j alpha_iJj xi_j``, the update alike with beta_Jj, and ``b_i = sum_J beta_Ji``: a
+generalisation suggested in Section 3.5 of Bogfjellmo and Marthinsen. Order 3 is possible without negative
+weights.
 """
 
 from __future__ import annotations
@@ -32,10 +33,9 @@ if TYPE_CHECKING:
 
 @register
 class VariationalCommutatorFree(ActionFamily):
-    """The family ``vcf``; ``update`` and ``stage`` say how many exponentials there are when conditions count.
-
-    Without them there are as many as can make a difference, and the independent conditions are as many as
-    there are elementary Hamiltonians. A Runge-Kutta tableau is read with one stage in each exponential.
+    """The family ``vcf``; ``update`` and ``stage`` are the numbers of exponentials for counting conditions.
+    Without them the numbers are large enough for all conditions to be independent: one for each elementary
+    Hamiltonian. A Runge-Kutta tableau is read with one stage in each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]

@@ -1,8 +1,8 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``vrkmk(r)``.
 
-Equation (3.16) of Bogfjellmo and Marthinsen. The order is computed from the method's own series; it comes out
-as min(p, R + 2), p the order as symplectic partitioned method and R as for RKMK, sharper than Theorem 3.5.3:
-the tests compute R + 2 from the series.
+Equation (3.16) of Bogfjellmo and Marthinsen. The order is computed from the series of the method. It is
+min(p, R + 2), with p the order as a symplectic partitioned method and R as for RKMK. This is sharper than
+Theorem 3.5.3; the tests confirm R + 2.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the tree ``o(o|L(o ... o))``, on which a cut of dexpinv shows first."""
+        """Return the condition of the tree ``o(o|L(o ... o))``, the first that a cut of dexpinv changes."""
         if self.cutoff is None or order < 3:
             return None
         leaf = velocity()

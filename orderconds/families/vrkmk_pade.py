@@ -1,4 +1,4 @@
-"""VRKMK with the inverse of dexp cut off in place of dexp^{-1} cut off: ``vrkmk_pade(r)``.
+"""VRKMK with the inverse of a truncated dexp, instead of a truncated dexp^{-1}: ``vrkmk_pade(r)``.
 
 The stage velocities solve dexp_(r),X_i v_i = xi_i (Marthinsen's thesis, Section 3.4.1, alternative approach).
 The conditions are those of every variational family; the left-hand sides come from the method's own action
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family of tableaux (A, b), all b_i non-zero, with dexp cut after the power ``cutoff``.
 
-    Without a cutoff the whole of dexp is inverted, which is ``vrkmk`` uncut.
+    Without a cutoff the whole of dexp is inverted, which is ``vrkmk`` without a cut.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -66,11 +66,11 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """No tableau: an order may be claimed, none is missed."""
+        """Return None: an order may be claimed, but no file needs to claim one."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the family alone."""
+        """Return only the family itself."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -53,15 +53,16 @@ class WordFamily(Family):
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random members, one a sample, free enough to tell conditions up to ``order`` apart."""
+        """Return random members, one for each sample, with enough coefficients for all conditions up to
+        ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of this weight whose conditions are independent and imply all of it."""
+        """Return the words of this weight whose conditions are independent and imply all others."""
         letters = sorted({letter for word in self.words(order) for letter in word})
         return tuple(lyndon_words(letters, order, self.weigh))
 
     def weigh(self, letter: int) -> int:
-        """Return the weight of a letter: letter k stands for a field of weight k."""
+        """Return the weight of a letter: letter k is a field of weight k."""
         return letter
 
     def scale(self, word: Word) -> int:
@@ -73,7 +74,7 @@ class WordFamily(Family):
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Write the value on a word as a polynomial in those on independent words."""
+        """Return the value on a word as a polynomial in those on independent words."""
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -96,7 +97,7 @@ class WordFamily(Family):
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return the same polynomial between left-hand sides, which carry their scales."""
+        """Return the same polynomial for scaled left-hand sides."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

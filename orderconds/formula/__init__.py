@@ -18,7 +18,6 @@ from orderconds.formula.nodes import (
     IndexSum,
     Power,
     Product,
-    Relation,
     Total,
     coefficient,
     coefficients,
@@ -32,6 +31,7 @@ from orderconds.formula.nodes import (
     total,
     zero,
 )
+from orderconds.formula.notation import Relation
 
 __all__ = [
     "Coefficient",

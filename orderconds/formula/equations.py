@@ -35,7 +35,7 @@ def aligned(equations: Iterable[tuple[str, str, str]]) -> str:
 
 
 def broken(latex: str, line: int = LINE) -> list[str]:
-    r"""Break a formula into lines about ``line`` wide, before signs as few brackets deep as will do.
+    r"""Break a formula into lines about ``line`` wide, at signs inside as few brackets as possible.
 
     >>> broken("a_{1} + b_{2} - c_{3}", line=7)
     ['a_{1} + b_{2}', '- c_{3}']
@@ -69,7 +69,7 @@ def _terms(latex: str, within: int) -> list[str]:
 
 
 def _width(latex: str) -> float:
-    """Estimate how many signs of normal width are seen; fractions and scripts are set smaller."""
+    """Estimate the width of a formula in signs; fractions and scripts are smaller."""
     scripts = sum(len(script) for script in re.findall(r"[_^]\{([^}]*)\}", latex))
     plain = re.sub(r"[_^]\{[^}]*\}|\\hat|\\Big[lr]", "", latex)
     plain = re.sub(r"\\tfrac\{(\d+)\}\{(\d+)\}", lambda m: max(m.groups(), key=len), plain)

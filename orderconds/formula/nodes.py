@@ -1,4 +1,4 @@
-"""The syntax tree of index sums and its smart constructors, which flatten, collect and name.
+"""The syntax tree of index sums, its text, and functions that build and simplify formulas.
 
 Bound indices must have names of their own while a formula is being built (:func:`fresh` gives them);
 :func:`named` then renames them readably. Upper-case indices run over exponentials, others over stages.
@@ -103,9 +103,8 @@ def coefficient(name: str, *indices: str) -> Formula:
 
 
 def product(*factors: Formula) -> Formula:
-    """Multiply: flatten products, draw numbers to the front, collect equal factors in powers.
-
-    Factors are equal when they differ by the names of bound indices only; a zero factor gives zero.
+    """Multiply: flatten products, move numbers to the front, collect equal factors in powers. Factors are
+    equal if they differ only by the names of bound indices; a zero factor gives zero.
 
     >>> c = coefficient("c", "i")
     >>> product(coefficient("b", "i"), c, c).text()
@@ -123,7 +122,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Only sums can be equal up to names, and one alone has nothing to be equal to.
+    # Only sums can be equal up to names, so a single sum needs no comparison.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -159,7 +158,7 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 
 
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
-    """Sum over indices; sums among the factors of ``body`` and numbers are drawn to the front.
+    """Sum over indices; sums among the factors of ``body`` and numbers are moved to the front.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
     >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()
@@ -195,7 +194,7 @@ def fresh(kind: str = "i") -> str:
 def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its bound indices; free ones are renamed by ``names``.
 
-    So one formula serves several times in a product, whose sums are drawn together.
+    Thus one formula can occur several times in a product whose sums are merged.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
@@ -256,7 +255,7 @@ def _named(formula: Formula, names: Mapping[str, str], free: tuple[str, ...]) ->
 def coefficients(formula: Formula) -> Iterator[Coefficient]:
     """Yield every coefficient that occurs, from left to right.
 
-    >>> [found.name for found in coefficients(product(coefficient("b", "i"), coefficient("c", "i")))]
+    >>> [c.name for c in coefficients(product(coefficient("b", "i"), coefficient("c", "i")))]
     ['b', 'c']
     """
     match formula:
@@ -304,7 +303,7 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
-    """Return what two formulas share exactly if they differ by the names of bound indices only.
+    """Return a key that is equal for two formulas iff they differ only by the names of bound indices.
 
     Bound indices are numbered from the outside to the inside; tuples of numbers and strings are compared
     much faster than formulas.

@@ -9,7 +9,8 @@ from collections.abc import Sequence
 
 import sympy
 
-from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Relation, Total
+from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Product, Total
+from orderconds.formula.notation import Relation
 
 Limit = tuple[sympy.Symbol, sympy.Expr, sympy.Expr]
 """A summation index with its first and its last value."""
@@ -46,10 +47,11 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Turn ``i < j`` into the range 1..j-1 of i, with i summed inside j; j from i+1 for i free."""
+    """Return the limits: ``i < j`` gives i the range 1..j-1 inside the sum over j, or j a range from i+1 for
+    free i."""
     limits, remaining = [], list(indices)
     while remaining:
-        # SymPy's innermost limit comes first: an index goes once none that waits is bounded by it.
+        # SymPy's innermost limit comes first: take an index that bounds no remaining index.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

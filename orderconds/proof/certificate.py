@@ -1,4 +1,4 @@
-"""The proof of one file: the enclosed solution, how far the decimals are from it, and what orders it has."""
+"""The proof of one file: the enclosed solution, its orders, and the distance of the decimals from it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Misrounded:
-    """A decimal whose digits are not those of the solution: its name, the digits given, the right ones."""
+    """A decimal that is not the rounded solution: its name, the given digits, the correct digits."""
 
     name: str
     given: str
@@ -38,8 +38,8 @@ class Certificate:
     """A proved solution near the decimals of a file.
 
     ``tableau`` has its coefficients, over balls; ``facts`` the orders that the equations imply. ``radius``
-    bounds how far any decimal is from the solution; ``printed`` says the same of each number as its source
-    prints it. ``misrounded`` names the decimals that are not the solution rounded to their last digit.
+    bounds the distance of every decimal from the solution; ``printed`` bounds that of each number printed in
+    the source. ``misrounded`` names the decimals that are not the solution rounded to their last digit.
     """
 
     tableau: Tableau
@@ -65,22 +65,22 @@ class Certificate:
 
 
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
-    """Prove that the decimals of ``tableau`` stand for a solution of its equations.
+    """Prove that the equations of ``tableau`` have exactly one solution near its decimals.
 
-    The solution is enclosed to ``bits`` binary digits, to more where the file has more. Raises
-    :class:`~orderconds.proof.krawczyk.NotProved` with what is missing.
+    The solution is enclosed to ``bits`` binary digits, or more if the file has more. Raises
+    :class:`~orderconds.proof.krawczyk.NotProved` with the reason.
 
     >>> from orderconds.tableau import find
-    >>> found = certify(Tableau.load(find("cg4a")))
-    >>> found.facts, found.equations
+    >>> certificate = certify(Tableau.load(find("cg4a")))
+    >>> certificate.facts, certificate.equations
     ((('cg', 4),), 13)
     """
-    found = _certify(_Key(tableau), bits)
-    return replace(found, tableau=replace(found.tableau, path=tableau.path))
+    certificate = _certify(_Key(tableau), bits)
+    return replace(certificate, tableau=replace(certificate.tableau, path=tableau.path))
 
 
 class _Key:
-    """A tableau by what its proof depends on, so that a proof that several families ask for is made once."""
+    """A tableau, compared by the data of its proof, so that several families share one proof."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau

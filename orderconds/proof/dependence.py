@@ -1,7 +1,7 @@
-"""Which conditions of a sub-family look dependent: combinations found modulo primes, lifted to fractions.
+"""Search modulo primes for dependent conditions of a sub-family, and lift the combinations to fractions.
 
-Nothing here is proved. A rank modulo a prime can be too small, and a coefficient may be divisible by the
-prime; :class:`orderconds.proof.exact_member.ExactMember` verifies each combination without primes.
+Nothing in this module is a proof. A rank modulo a prime can be too small, and a coefficient may be divisible
+by the prime; :class:`orderconds.proof.exact_member.ExactMember` verifies each combination without primes.
 """
 
 from __future__ import annotations
@@ -21,34 +21,34 @@ from orderconds.ring.draws import Draws
 from orderconds.ring.reconstruct import rational_number
 from orderconds.ring.samples import Sample, Samples, echelon
 from orderconds.series.monomials import products
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""Members to begin with: a sub-family mostly has few conditions."""
+"""The initial number of random members; most sub-families have few conditions."""
 
 SPARE = 24
-"""Members beyond the number of columns, so that chance does not hide a dependence."""
+"""Additional random members, so that a dependence is not accidental."""
 
 PRIME_BITS = 61
 """Size of the primes: products of residues fit in flint's words, and small fractions need one prime."""
 
 MAX_PRIMES = 24
-"""How many primes are tried. Combinations with larger coefficients are not computed."""
+"""How many primes are tried. They do not suffice for combinations with larger coefficients."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""A dependent condition to its combination of monomials; a coefficient is x + y sqrt(d)."""
+"""For a dependent condition, its combination of monomials; a coefficient is x + y sqrt(d)."""
 
 
 @dataclass(frozen=True)
 class Dependences:
-    """The independent conditions, and each other one as a combination modulo several primes."""
+    """The independent conditions, and the others as combinations of these modulo several primes."""
 
     pivots: tuple[OrderCondition, ...]
     primes: tuple[int, ...]
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield each dependent condition with its combination over Q, None where there is none yet."""
+        """Yield each dependent condition with its combination over Q, or None if more primes are needed."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -60,34 +60,45 @@ class Dependences:
             return None
 
     def _fraction(self, condition: OrderCondition, monomial: Monomial, part: int) -> Fraction:
-        computed = [modular[condition].get(monomial, (0, 0))[part] for modular in self.residues]
-        return rational_number(computed, self.primes) if any(computed) else Fraction(0)
+        residues = [modular[condition].get(monomial, (0, 0))[part] for modular in self.residues]
+        return rational_number(residues, self.primes) if any(residues) else Fraction(0)
 
 
 def dependences(
     family: Family,
-    formulas: Spelled,
+    symbolic: SymbolicCoefficients,
     candidates: Sequence[Sequence[OrderCondition]],
     draws: Draws,
     surd: Surd | None,
     read: Reading | None = None,
 ) -> Iterator[Dependences]:
-    """Yield what is found modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
+    """Yield the dependences modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
 
-    ``candidates`` are the conditions of each order. A prime that finds fewer independent conditions than
-    another one does not count.
+    ``candidates`` are the conditions of each order. A prime that leaves fewer independent conditions than
+    another one is not used.
+
+    >>> from orderconds import families
+    >>> from orderconds.proof.subfamily import decisive_conditions
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["b1/2"], ["b1", "b2/2"]]\\nb = ["b1", "b2"]\\n'
+    >>> text += '[numbers]\\nb1 = "0.4~"\\nb2 = "1 - b1"\\n[proof]\\nconditions = "vcg"\\norder = 3'
+    >>> family, symbolic = families.get("vcg"), Tableau.loads(text).proof.symbolic
+    >>> candidates = decisive_conditions(family, 3)
+    >>> first = next(dependences(family, symbolic, candidates, Draws("example"), None))
+    >>> [c.tree for c in first.pivots], len(list(first.combinations()))
+    (['o', 'o(o o)'], 11)
     """
     everything = [c for of_order in candidates for c in of_order]
-    avoided = [n for c in constants(formulas) for n in (c.value.numerator, c.value.denominator)]
+    avoided = [n for c in constants(symbolic) for n in (c.value.numerator, c.value.denominator)]
     best: Dependences | None = None
     for prime in islice(draws.primes(PRIME_BITS, avoided), MAX_PRIMES):
         try:
-            computed = _modulo(_Sampling(family, formulas, everything, prime, draws, read), candidates, surd)
+            result = _modulo(_Sampling(family, symbolic, everything, prime, draws, read), candidates, surd)
         except (_NoRoot, ZeroWeight, ZeroDivisionError, ValueError):
             continue
-        if computed is None:
+        if result is None:
             continue
-        pivots, residues = computed
+        pivots, residues = result
         places = [everything.index(c) for c in pivots]
         known = [] if best is None else [everything.index(c) for c in best.pivots]
         if best is None or (-len(places), places) < (-len(known), known):
@@ -104,12 +115,12 @@ def _modulo(
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
     """Return the independent conditions and the combinations modulo one prime.
 
-    With a square root they are those at either root, joined into rational parts; None where the two differ.
+    With a square root, combine the results for both roots into rational parts; None if their pivots differ.
     """
     prime = sampling.prime
     if surd is None:
-        pivots, computed = _independent(sampling, candidates, None)
-        return pivots, {c: {m: (x, 0) for m, x in terms.items()} for c, terms in computed.items()}
+        pivots, combinations = _independent(sampling, candidates, None)
+        return pivots, {c: {m: (x, 0) for m, x in terms.items()} for c, terms in combinations.items()}
     root = _root_modulo(surd.radicand, prime)
     (pivots, one), (others, two) = (_independent(sampling, candidates, r) for r in (root, prime - root))
     if pivots != others:
@@ -136,8 +147,8 @@ def _independent(
         for n, of_order in enumerate(candidates, start=1):
             row = [*products(generators, n), *(values[c] for c in of_order)]
             before = len(row) - len(of_order)
-            computed, dependent = echelon([x.coordinates() for x in row], sampling.prime)
-            chosen = [of_order[p - before] for p in computed if p >= before]
+            places, dependent = echelon([x.coordinates() for x in row], sampling.prime)
+            chosen = [of_order[p - before] for p in places if p >= before]
             for place, terms in dependent.items():
                 if place >= before:
                     combinations[of_order[place - before]] = {row[p].factors: x for p, x in terms.items()}
@@ -151,7 +162,7 @@ def _independent(
 
 @dataclass(frozen=True)
 class _Value:
-    """The value of a monomial in conditions' left-hand sides at random members and at the exact flow."""
+    """The value of a product of left-hand sides at random members and at the exact flow."""
 
     factors: Monomial
     members: Sample
@@ -167,21 +178,21 @@ class _Value:
 
 @dataclass(frozen=True)
 class _Sampling:
-    """Conditions of a family, and where to evaluate them."""
+    """Conditions of a family, evaluated at random members modulo a prime."""
 
     family: Family
-    formulas: Spelled
+    symbolic: SymbolicCoefficients
     conditions: Sequence[OrderCondition]
     prime: int
     draws: Draws
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the values of the conditions at so many random members and at the flow."""
+        """Return the values of the conditions at ``count`` random members and at the flow."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
-        known = {u.constant: ring.random(generator) for u in self.formulas.decimals()}
-        method: Any = self.formulas.method(ring, known)[0]
+        known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
+        method: Any = self.symbolic.method(ring, known)[0]
         read = method if self.read is None else self.read(method, ring)
         values = self.family.evaluate(read, ring, self.conditions)
         flow = [
@@ -191,7 +202,7 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """Samples in which radicals are random numbers, but for a lone square root, which is ``square_root``."""
+    """Samples with random numbers for radicals, except for a lone square root, which is ``square_root``."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)

@@ -1,10 +1,10 @@
-"""The equations that the decimals of a file solve, and which orders their solution has.
+"""The equations that the decimals of a file solve, and the orders of their solution.
 
-Without a reduction they are all independent conditions of one family. A reduction leaves fewer, and what
-makes the others follow is verified exactly, on the file and not on its decimals:
+Without a reduction they are all independent conditions of one family. A reduction needs fewer equations. Its
+assumptions are verified exactly, from the formulas in the file and not from its decimals:
 
-``symmetric``    a palindromic composition of a symmetric method: its order is even, and of the conditions
-                 of a composition only those of odd order count, one a Lyndon word in the letters 1, 3, 5,
+``symmetric``    a palindromic composition of a symmetric method: its order is even, and only conditions of
+odd order are needed, one for each Lyndon word in the letters 1, 3, 5,
                  ... (HLW V.3.1-3.2). Midpoints composed are the method with the composed tableau, in every
                  family whose step is that of the tableau's midpoints one after the other (Bogfjellmo and
                  Marthinsen, Lemma 3.5.4). A Magnus method on s Gauss nodes sees A(t) through the polynomial
@@ -48,12 +48,12 @@ from orderconds.tableau.simplifying import simplifying, simplifying_order
 from orderconds.tableau.unknowns import Proof, RootedRing
 
 LOW_STORAGE_ORDER = 5
-"""Up to here the tests compute that 2N schemes have no conditions but those of rooted trees."""
+"""The highest order for which tests confirm that 2N schemes have only the conditions of rooted trees."""
 
 
 @dataclass(frozen=True)
 class Equations:
-    """Equations for the decimals of ``tableau``; a solution has the orders that ``facts`` name by family."""
+    """The equations for the decimals of ``tableau``; ``facts`` are the orders of a solution by family."""
 
     tableau: Tableau
     proof: Proof
@@ -61,14 +61,15 @@ class Equations:
     letters: int | None = None
     """Conditions on words with letters beyond this follow from the others (Gauss nodes)."""
     kept: tuple[OrderCondition, ...] | None = None
-    """The conditions that do not follow from others, for the reduction ``spelling``."""
+    """The independent conditions for the reduction ``spelling``."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
-        """Return left-hand sides less right-hand sides; ``point`` are the unknowns' values in ``ring``.
+        """Return left-hand sides minus right-hand sides; ``point`` are the values of the unknowns in
+        ``ring``.
 
-        With ``places`` of those equations alone.
+        With ``places``, return only these equations.
         """
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, _ = self.proof.over(ring, values)
@@ -126,7 +127,7 @@ def equations(tableau: Tableau) -> Equations:
         return Equations(tableau, proof, (("rk", _reached(proof, order)),))
     if proof.reduction == "symmetric":
         if properties(tableau).get("symmetric") is not True:
-            raise NotProved("reduction: the method is not symmetric by its spelling")
+            raise NotProved("reduction: the method is not symmetric for all values of its decimals")
         if proof.order % 2:
             raise NotProved(
                 f"reduction: the order of a symmetric method is even, the file says {proof.order}"
@@ -135,7 +136,7 @@ def equations(tableau: Tableau) -> Equations:
         family = named if own.symmetric_family(tableau.method) is None else own
         return Equations(tableau, proof, family.symmetric_facts(proof.order), _letters(tableau, proof))
     if proof.reduction == "low-storage":
-        if not any(place.startswith("low_storage.") for place in proof.spelled.expressions):
+        if not any(place.startswith("low_storage.") for place in proof.symbolic.expressions):
             raise NotProved("reduction: the file gives no low_storage scheme")
         implied = families.get(proof.conditions).low_storage
         if not implied or proof.order > LOW_STORAGE_ORDER:
@@ -147,10 +148,7 @@ def equations(tableau: Tableau) -> Equations:
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions that do not follow from others for the file's spelling.
-
-    Where there are as many as unknowns a proof needs them all.
-    """
+    """Return the conditions that do not follow from others for the formulas in the file."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -161,7 +159,7 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
     def read(method: Method, ring: Ring) -> Method:
         return _read(family, replace(tableau, ring=ring, method=method), proof)
 
-    return independent_conditions(family, proof.spelled, proof.order, read)
+    return independent_conditions(family, proof.symbolic, proof.order, read)
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
@@ -172,18 +170,18 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
         return None
-    spelled = proof.spelled
-    nodes = {place: x for place, x in spelled.expressions.items() if re.fullmatch(r"c\[\d+\]", place)}
-    exact = {name: x for name, x in spelled.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
+    symbolic = proof.symbolic
+    nodes = {place: x for place, x in symbolic.expressions.items() if re.fullmatch(r"c\[\d+\]", place)}
+    exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     try:
-        ring, values = evaluate(nodes, exact, spelled.where)
+        ring, values = evaluate(nodes, exact, symbolic.where)
     except TableauError:  # nodes that depend on a decimal
         return None
     return method.s if gauss_nodes(list(values.values()), ring) else None
 
 
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
-    """Say whether the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
+    """Whether the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)
@@ -208,11 +206,11 @@ def _reached(proof: Proof, order: int) -> int:
 
 
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
-    """Return the places of the equations that are not satisfied identically, whatever the unknowns are.
+    """Return the indices of the equations that are not satisfied identically.
 
-    Those that a box cannot tell from constants are evaluated exactly with random numbers in place of the
-    unknowns (:mod:`orderconds.tableau.random_member`); one that is zero there is left out. ``values`` are
-    those over the box, as jets.
+    Equations that look constant over a box are evaluated exactly, with random numbers for the unknowns
+    (:mod:`orderconds.tableau.random_member`); those with the value zero are left out. ``values`` are jets
+    over the box.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets
@@ -228,7 +226,7 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
         return list(range(len(values)))
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
 
-    R = RandomMember(system.proof.spelled)
+    R = RandomMember(system.proof.symbolic)
     try:
         exact = system([R.variable(u.constant) for u in system.proof.unknowns], R, flat)
     except OUTSIDE:

@@ -1,4 +1,4 @@
-"""Conditions at one random member of a file's sub-family, exactly: where combinations of them are verified.
+"""Exact values of conditions at one random member of the sub-family of a file, to verify combinations.
 
 The member is that of :mod:`orderconds.tableau.random_member`, over Q, or over Q(sqrt(d)) where the square
 root of a rational is the only radical of the file.
@@ -23,10 +23,10 @@ from orderconds.tableau.evaluate import NamedRoot, evaluate_in, rounded_and_exac
 from orderconds.tableau.grammar import Constant
 from orderconds.tableau.products import Method
 from orderconds.tableau.random_member import OUTSIDE, RandomMember, radicals
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau.unknowns import SymbolicCoefficients
 
 Reading = Callable[[Method, Ring], Method]
-"""Turns a file's method over a ring into the method that a family evaluates."""
+"""A function from the method of a file over a ring to the method that a family evaluates."""
 
 Monomial = tuple[OrderCondition, ...]
 """The product of the left-hand sides of conditions."""
@@ -44,23 +44,23 @@ class Surd:
     root: Element
 
 
-def lone_square_root(formulas: Spelled) -> Surd | None:
-    """Return the only radical of a file where it is the square root of an exact rational, else None.
+def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
+    """Return the only radical of a file if it is the square root of an exact rational, else None.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
     >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
-    >>> found = lone_square_root(proof.spelled)
-    >>> found.radicand, found.ring.text(found.root * found.root)
+    >>> surd = lone_square_root(proof.symbolic)
+    >>> surd.radicand, surd.ring.text(surd.root * surd.root)
     (Fraction(12, 1), '12')
     """
-    different = radicals(formulas)
+    different = radicals(symbolic)
     if len(different) != 1 or different[0].exponent.denominator != 2:
         return None
-    exact = {name: x for name, x in formulas.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
+    exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     tower = Tower()
     try:
-        inside: Any = evaluate_in(tower, {"radicand": different[0].base}, exact, formulas.where)["radicand"]
+        inside: Any = evaluate_in(tower, {"radicand": different[0].base}, exact, symbolic.where)["radicand"]
         if not inside.is_rational:
             return None
         radicand = inside.rational_value
@@ -73,20 +73,20 @@ def lone_square_root(formulas: Spelled) -> Surd | None:
 
 @dataclass(frozen=True)
 class ExactMember:
-    """The left-hand sides of conditions at one member; ``surd`` is the square root in coefficients."""
+    """The left-hand sides of conditions at one member; ``surd`` is the square root in its coefficients."""
 
     ring: Ring
     values: Mapping[OrderCondition, Element]
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Say whether a condition holds here, hence at every member."""
+        """Whether a condition holds at this member, hence at every member."""
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Say whether a combination gives the left-hand side here, and the right-hand side.
+        """Whether a combination equals the left-hand side at this member, and gives the right-hand side.
 
-        Where the conditions in it hold, ``condition`` then holds, for every member.
+        Then ``condition`` follows from the conditions in the combination, at every member.
         """
         if combination is None:
             return False
@@ -102,39 +102,51 @@ class ExactMember:
 
 def exact_member(
     family: Family,
-    formulas: Spelled,
+    symbolic: SymbolicCoefficients,
     conditions: Sequence[OrderCondition],
     draws: Draws,
     surd: Surd | None,
     read: Reading | None = None,
 ) -> ExactMember | None:
-    """Return a random member of the sub-family that ``formulas`` describes.
+    """Return a random member of the sub-family that ``symbolic`` describes.
 
-    None where it cannot be evaluated: its numbers explode, or a divisor is zero.
+    None if it cannot be evaluated: its numbers grow too large, or a divisor is zero.
+
+    >>> from orderconds import families
+    >>> from orderconds.proof.subfamily import decisive_conditions
+    >>> from orderconds.tableau import Tableau
+    >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["b1/2"], ["b1", "b2/2"]]\\nb = ["b1", "b2"]\\n'
+    >>> text += '[numbers]\\nb1 = "0.4~"\\nb2 = "1 - b1"\\n[proof]\\nconditions = "vcg"\\norder = 3'
+    >>> family, symbolic = families.get("vcg"), Tableau.loads(text).proof.symbolic
+    >>> candidates = decisive_conditions(family, 3)
+    >>> conditions = [c for of_order in candidates for c in of_order]
+    >>> member = exact_member(family, symbolic, conditions, Draws("example"), None)
+    >>> [c.tree for c in conditions if member.holds(c)][:3]
+    ['o', 'o(o)', 'o(|L(o))']
     """
     try:
-        method, ring = _member(formulas, draws, surd)
+        method, ring = _member(symbolic, draws, surd)
         left = family.evaluate(method if read is None else read(method, ring), ring, conditions)
     except OUTSIDE:
         return None
     return ExactMember(ring, dict(zip(conditions, left, strict=True)), surd)
 
 
-def _member(formulas: Spelled, draws: Draws, surd: Surd | None) -> tuple[Method, Ring]:
+def _member(symbolic: SymbolicCoefficients, draws: Draws, surd: Surd | None) -> tuple[Method, Ring]:
     if surd is None:
-        ring = RandomMember(formulas, draws)
+        ring = RandomMember(symbolic, draws)
         return ring.method(), ring
     values = evaluate_in(
-        _Scalars(formulas, draws, surd), formulas.expressions, formulas.numbers, formulas.where
+        _Scalars(symbolic, draws, surd), symbolic.expressions, symbolic.numbers, symbolic.where
     )
-    return formulas.build(values, surd.ring)[0], surd.ring
+    return symbolic.build(values, surd.ring)[0], surd.ring
 
 
 class _Scalars:
-    """Numbers drawn over the field that a square root generates."""
+    """Random numbers in the field that a square root generates."""
 
-    def __init__(self, formulas: Spelled, draws: Draws, surd: Surd) -> None:
-        self._drawn, self._surd = RandomMember(formulas, draws), surd
+    def __init__(self, symbolic: SymbolicCoefficients, draws: Draws, surd: Surd) -> None:
+        self._drawn, self._surd = RandomMember(symbolic, draws), surd
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         if unit:
@@ -151,16 +163,16 @@ class _Scalars:
         return self._drawn.size(x) if self._surd.ring.name == "QQ" else Tower().size(x)
 
 
-def constants(formulas: Spelled) -> Iterator[Constant]:
+def constants(symbolic: SymbolicCoefficients) -> Iterator[Constant]:
     """Yield every constant of a file.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]\\n'
     >>> proof = Tableau.loads(text + '[proof]\\nconditions = "rk"\\norder = 1').proof
-    >>> [str(c.value) for c in constants(proof.spelled)]
+    >>> [str(c.value) for c in constants(proof.symbolic)]
     ['1/2', '1']
     """
-    for x in (*formulas.expressions.values(), *formulas.numbers.values()):
+    for x in (*symbolic.expressions.values(), *symbolic.numbers.values()):
         if isinstance(x, NamedRoot):
             yield from (Constant(c) for c in x.minpoly)
         else:

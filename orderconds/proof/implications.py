@@ -1,4 +1,4 @@
-"""What a proved order in one family says of the order in another: theorems, each with its source.
+"""Theorems that derive the order in one family from proved orders in others, with their sources.
 
 A fact is (label of a family, order). ``cg`` 4 implies ``rk`` 4, since a vector space is a group. The theorems
 belong to the families: :attr:`~orderconds.families.Family.implies` and
@@ -16,7 +16,7 @@ Fact = tuple[str, int]
 
 
 def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
-    """Say whether ``facts`` about a tableau imply that it has at least this order in ``family``.
+    """Whether ``facts`` about a tableau imply that it has at least this order in ``family``.
 
     >>> facts = [("cg", 4)]
     >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)
@@ -28,7 +28,7 @@ def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
 
 
 def least_order(facts: Iterable[Fact], family: Family) -> int:
-    """Return the order that ``facts`` about a tableau imply that it has in ``family``, or 0.
+    """Return the order in ``family`` that ``facts`` about a tableau imply, or 0.
 
     >>> least_order([("sprk", 6), ("rk", 6)], families.get("vrkmk(2)"))
     5
@@ -38,7 +38,7 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return the order, by label of a family, of each family whose conditions are among those of the facts.
+    """Return the orders by label of all families whose conditions are a subset of those of the facts.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}
@@ -54,10 +54,10 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 
 
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
-    """Return the order in ``family`` where theorems leave one only, else None.
+    """Return the order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds, ``orders`` exact orders by label: no family has a higher order than one whose
-    conditions are among its own.
+    ``facts`` are lower bounds, ``orders`` exact orders by label: the order in a family is at most that in any
+    family whose conditions are a subset of its own.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

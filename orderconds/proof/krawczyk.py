@@ -19,13 +19,13 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""n functions of n variables: takes jets of the variables, and their ring, to jets of the values."""
+"""n functions of n variables, from jets of the variables, and their ring, to jets of the values."""
 
 MAX_SWEEPS = 40
 
 
 class NotProved(Exception):
-    """No proof was found; the text says how far it got."""
+    """The proof failed; the message is the reason."""
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
@@ -81,16 +81,16 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return the midpoints of the inverse; :class:`NotProved` where there is none.
+    """Return the midpoints of the inverse; raises :class:`NotProved` for a singular matrix.
 
     >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True
     """
     try:
-        found = matrix.inv()
+        inverted = matrix.inv()
     except ZeroDivisionError:
         raise NotProved("the equations are dependent at the decimals: their Jacobian is singular") from None
-    return found.mid()
+    return inverted.mid()
 
 
 def _jacobian(values: Sequence[Jet]) -> arb_mat:

@@ -1,7 +1,7 @@
-"""Newton's method in high precision from the few digits that a source prints, free parameters pinned.
+"""Newton's method in high precision, starting from the digits printed in a source.
 
-Where there are more decimals than equations, the Jacobian's elimination with complete pivoting says which of
-them the equations determine best; the others keep their printed digits exactly.
+If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects those
+that the equations determine best. The others are pinned: they keep their printed digits exactly.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""Newton's method may not move a number further than this: it would be another method's."""
+"""The largest change of a number; a larger one would lead to another method."""
 
 
 @dataclass(frozen=True)
@@ -45,8 +45,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.file import text_of
-    >>> found = refine(text_of(find("cg4a")), digits=30)
-    >>> {len(decimal.partition(".")[2]) for decimal in found.decimals.values()}
+    >>> refinement = refine(text_of(find("cg4a")), digits=30)
+    >>> {len(decimal.partition(".")[2]) for decimal in refinement.decimals.values()}
     {30}
     """
     tableau = Tableau.loads(text, where)
@@ -58,7 +58,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # Constants of the equations show on a box, not at a point.
+        # A box shows which equations are constant; a point does not.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -75,7 +75,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
     """Return the unknowns that elimination with complete pivoting solves for, in rising order.
 
-    Each row is taken in units of its largest entry.
+    Each row is scaled by its largest entry.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` where the rows are dependent to working precision.
 
@@ -151,7 +151,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
         if count == 0:
             raise NotProved(f"cannot find the digits of {unknown.name} in the text of the file")
         record[unknown.name] = _printed(proof, unknown.name)
-    kept = {name: _spelled(value) for name, value in proof.printed.items()} or record
+    kept = {name: _decimal_text(value) for name, value in proof.printed.items()} or record
     lines, skipping = list[str](), False
     for line in text.splitlines():
         if line.lstrip().startswith("["):
@@ -160,7 +160,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
             lines.append(line)
     at = next((i for i, line in enumerate(lines) if _header(line) == "proof"), None)
     if at is None:
-        raise NotProved("the proof stands in an inline table; write it as a table, under the line [proof]")
+        raise NotProved("the proof is an inline table; write it as a table, under the line [proof]")
     end = next((i for i in range(at + 1, len(lines)) if _header(lines[i])), len(lines))
     while not lines[end - 1].strip():
         end -= 1
@@ -175,10 +175,10 @@ def _header(line: str) -> str:
     >>> _header("[ proof . printed ]  # as the source has them"), _header('pins = ["a"]')
     ('proof.printed', '')
     """
-    found = re.match(r"\s*\[\[?([^\[\]#]*)\]", line)
-    if found is None:
+    header = re.match(r"\s*\[\[?([^\[\]#]*)\]", line)
+    if header is None:
         return ""
-    return ".".join(part.strip().strip("\"'") for part in found[1].split("."))
+    return ".".join(part.strip().strip("\"'") for part in header[1].split("."))
 
 
 def _figures(value: Fraction, places: int) -> str:
@@ -190,16 +190,16 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the number of that name with the decimals as they stand."""
+    """Return the number of that name with the decimals of the file."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     value = at.number(name, cast("RootedRing", QQ), {})  # a decimal has no radicals
-    return _spelled(Fraction(int(value.p), int(value.q)))
+    return _decimal_text(Fraction(int(value.p), int(value.q)))
 
 
-def _spelled(x: Fraction) -> str:
-    """Spell a rational as a decimal where it is one.
+def _decimal_text(x: Fraction) -> str:
+    """Return a rational as a decimal if it is finite, else as a fraction.
 
-    >>> _spelled(Fraction(-1, 8)), _spelled(Fraction(1, 3))
+    >>> _decimal_text(Fraction(-1, 8)), _decimal_text(Fraction(1, 3))
     ('-0.125', '1/3')
     """
     places = next((n for n in range(60) if 10**n % x.denominator == 0), None)

@@ -8,8 +8,8 @@ conditions of lower order. It then holds where the kept conditions hold.
 Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each one is
 then verified exactly at a member drawn from a digest of the file (:mod:`orderconds.proof.exact_member`). A
 condition without a verified combination is kept. So is one whose left-hand side is constant, unless exact
-arithmetic finds it equal to its right-hand side. Where a file has several radicals they are random numbers
-too, which makes the sub-family larger and the statement stronger.
+arithmetic finds it equal to its right-hand side. If a file has several radicals, they are random numbers too.
+The sub-family is then larger and the statement stronger.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from orderconds.proof.dependence import dependences
 from orderconds.proof.exact_member import Reading, exact_member, lone_square_root
 from orderconds.ring.draws import Draws
 from orderconds.tableau.random_member import description
-from orderconds.tableau.unknowns import Spelled
+from orderconds.tableau.unknowns import SymbolicCoefficients
 
 
 def independent_conditions(
-    family: Family, formulas: Spelled, order: int, read: Reading | None = None
+    family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return the family's conditions up to ``order`` that do not follow from others for this spelling.
+    """Return the conditions up to ``order`` that do not follow from others in the sub-family.
 
     ``read`` turns the file's method and its ring into the method that the family evaluates.
 
@@ -34,21 +34,23 @@ def independent_conditions(
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["b1/2"], ["b1", "b2/2"]]\\nb = ["b1", "b2"]\\n'
     >>> text += '[numbers]\\nb1 = "0.4~"\\nb2 = "1 - b1"\\n[proof]\\nconditions = "vcg"\\norder = 3'
-    >>> formulas = Tableau.loads(text).proof.spelled
-    >>> [c.tree for c in independent_conditions(families.get("vcg"), formulas, 3)]
+    >>> symbolic = Tableau.loads(text).proof.symbolic
+    >>> [c.tree for c in independent_conditions(families.get("vcg"), symbolic, 3)]
     ['o(o o)']
     """
     candidates = decisive_conditions(family, order)
     everything = tuple(c for of_order in candidates for c in of_order)
-    draws = Draws(family.label(), str(order), description(formulas))
-    surd = lone_square_root(formulas)
-    member = exact_member(family, formulas, everything, draws, surd, read)
+    draws = Draws(family.label(), str(order), description(symbolic))
+    surd = lone_square_root(symbolic)
+    member = exact_member(family, symbolic, everything, draws, surd, read)
     if member is None:
         return everything
     kept = set(everything)
-    for computed in dependences(family, formulas, candidates, draws, surd, read):
-        unverified = {c for c, combination in computed.combinations() if not member.verifies(c, combination)}
-        kept = unverified.union(computed.pivots)
+    for dependence in dependences(family, symbolic, candidates, draws, surd, read):
+        unverified = {
+            c for c, combination in dependence.combinations() if not member.verifies(c, combination)
+        }
+        kept = unverified.union(dependence.pivots)
         if not unverified:
             break
     return tuple(c for c in everything if c in kept and not member.holds(c))

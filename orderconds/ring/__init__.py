@@ -1,6 +1,6 @@
 """Scalars behind one protocol: rationals, algebraic numbers, balls, power series, residues, polynomials.
 
-Every engine is written once against :class:`Ring` and runs over any of them. Other packages import
+The algorithms use only :class:`Ring` and run over all of them. Other packages import
 python-flint only where the import contract in pyproject.toml allows it. The names below load on first use
 (PEP 562), so that a rational tableau loads nothing else.
 """

@@ -1,7 +1,7 @@
 """Certified real balls (Arb) of a fixed working precision.
 
-A ball encloses one unknown real number. It can prove that number different from zero, never equal to it,
-unless the ball is the single point zero: so structural zeros of a tableau stay zeros.
+A ball encloses one unknown real number. A ball without zero proves that the number is not zero. Only the
+exact point zero proves equality, so structural zeros of a tableau stay zeros.
 """
 
 from __future__ import annotations
@@ -133,16 +133,16 @@ class Balls:
         return rational_decimal((high - low) / 2, digits)
 
     def ball(self, x: Ball, bits: int) -> arb:
-        """Return the ball itself; more bits cannot be had."""
+        """Return the ball itself; its precision is fixed."""
         return x.value
 
 
 class Enclosures:
     """The same ring on flint's own balls, for a block that sets the working precision once.
 
-    Elements are ``arb``, which do not know their precision: the caller computes ``with precision(bits)``, so
-    that each operation gives the ball that :class:`Balls` gives, at a fraction of the cost. Division by a
-    ball that contains zero gives one that is not finite, where :class:`Ball` refuses.
+    Elements are ``arb``, without a precision of their own. Inside ``with precision(bits)`` each operation
+    gives the same ball as :class:`Balls`, but faster. Division by a ball that contains zero gives a ball that
+    is not finite; :class:`Ball` raises an error.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -188,7 +188,9 @@ def _magnitude(x: arb) -> int:
 
 def _supported_places(radius: fmpq) -> int:
     """Return the most decimal places d with radius + half a unit <= one unit, that is 10^-d >= 2 radius."""
-    places = len(str(radius.q)) - len(str(radius.p))  # by flint: Python converts 4300 digits at most
+    places = len(str(radius.q)) - len(
+        str(radius.p)
+    )  # flint converts integers of any length, Python at most 4300 digits
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
     return places
@@ -260,7 +262,7 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Two balls are the same enclosure; whether the numbers agree is for :meth:`Balls.is_zero`."""
+        """Whether two balls are the same enclosure; :meth:`Balls.is_zero` compares the numbers."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:
@@ -271,7 +273,7 @@ class Ball:
 
 
 def _finite(x: arb, bits: int) -> Ball:
-    """Refuse the indefinite result of dividing by a ball that contains zero."""
+    """Raise ZeroDivisionError for division by a ball that contains zero."""
     if not x.is_finite():
         raise ZeroDivisionError("division by a ball that contains zero")
     return Ball(x, bits)

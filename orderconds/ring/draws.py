@@ -1,7 +1,7 @@
-"""Numbers that a description determines and nobody can choose: SHA-256 in counter mode.
+"""Pseudorandom numbers from a digest of a description: SHA-256 in counter mode.
 
-A test at random points or modulo a random prime proves something only where the object under test was fixed
-before the point. Therefore the points are drawn from a digest of the object itself.
+A test at random points, or modulo a random prime, is valid only if the object is fixed before the points are
+chosen. Therefore the points come from a digest of the object itself.
 """
 
 from __future__ import annotations

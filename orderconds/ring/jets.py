@@ -1,7 +1,7 @@
 """Balls with gradients: values and first derivatives of any formula, enclosed together.
 
 Automatic differentiation in forward mode. The precision is that of the caller, who computes inside ``with
-precision(bits)``; what flint encloses is then rigorous for the value and for every partial derivative.
+precision(bits)``; the enclosures of the value and of all partial derivatives are then rigorous.
 """
 
 from __future__ import annotations

@@ -3,12 +3,11 @@
 Let the nodes c_i of a method be the simple roots of one polynomial M over Q, as those of Gauss, Radau and
 Lobatto methods are. A vector x over the stages is then p(c) for one polynomial p modulo M, componentwise
 products are those of polynomials modulo M, and a matrix A is a linear map of polynomials. Where A c^k is a
-*rational* polynomial in c, and b.c^k a rational number, for k < s, the engine never leaves Q: for five Radau
+*rational* polynomial in c, and b.c^k a rational number, for k < s, all computations stay in Q: for five Radau
 nodes, which generate a field of degree 24, a product costs one flint operation and not 5 of degree 24.
 
-The rational polynomials are guessed from balls and then verified in the field, so that nothing hangs on the
-guess. ``A p = int_0^z p`` up to multiples of M and corrections at few powers, none where A is a collocation
-method's.
+The rational polynomials are guessed from balls and then verified exactly in the field. ``A p = int_0^z p`` up
+to multiples of M and corrections at few powers, none where A is a collocation method's.
 """
 
 from __future__ import annotations

@@ -12,7 +12,7 @@ from flint import ctx
 
 
 class precision:  # noqa: N801 - reads as the statement it is: with precision(200): ...
-    """Run a block with ``bits`` of working precision for balls, then restore what was there.
+    """Run a block with ``bits`` of working precision for balls, then restore the old precision.
 
     >>> from flint import arb
     >>> with precision(200):

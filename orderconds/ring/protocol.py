@@ -1,4 +1,5 @@
-"""What every scalar ring offers, so that one engine serves exact, certified, symbolic and numeric scalars.
+"""The interface of scalar rings, so that one algorithm works over exact, certified, symbolic and numeric
+scalars.
 
 Elements carry their own arithmetic: ``+ - *`` among themselves and with Python ``int`` on either side, unary
 ``-``, and ``/`` where the ring is a field. Everything else goes through the ring object.

@@ -2,7 +2,7 @@
 
 The ring (Z/p)^n of n samples is (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))), the sample k being the value at
 z = k: sums and products of polynomials are those of all samples. Coefficients are a linear change of
-coordinates of the samples, so that ranks may be taken of them.
+coordinates of the samples, so that ranks can be computed from them.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from orderconds.ring.protocol import Element
 
 
 class Samples:
-    """The ring of ``count`` samples modulo ``prime``, more than that.
+    """The ring of ``count`` samples modulo ``prime``; the prime is larger than ``count``.
 
     >>> R = Samples(101, 2)
     >>> x = R.element([3, 5])

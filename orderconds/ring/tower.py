@@ -166,7 +166,8 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return (m, relation) for c = b + m a, or (None, relation) for c = ab, what first spans the algebra."""
+    """Return (m, relation) for c = b + m a, or (None, relation) for c = ab, whichever first generates the
+    algebra."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)

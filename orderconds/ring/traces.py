@@ -60,7 +60,7 @@ class Traces:
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
-        """Say whether x is the constant zero; nothing is said of special values of the inputs."""
+        """Whether x is the constant zero, for all values of the inputs."""
         return x.constant == 0
 
     def text(self, x: Trace) -> str:

@@ -25,7 +25,7 @@ from orderconds.series.action_enumeration import words
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 
 Stages = list[Element]
-"""One ring element a stage."""
+"""One ring element for each stage."""
 
 Exponential = tuple[tuple[int, Element], ...]
 """The exponent of one exponential: (stage, coefficient) pairs, zeros left out."""
@@ -60,7 +60,7 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v there, x standing once for a variation of that stage's velocity."""
+        """Return the coefficient of u x v in it, where x is a variation of the velocity of that stage."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return :meth:`coefficient` for every stage."""
@@ -132,7 +132,7 @@ class ActionSeries(ABC):
     def condition(self, tree: Velocity) -> Element:
         """Return sum_i b_i tau_t(i): a tree's coefficient in the update, and its Hamiltonian's.
 
-        Nothing that only this tree needs is kept, so that all trees of an order fit in memory.
+        Intermediate values for this tree only are not cached, so that all trees of an order fit in memory.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
@@ -265,7 +265,7 @@ class CommutatorFreeSeries(ActionSeries):
 
 
 def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
-    """Return the exponentials of a Butcher tableau read as VCG: one for each coefficient that is not zero.
+    """Return the exponentials of a Butcher tableau in the family VCG: one for each non-zero coefficient.
 
     >>> from orderconds.ring import QQ
     >>> crouch_grossman_rows(QQ, [[QQ.zero, QQ.zero], [QQ.one, QQ.zero]], [QQ.one, QQ.one])

@@ -1,4 +1,4 @@
-"""How many unrooted action trees there are, from generating functions."""
+"""The numbers of unrooted action trees, from generating functions."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from __future__ import annotations
 def tree_counts(order: int) -> tuple[int, ...]:
     """Return the numbers of unrooted trees, elementary Hamiltonians, with 1..order vertices.
 
-    U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W = 1/(1 - T): the most independent
-    conditions there can be.
+    U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W = 1/(1 - T): an upper bound of the number of
+    independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -28,10 +28,10 @@ def velocity_count(vertices: int) -> int:
 
 
 def class_count(vertices: int) -> int:
-    """Return the number of classes of g-valued trees that root switching connects.
+    """Return the number of classes of g-valued trees under root switching.
 
-    They are trees without a root, and the edges along which the root moves have a direction, so that a tree
-    has one vertex more than such edges: classes are rooted trees less trees with a marked force.
+    A class is an unrooted tree, with one vertex more than edges along which the root moves. Hence the number
+    of classes is that of rooted trees minus that of trees with a marked force.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -44,7 +44,7 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Iterate the equations of T and P until their first coefficients are settled."""
+    """Iterate the equations of T and P until their first coefficients no longer change."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:

@@ -1,9 +1,9 @@
-"""Every action tree with a number of vertices once, simplest to read first, enumerated on demand.
+"""Enumerate action trees with a given number of vertices on demand, simplest first.
 
 The cost of a tree is a sum of non-negative parts of its subtrees, so that all trees up to a limit consist
-of subtrees up to that limit; where the parts are tried in order of cost, the first one beyond the limit ends
-the search. A long list is enumerated in bands of rising limits, and only as far as it is read: of the 6331
-trees with six vertices, those that decide most methods are among the simplest few hundred.
+of subtrees up to that limit; since parts are tried in order of cost, the first one beyond the limit ends the
+search. A long list is enumerated in bands of rising limits, and only as far as necessary: of the 6331 trees
+with six vertices, those that decide most methods are among the simplest few hundred.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return the words whose nesting is no more than ``limit``, with it and by it."""
+    """Return the words with nesting at most ``limit``, with their nesting, sorted by it."""
     if vertices == 0:
         return ((0, ()),)
     words = []
@@ -142,7 +142,7 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return the multisets that cost no more than ``limit``, with their costs and by them."""
+    """Return the multisets that cost no more than ``limit``, with their costs, sorted by these."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 

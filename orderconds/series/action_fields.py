@@ -1,4 +1,4 @@
-"""What action trees mean for one Hamiltonian: elementary velocities and covectors, and the local error.
+"""The elementary velocities and covectors of action trees for one Hamiltonian, and the local error.
 
 Derivatives are exact: a multilinear derivative of H is the coefficient of eps_1 ... eps_k where every eps
 squares to zero. So H may be any polynomial in the entries of q and the coordinates of mu, over any ring, and
@@ -183,7 +183,7 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # mu0 as a function of mu1 is off by this much, so mu1 as a function of mu0 by its opposite.
+            # This is the error of mu0 as a function of mu1; that of mu1 as a function of mu0 is its negative.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 

@@ -1,6 +1,6 @@
 """The action series of VRKMK: group elements are single exponentials of a Lie series in the stage velocities.
 
-``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, the update ``Y`` alike with b_j (3.16). A variation of one
+``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, and ``Y`` with b_j for the update (3.16). A variation of one
 stage's velocity is one more letter, which belongs to that stage alone and occurs once. So the coefficient of
 ``u x v`` is that of a word in which the letter x is written between u and v.
 """
@@ -129,7 +129,7 @@ class MuntheKaasActionSeries(ActionSeries):
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
         """Add the coefficients of u x v in X_i X_i^(n-1): the first factor takes a head of the word."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            rest = cut - len(before) - 1  # letters of v in the head, if x lies there
+            rest = cut - len(before) - 1  # letters of v in the head, if x is in the head
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
                 plain = self._power(update, n - 1, after[rest:])
@@ -174,7 +174,7 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return what dexpinv_{(r),X_j} adds to a letter between two words, None where that is zero."""
+        """Return the terms of dexpinv_{(r),X_j} for a letter between two words, or None if they vanish."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -189,7 +189,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return what dexpinv_{(r),X_j} adds to a letter between the words u x v and ``behind``."""
+        """Return the terms of dexpinv_{(r),X_j} for a letter between the words u x v and ``behind``."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -199,7 +199,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return what dexpinv_{(r),X_j} adds to a letter between the words ``first`` and u x v."""
+        """Return the terms of dexpinv_{(r),X_j} for a letter between the words ``first`` and u x v."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -25,21 +25,22 @@ from orderconds.series.action_trees import Velocity
 from orderconds.series.monomials import products
 
 RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
-"""A function that returns the action series of random methods of a family, one a sample."""
+"""A function that returns the action series of random methods of a family, one for each sample."""
 
 SPARE_SAMPLES = 24
-"""Rows beyond the largest possible rank, so that chance does not hide a dependence."""
+"""Additional rows beyond the largest possible rank, against accidental dependences."""
 
 BLOCK = 256
-"""Samples evaluated together: enough to hide the interpreter, few enough for order 6 to fit in memory."""
+"""The number of samples evaluated together: large enough for speed, small enough for order 6 to fit in
+memory."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return, for each order 1..order, the trees whose conditions are independent of simpler and lower ones.
 
-    Computed modulo two primes. A rank modulo a prime is never larger than over Q: that the trees found are
-    independent, with all products of lower ones, is proved, and the larger set is kept. That no tree is
-    missing holds up to chance, and is proved where there are as many as
+    Computed modulo two primes. A rank modulo a prime is never larger than over Q. Hence the returned trees
+    are proved to be independent, with all products of lower ones; the larger set is used. With high
+    probability no tree is missing; this is proved if their number is the bound of
     :func:`~orderconds.series.action_counts.tree_counts` allows (VCF).
 
     >>> from functools import partial
@@ -96,7 +97,7 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return how many independent conditions and products of them there can be at one order.
+    """Return the largest possible number of independent conditions and products of these at one order.
 
     The generating function of polynomials in U_1 + U_2 + ... graded unknowns.
     """

@@ -1,8 +1,8 @@
-"""Root switching: trees that are one unrooted tree have one condition, whatever the method.
+"""Root switching: trees with the same unrooted tree have the same condition for every method.
 
 A force that hangs on the root vertex can become the root instead: ``o(w | M, H(u*v | N))`` and ``o(u o(w |
 M) v | N)`` have equal coefficients, for every method and for the flow, because the sum over the stages of
-the edge between them may be taken last. So one tree of each class decides.
+the edge between them may be taken last. Hence one tree of each class is enough.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
         if tree not in seen:
             members = [tree]
             seen.add(tree)
-            for member in members:  # grows while it is walked
+            for member in members:  # the list grows during the loop
                 for other in switched(member):
                     if other not in seen:
                         seen.add(other)

@@ -81,7 +81,7 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # A bushy tree reads better than a tall one: costs inside letters count double.
+        # A broad tree is easier to read than a tall one: costs inside letters count double.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:

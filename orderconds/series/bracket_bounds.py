@@ -1,9 +1,9 @@
-"""How many brackets arguments need at least, whatever the program: a bound by linear algebra.
+"""A lower bound of the number of brackets in any program for given arguments, by linear algebra.
 
-An argument u_i is there before the stage value it leads to, so that no letter of a bracket in it is newer
-than q_(i-1). Let N be the number of brackets, in any program for u_1, ..., u_i, that have a letter from q_m
-to q_(i-1). Older brackets and single letters give an argument no word of two letters and more that holds one
-of these, so N is at least the dimension of the span of such words in the arguments. Further, the first such
+An argument u_i is computed before its stage value, so that no letter of a bracket in it is newer than
+q_(i-1). Let N be the number of brackets, in any program for u_1, ..., u_i, that have a letter from q_m to
+q_(i-1). Older brackets and single letters give an argument no word of two letters and more that holds one of
+these, so N is at least the dimension of the span of such words in the arguments. Further, the first such
 bracket is [x + sum c_n q_n, y + sum d_n q_n], x and y of older letters. Its part in which they occur only
 once is sum_n ad_(P_n) q_n, where all P_n = d_n x - c_n y are Lie elements. If such parts of the arguments
 span d dimensions and only for zero are all P_n Lie elements, that of the first bracket is not among them, and
@@ -22,7 +22,7 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
     """Return P_n for n >= ``first``, sum_n ad_(P_n) q_n the part of x in which these letters occur once.
 
-    They are read off the words that end in q_n; constants in them are left out.
+    They come from the words that end in q_n, without constants.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -35,7 +35,7 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x less a Lie element; zero if and only if x, which has no constant, is one.
+    """Return x minus a Lie element; zero if and only if x, which has no constant, is one.
 
     Right-normed brackets multiply a Lie element of length n by n (Dynkin).
 
@@ -56,7 +56,7 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
     """Return a lower bound for the number of brackets in any program for u_1, ..., u_s and u.
 
-    The arguments of the stages count up to one grade below the largest, u, the last, up to the largest.
+    The arguments of the stages are used up to one grade below the highest, and u up to the highest.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -66,7 +66,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # The part of u above the grade of the stages has no counterpart in them.
+        # Stages have no terms of the highest grade of u.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -74,7 +74,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return how many brackets that hold letters from ``first`` on these elements need."""
+    """Return the number of brackets with letters from ``first`` on that these elements need."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

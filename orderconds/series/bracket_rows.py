@@ -1,7 +1,7 @@
 """Rows of a bracket program with fewer terms: brackets with equal left factors may share their right ones.
 
-If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]: what one bracket lacks another may hold, and the
-rows that use C give back t B. The number of brackets stays.
+If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]: a term moves from one bracket to another, and the
+rows that use C subtract t B. The number of brackets stays.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return the same arguments, written with as few terms as moving multiples of brackets can reach.
+    """Return the same arguments with fewer terms, by moving multiples of brackets.
 
     ``ring`` must decide zero and divide.
 
@@ -46,7 +46,7 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield the programs in which some term of a later bracket, or of a row with both, has gone."""
+    """Yield the programs without some term of a later bracket, or of a row with both brackets."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)
@@ -63,7 +63,7 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program with t B_q added to B_r and taken from what uses B_r."""
+    """Return the program with t B_q added to B_r and subtracted in all rows that use B_r."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

@@ -1,12 +1,12 @@
-"""Runge-Kutta-Munthe-Kaas methods with few brackets: their arguments reduced in a graded free Lie algebra.
+"""Runge-Kutta-Munthe-Kaas methods with few brackets: arguments simplified in a graded free Lie algebra.
 
 Combinations of the stage values k_1, ..., k_s of an explicit method that vanish to higher order in h have a
 higher grade; q_j is the combination of k_j and earlier values that has the highest grade. A stage argument
 is needed up to grade p - 1, the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R.
-Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723). One argument after the other is then written by
-stage values, by brackets that are there already, and by as few new ones as suffice. Where a combination of
-two arguments needs fewer than each of them, it is written before them: u_7 of Butcher's method of order 6
-then takes no bracket of its own.
+Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723). Then each argument in turn is expressed by stage
+values, earlier brackets, and as few new brackets as possible. If a combination of two arguments needs fewer
+brackets than each of them, it is computed first: thus u_7 of Butcher's method of order 6 needs no further
+bracket.
 """
 
 from __future__ import annotations
@@ -35,9 +35,9 @@ class BracketProgram:
     """The arguments u_1, ..., u_s of the stages and u of the step, with the brackets they share.
 
     Stage i is k_i = f(exp(u_i) y0), the step exp(u) y0. ``brackets[r]`` holds the rows of x and y in B_r =
-    [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows alike, every k standing
-    for h k. ``least`` is a lower bound of the number of brackets with which these arguments can be written;
-    ``grades[j]`` is the grade of q_j.
+    [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same form, in
+    which k means h k. ``least`` is a lower bound of the number of brackets with which these arguments can be
+    written; ``grades[j]`` is the grade of q_j.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -53,7 +53,7 @@ class BracketProgram:
     grades: tuple[int, ...]
 
     def text(self, ring: Ring) -> str:
-        """Write the program, a line a bracket or argument, h left out and names counted from 1."""
+        """Return the program as text: a line for each bracket or argument, without h, indices from 1."""
         lines = [
             f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)
         ]
@@ -66,10 +66,10 @@ def fewest_brackets(
 ) -> BracketProgram:
     """Return arguments with few brackets that keep ``order`` of an explicit tableau (A, b).
 
-    ``ring`` must decide zero and divide. The order is kept where the tableau has it. Coefficients that the
-    order leaves free are zero at first, then, ``attempts`` times, small random values, always the same;
-    if all take more than ``least`` brackets, one more is granted, and so on. Raises
-    :class:`~orderconds.errors.InputError` for an implicit tableau.
+    ``ring`` must decide zero and divide. The tableau must have this order. Free coefficients are zero in the
+    first attempt and small pseudorandom values in ``attempts`` others. If all attempts need more than
+    ``least`` brackets, the limit is raised by one, and so on. Raises :class:`~orderconds.errors.InputError`
+    for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -149,10 +149,10 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return for stages i the combinations u_j + c u_i, j a later stage, that one newest bracket may make.
+    """Return for each stage i the combinations u_j + c u_i with a later stage j that need one bracket only.
 
-    The brackets in u_j hold no value newer than those in u_i do; for both, ad_P q in the newest q takes two,
-    but for the combination P is a Lie element. With it and u_i, u_j is there.
+    The newest stage value q in brackets is the same for u_i and u_j. Each of them needs two brackets with q.
+    Their combination needs one, since its part ad_P q has a Lie element P. Then u_j follows from it and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -170,7 +170,8 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """How new brackets enter an argument: [q_1 + x, y + C_1] + sum_e [e, w_e], C_n = [q_1, z_n + C_(n+1)].
+    """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e], C_n = [q_1, z_n +
+    C_(n+1)].
 
     ``inner`` counts the C's; ``leading`` fixes the coefficient of the pool's second element in y to one, so
     that x is determined linearly; ``extra`` are the places in the pool of further left factors e.
@@ -183,7 +184,7 @@ class _Shape:
 
     @property
     def brackets(self) -> int:
-        """Return how many are new."""
+        """Return the number of new brackets."""
         return self.outer + self.inner + len(self.extra)
 
 
@@ -198,9 +199,9 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """Takes the arguments in turn; ``pool`` holds what combinations may use, with its row.
+    """The search for one argument after another; ``pool`` has the elements for combinations, with their rows.
 
-    No more than ``most`` brackets are written.
+    It uses at most ``most`` brackets.
     """
 
     def __init__(
@@ -214,7 +215,8 @@ class _Search:
     def program(
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
-        """Return the arguments, ``before[i]`` written just before u_i; None if that takes too many."""
+        """Return the arguments, with ``before[i]`` computed just before u_i; None if that takes too many
+        brackets."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -239,10 +241,11 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Return the row of an argument in this shape, its new brackets put into the pool; None if unfit.
+        """Return the row of an argument in this shape and add its new brackets to the pool; None if
+        impossible.
 
-        The unknown numbers enter linearly but for products of those in x and in y. Either y is taken from the
-        sweep before, or what of x lower grades fix is taken from there, until all grades fit.
+        The equations are linear, except for products of unknowns in x and in y. Each sweep takes either y
+        from the previous sweep, or the part of x that lower grades determine, until all equations hold.
         """
         if shape.leading and len(self.pool) < 3:
             return None
@@ -270,7 +273,7 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the places in the pool, beyond the first two, of those that begin with the least grade."""
+        """Return the indices in the pool, from the third on, of elements of least grade."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -291,7 +294,7 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return a solution, some unknowns moved at random first where chance is asked for."""
+        """Return a solution; if requested, after a random change of some unknowns."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)

@@ -21,7 +21,7 @@ Value = Callable[[bytes], Element]
 
 @dataclass(frozen=True)
 class TreeAlgebra:
-    """What trees are cut into, and the exact flow's value on them.
+    """The algebra of trees: their cuts, and the values of the exact flow.
 
     >>> str(ROOTED.exact(bytes((0, 1, 1)))), len(ORDERED.cuts(bytes((0, 1, 1))))
     ('1/3', 4)
@@ -61,7 +61,7 @@ class Character:
     def then(self, other: Character) -> Character:
         """Return this step followed by ``other``, both of size h (HLW III.1.4, Theorem 1.10).
 
-        On ordered forests the same with left admissible cuts (Munthe-Kaas and Wright 2008, Theorem 5).
+        For ordered forests the cuts are left admissible (Munthe-Kaas and Wright 2008, Theorem 5).
         """
 
         def value(forest: bytes) -> Element:
@@ -105,7 +105,7 @@ class Character:
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
         """Sum over cuts this step's values on the components times ``other``'s on the rest.
 
-        Without ``whole`` the cut that cuts nothing off is left out.
+        Without ``whole`` the trivial cut is left out.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):

@@ -15,14 +15,14 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""The components and the rest, which is empty when everything is cut off."""
+"""The components and the rest, which is empty if the whole tree is cut off."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
 
 @lru_cache(maxsize=1 << 14)
 def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
-    r"""Return every cut of a canonical rooted tree, with repetitions; the last one leaves nothing.
+    r"""Return every cut of a canonical rooted tree, with repetitions; the rest of the last one is empty.
 
     >>> tree_cuts(b"\0\1")
     (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))
@@ -40,7 +40,7 @@ def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
 
 @lru_cache(maxsize=1 << 14)
 def left_cuts(forest: Forest) -> tuple[Cut, ...]:
-    r"""Return every left admissible cut of an ordered forest; the last one leaves nothing.
+    r"""Return every left admissible cut of an ordered forest; the rest of the last one is empty.
 
     >>> left_cuts(b"\0\0")
     (((), b'\x00\x00'), ((b'\x00',), b'\x00'), ((b'\x00\x00',), b''))

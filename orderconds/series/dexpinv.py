@@ -152,7 +152,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # each number is found from all before it, so that none of them may be forgotten
+@cache  # each number depends on all earlier ones, so the cache is unbounded
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 
@@ -172,6 +172,6 @@ def _cuts(word: Forest) -> list[int]:
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Return each letter of a word with the places where it begins and where what follows it begins."""
+    """Return each letter of a word with the positions of its begin and its end."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

@@ -1,4 +1,4 @@
-"""Which values on forests are independent within a family: rank modulo products of lower ones.
+"""Select independent values on forests within a family, by ranks modulo products of lower ones.
 
 A condition is superfluous if its left-hand side, for every method, is a combination of simpler ones of its
 order and of products of lower ones, **and** the exact flow's values obey the same relation. The exact flow

@@ -56,7 +56,7 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the flow's value less the field's: what fields on smaller trees contribute."""
+        """Return the value of the flow minus that of the field: the contribution of smaller trees."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))

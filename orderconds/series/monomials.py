@@ -1,4 +1,4 @@
-"""Products of graded generators: what conditions of lower order say at a higher one."""
+"""Products of graded generators: the consequences of conditions of lower order."""
 
 from __future__ import annotations
 

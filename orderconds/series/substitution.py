@@ -1,9 +1,9 @@
 """Substitution: the series of a step when the field f is replaced by another one that is a series itself.
 
-For B-series a tree is parted in connected components, which the field values, and the tree that remains when
-each component shrinks to a vertex, which the step values (Chartier, Hairer and Vilmart, Found. Comput. Math.
-10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left
-grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For B-series a tree is divided into connected components, to which the field applies, and the quotient tree,
+in which each component is a vertex and to which the step applies (Chartier, Hairer and Vilmart, Found.
+Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation
+and left grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -77,7 +77,8 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # In the whole tree as one component the step has the value 1, so that this term is the field's.
+        # The step has the value 1 on the tree of one vertex, so the term of the whole tree is the value of
+        # the field.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -134,7 +135,7 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """What words of trees become, up to a number of vertices, when every vertex becomes the field."""
+    """The substitution of the field for every vertex in words of trees, up to a number of vertices."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -1,1 +1,1 @@
-"""Finding methods: search, sharpen, prove, recognise closed forms, and show that there are none."""
+"""The search for methods: numerical search, certification, closed forms, and proofs that no method exists."""

@@ -1,15 +1,15 @@
-"""Tableaux with c_i = chat_i = m_i, where m_i is the time at which the update passes stage i.
+"""Tableaux with equal abscissae, c_i = chat_i = m_i; m_i is the time at which the update passes stage i.
 
-For variational methods on a group three abscissae belong to a stage: c_i, that of q; chat_i, that of the
-momentum's forces; and m_i, that at which Ad* carries the momentum through the update,
+A stage of a variational method on a group has three abscissae: c_i for the position q, chat_i for the forces
+on the momentum, and m_i, at which Ad* carries the momentum through the update,
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j,
 
 for Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain
-sum_i b_i x_i y_i = 1/3 for every two of them, hence sum_i b_i (c_i - m_i)^2 = 0 and the same for chat:
-where the weights are positive the three are equal, and where they are not it is what solutions do. Given
-the update, rows of A then sum to m_i and its columns, weighted, to b_j (1 - m_j): a transport problem, solved
-along a spanning tree of the entries that are free.
+sum_i b_i x_i y_i = 1/3 for every two of them, hence sum_i b_i (c_i - m_i)^2 = 0, and the same for chat. If
+the weights are positive, the three abscissae are equal; in practice they are equal in other solutions too.
+Given the update, row i of A then sums to m_i and the weighted column j to b_j (1 - m_j). This transport
+problem is solved along a spanning tree of the free entries.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ WHERE = "structure abscissae"
 
 
 def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
-    """Return m_1, ..., m_s spelled by the weights.
+    """Return formulas of m_1, ..., m_s in the weights.
 
     >>> crouch_grossman_times(["b1", "b2"])
     {'m1': '1/2*b1', 'm2': 'b1 + 1/2*b2'}
@@ -31,22 +31,22 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
-    """Return b_i, y_J and m_i of an update of several exponentials, spelled by its coefficients.
+    """Return formulas of b_i, y_J and m_i in the coefficients of an update of several exponentials.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
     """
-    found = {b[i]: _sum(column) for i, column in enumerate(zip(*update, strict=True))}
+    times = {b[i]: _sum(column) for i, column in enumerate(zip(*update, strict=True))}
     totals = [f"y{J + 1}" for J in range(len(update))]
-    found |= {y: _sum(row) for y, row in zip(totals, update, strict=True)}
+    times |= {y: _sum(row) for y, row in zip(totals, update, strict=True)}
     for i, weight in enumerate(b):
         later = [
             f"{row[i]}*({' + '.join([f'1/2*{totals[J]}', *totals[J + 1 :]])})"
             for J, row in enumerate(update)
             if row[i] != "0"
         ]
-        found[f"m{i + 1}"] = f"1 - ({' + '.join(later)})/{weight}"
-    return found
+        times[f"m{i + 1}"] = f"1 - ({' + '.join(later)})/{weight}"
+    return times
 
 
 def _sum(row: Sequence[str]) -> str:
@@ -56,32 +56,32 @@ def _sum(row: Sequence[str]) -> str:
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
     """Return the entries of A that its row sums m_i and weighted column sums b_j (1 - m_j) determine.
 
-    ``b`` spells the weights; ``fixed`` are entries with a value. Raises
-    :class:`~orderconds.errors.InputError` where the others do not connect all rows and columns.
+    ``b`` are the texts of the weights; ``fixed`` maps entries to their values. Raises
+    :class:`~orderconds.errors.InputError` if the other entries do not connect all rows and columns.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
     """
     s = len(b)
     entries = [(i, j) for i in range(s) for j in range(s)]
-    spelled = {(i, j): fixed.get(A[i][j], A[i][j]) for i, j in entries}
+    texts = {(i, j): fixed.get(A[i][j], A[i][j]) for i, j in entries}
     unknown = set(_spanning_tree([e for e in entries if A[e[0]][e[1]] not in fixed], s))
     cells = {}
     while unknown:
         i, j, by_row = _leaf(unknown)
         unknown.remove((i, j))
         if by_row:
-            others = [spelled[i, k] for k in range(s) if k != j and spelled[i, k] != "0"]
+            others = [texts[i, k] for k in range(s) if k != j and texts[i, k] != "0"]
             cells[A[i][j]] = " - ".join([f"m{i + 1}", *others]).replace("- -", "+ ")
         else:
-            others = [f"{b[k]}*{spelled[k, j]}" for k in range(s) if k != i and spelled[k, j] != "0"]
+            others = [f"{b[k]}*{texts[k, j]}" for k in range(s) if k != i and texts[k, j] != "0"]
             total = " - ".join([f"{b[j]}*(1 - m{j + 1})", *others])
             cells[A[i][j]] = f"({total})/{b[i]}"
     return cells
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return entries that connect the s rows and s columns, those of the last row and column preferred."""
+    """Return entries that connect the s rows and s columns; prefer those of the last row and column."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):
@@ -99,26 +99,26 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return an entry that is alone in its row, or else in its column."""
+    """Return an entry that is the only one in its row or, if there is none, in its column."""
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:
                 return (*entry, by_row)
-    raise InputError("a circle of entries", where=WHERE, expected="a tree")
+    raise InputError("a cycle among the free entries", where=WHERE, expected="a tree")
 
 
 def symmetric_transport(
     own: Sequence[Sequence[str]], leave: Sequence[int], update: Sequence[Sequence[str]], middle: Sequence[str]
 ) -> dict[str, str]:
-    """Return the entries of x, the sums of the stages' own exponents, that the abscissae determine.
+    """Return the entries of x, the sums of each stage's own exponents, that the abscissae determine.
 
-    Of a symmetric method (:mod:`orderconds.solve.paths`) ``own`` are the rows x_i of stages 1, 2, ... before
-    the middle, which leave ``update`` after ``leave[i]`` exponentials, and ``middle`` is the row of a middle
-    stage, if there is one. With j' = s + 1 - j, columns j ask for sum_i b_i (x_ij - x_ij') = C_j: they are
-    solved for the last row of ``own``, rows for one entry each.
+    The method is symmetric (:mod:`orderconds.solve.paths`). ``own`` are the rows x_i of the stages before the
+    middle; stage i branches off ``update`` after ``leave[i]`` exponentials. ``middle`` is the row of a middle
+    stage, if there is one. With j' = s + 1 - j, column j gives the equation sum_i b_i (x_ij - x_ij') = C_j,
+    which is solved for the last row of ``own``. Each row equation is solved for one entry.
 
-    >>> found = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
-    >>> found["x12"], found["x11"]
+    >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
+    >>> last["x12"], last["x11"]
     ('1/2*(m1 - (y1) - (C1/b1))', 'x12 + C1/b1')
     """
     s, half = len(update[0]), len(own)

@@ -1,8 +1,8 @@
 """An ansatz: a tableau file whose decimals are the unknowns of a search.
 
 The coefficients of a family with a number of stages, named a21, b1, ... and related by constraints, are
-written as a file. The same text then runs through every engine: over recorded programs for the search, over
-residues for ranks, over balls for the proof.
+written as a file. The same text is then evaluated over recorded programs for the search, modulo primes for
+ranks, and over balls for the proof.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from functools import cached_property
 from orderconds.errors import InputError
 from orderconds.ring.protocol import Element
 from orderconds.tableau import Method, Tableau
-from orderconds.tableau.unknowns import RootedRing, Spelled
+from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 
 
 @dataclass(frozen=True)
 class Ansatz:
-    """Coefficients as text: ``numbers`` by name, the names of unknown ones in ``free``, and the ``body``.
-
-    ``cells`` are the names of the coefficients that are not constants.
+    """The text of a tableau file whose free coefficients have no values yet. ``free`` are the names of the
+    unknowns, ``numbers`` the formulas of dependent coefficients by name, ``body`` the other lines. ``cells``
+    are the names of the coefficients that are not constants.
     """
 
     family: str
@@ -35,12 +35,12 @@ class Ansatz:
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
         """Return the file with these texts for the free coefficients."""
-        spelled = {**{name: values[name] for name in self.free}, **self.numbers}
-        numbers = [f'{name} = "{spelled[name]}"' for name in sorted(spelled, key=_place)]
+        texts = {**{name: values[name] for name in self.free}, **self.numbers}
+        numbers = [f'{name} = "{texts[name]}"' for name in sorted(texts, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []
         return "\n".join([*self.body, *head, *table, *self.tail, *foot]) + "\n"
 
-    def spelled(self) -> Spelled:
+    def symbolic(self) -> SymbolicCoefficients:
         """Return the parsed file with an unknown for each free coefficient."""
         places = {name: f"0.{123456789 + 7919 * place}~" for place, name in enumerate(self.free)}
         foot = ["", "[proof]", f'conditions = "{self.family.partition("(")[0]}"', "order = 1"]
@@ -49,38 +49,38 @@ class Ansatz:
             raise InputError(
                 "the constraints leave no coefficient free",
                 where="constraints",
-                expected="something to solve for",
+                expected="at least one free coefficient",
             )
-        return proof.spelled
+        return proof.symbolic
 
     def method(self, values: Sequence[Element], ring: RootedRing) -> Method:
         """Return the method with these elements of a ring for the free coefficients."""
-        spelled = self._spelled
-        known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
-        return spelled.method(ring, known)[0]
+        symbolic = self._symbolic
+        known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
+        return symbolic.method(ring, known)[0]
 
     def _sorted(self, values: Sequence[Element]) -> list[Element]:
         """Return the values in the order in which the file names them."""
         return [x for _, x in sorted(zip(self.free, values, strict=True), key=lambda pair: _place(pair[0]))]
 
     @cached_property
-    def _spelled(self) -> Spelled:
-        return self.spelled()
+    def _symbolic(self) -> SymbolicCoefficients:
+        return self.symbolic()
 
     def coefficients(self, values: Sequence[Element], ring: RootedRing) -> list[Element]:
-        """Return every coefficient that is no constant, in the order of ``cells``."""
-        spelled = self._spelled
-        known = {u.constant: x for u, x in zip(spelled.decimals(), self._sorted(values), strict=True)}
-        return [spelled.number(name, ring, known) for name in self.cells]
+        """Return every coefficient that is not constant, in the order of ``cells``."""
+        symbolic = self._symbolic
+        known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
+        return [symbolic.number(name, ring, known) for name in self.cells]
 
 
 def _place(name: str) -> tuple[bool, bool, str, list[int]]:
-    """Sort names by their letters, then by their indices as numbers."""
+    """Return the sort key of a name: its letters, then its indices as numbers."""
     letters = name.rstrip("0123456789_")
     return (letters != "m", letters != "b", letters, [int(x) for x in name[len(letters) :].split("_") if x])
 
 
-def renamed(found: Ansatz, name: str) -> Ansatz:
+def renamed(ansatz: Ansatz, name: str) -> Ansatz:
     """Return the same ansatz with another name in its file.
 
     >>> from orderconds.solve.parametrise import ansatz
@@ -88,5 +88,5 @@ def renamed(found: Ansatz, name: str) -> Ansatz:
     >>> renamed(ansatz("rk", Spec(stages=1)), "mine").body[0]
     'name = "mine"'
     """
-    body = (f'name = "{name}"', *found.body[1:])
-    return replace(found, name=name, body=body)
+    body = (f'name = "{name}"', *ansatz.body[1:])
+    return replace(ansatz, name=name, body=body)

@@ -1,7 +1,7 @@
-"""From a solution in doubles to a file with a certificate.
+"""Certify a solution that was computed in double precision, and write it as a tableau file.
 
-First the coefficients that the equations leave free are rounded to short decimals. The others are solved
-again and sharpened by Newton's method in balls. If they are algebraic numbers of one field, recognised by
+First, coefficients that the equations do not determine are rounded to short decimals. The others are computed
+again to high precision by Newton's method in balls. If they are algebraic numbers of one field, recognised by
 lattice reduction, the file has closed forms and its order is checked exactly. Otherwise its decimals are
 unknowns of the conditions that are independent for the ansatz (reduction ``spelling``), and interval
 arithmetic proves them.
@@ -25,7 +25,7 @@ from orderconds.ring.jets import Jets
 from orderconds.ring.precision import precision
 from orderconds.ring.traces import evaluate
 from orderconds.solve.ansatz import Ansatz, renamed
-from orderconds.solve.closed_form import Spelling, spellings
+from orderconds.solve.closed_form import ClosedForm, closed_forms
 from orderconds.solve.least_squares import least_squares
 from orderconds.solve.problem import Problem
 from orderconds.solve.search import CHEAP, POLISHED
@@ -36,7 +36,7 @@ from orderconds.tableau.grammar import Constant
 from orderconds.tableau.properties import properties
 from orderconds.tableau.random_member import radicals
 from orderconds.tableau.toml_text import toml_text
-from orderconds.tableau.write import written_out
+from orderconds.tableau.write import without_names
 
 STEPS = (
     Fraction(1, 2),
@@ -46,23 +46,23 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Free coefficients are rounded to multiples of these, the coarsest first that leaves a good solution."""
+"""Free coefficients are rounded to multiples of one of these: the coarsest with a good solution."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The same where the principal error has been minimised, which is flat to second order there."""
+"""The same after the principal error was minimised; near a minimum, rounding hardly changes it."""
 
 DIGITS = 50
-"""Places of a decimal in the file."""
+"""Decimal places of a coefficient in the file."""
 
 BITS = 1400
-"""Working precision of Newton's method, of which lattice reduction makes use."""
+"""Working precision of Newton's method in bits; lattice reduction needs it this high."""
 
 WORSE = 1.5
 """A rounded solution may have larger coefficients, and a larger principal error, by this factor."""
 
 
 @dataclass(frozen=True)
-class Found:
+class Solution:
     """A method with its file: ``certificate`` is ``exact`` or ``ball``."""
 
     tableau: Tableau
@@ -73,34 +73,34 @@ class Found:
 
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
-) -> Found:
-    """Return the file of a solution near ``point``; raises NotProved where nothing can be proved.
+) -> Solution:
+    """Return the file of a solution near ``point``; raises NotProved if no order can be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
-    >>> found = certify_solution(problem, [0.27, 0.73, 0.68], "two", "an example")
-    >>> found.certificate, found.text.splitlines()[2:4]
+    >>> solution = certify_solution(problem, [0.27, 0.73, 0.68], "two", "an example")
+    >>> solution.certificate, solution.text.splitlines()[2:4]
     ('exact', ['A = [[], ["1"]]', 'b = ["1/2", "1/2"]'])
     """
     rounded, pinned, solved = _rounded_free(problem, np.array(point), FINE if minimised else STEPS)
     sharp = _newton(problem, rounded, pinned, solved)
     ansatz = renamed(problem.ansatz, name)
-    spelled: dict[str, Spelling] | None = None
+    forms: dict[str, ClosedForm] | None = None
     if not (minimised and pinned and solved):
-        spelled = spellings({problem.ansatz.free[j]: sharp[j] for j in solved}, BITS, _square_roots(problem))
+        forms = closed_forms({problem.ansatz.free[j]: sharp[j] for j in solved}, BITS, _square_roots(problem))
     exact = {problem.ansatz.free[j]: str(x) for j, x in pinned.items()}
-    if spelled is not None:
-        found = _exact(problem, ansatz.text({**exact, **_texts(spelled)}, foot=_roots(spelled)), source)
-        if found is not None:
-            return found
+    if forms is not None:
+        solution = _exact(problem, ansatz.text({**exact, **_texts(forms)}, foot=_roots(forms)), source)
+        if solution is not None:
+            return solution
     return _proved(problem, ansatz, exact, {problem.ansatz.free[j]: sharp[j] for j in solved}, source)
 
 
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Return a nearby solution, its free coefficients with short values, and those that are solved for."""
+    """Return a nearby solution, the short values of its free coefficients, and the indices of the others."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -121,18 +121,19 @@ def _rounded_free(
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Return the solution near ``start`` with the other coefficients as they are, and its residual norm."""
+    """Solve for some coefficients, with the others fixed; return the solution near ``start`` and its residual
+    norm."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)
         whole[:, solved] = points
-        found, slopes = problem.system(whole)
-        return found, slopes[:, :, solved]
+        residuals, slopes = problem.system(whole)
+        return residuals, slopes[:, :, solved]
 
     moved, norms = least_squares(restricted, start[None, solved])
-    found = start.copy()
-    found[solved] = moved[0]
-    return found, float(norms[0])
+    result = start.copy()
+    result[solved] = moved[0]
+    return result, float(norms[0])
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
@@ -144,7 +145,7 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Say whether the unknowns are well determined: no singular value is tiny."""
+    """Whether the equations determine the unknowns well: no singular value is tiny."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -196,8 +197,8 @@ def _newton(
                     inputs[j] = ring.rational(q.numerator, q.denominator)
                 for j, x in zip(solved, unknowns, strict=True):
                     inputs[j] = x
-                found = evaluate(operations, inputs, ring)
-                return [found[places[k]] for k in rows]
+                values = evaluate(operations, inputs, ring)
+                return [values[places[k]] for k in rows]
 
             at = jets(system, [values[j] for j in solved])  # type: ignore[arg-type]
             jacobian = arb_mat(len(rows), len(solved), [g for f in at for g in f.gradient]).mid()
@@ -217,10 +218,10 @@ def _newton(
 
 
 def _square_roots(problem: Problem) -> dict[str, arb]:
-    """Return the square roots of rationals that the ansatz is spelled with."""
+    """Return the square roots of rational numbers that occur in the ansatz."""
     roots = {}
     with precision(BITS):
-        for radical in radicals(problem.ansatz.spelled()):
+        for radical in radicals(problem.ansatz.symbolic()):
             inside = radical.base
             if isinstance(inside, Constant) and abs(radical.exponent) == Fraction(1, 2):
                 p, q = inside.value.as_integer_ratio()
@@ -228,16 +229,16 @@ def _square_roots(problem: Problem) -> dict[str, arb]:
     return roots
 
 
-def _texts(spelled: dict[str, Spelling]) -> dict[str, str]:
-    return {name: x.text for name, x in spelled.items()}
+def _texts(forms: dict[str, ClosedForm]) -> dict[str, str]:
+    return {name: x.text for name, x in forms.items()}
 
 
-def _roots(spelled: dict[str, Spelling]) -> list[str]:
-    return next((["", *x.root] for x in spelled.values() if x.root), [])
+def _roots(forms: dict[str, ClosedForm]) -> list[str]:
+    return next((["", *x.root] for x in forms.values() if x.root), [])
 
 
-def _exact(problem: Problem, text: str, source: str) -> Found | None:
-    """Return the file with exact coefficients, or None where it has not the order."""
+def _exact(problem: Problem, text: str, source: str) -> Solution | None:
+    """Return the solution with exact coefficients, or None if it does not have the order."""
     tableau = Tableau.loads(text)
     label = problem.ansatz.family
     report = check(tableau, label, problem.order)
@@ -248,7 +249,7 @@ def _exact(problem: Problem, text: str, source: str) -> Found | None:
 
 
 def _without_zeros(method: Method, ring: Ring) -> Method:
-    """Return a commutator-free method without the exponentials that turned out to be of zero."""
+    """Return a commutator-free method without the exponentials whose exponent is zero."""
     if not isinstance(method, CommutatorFree):
         return method
 
@@ -256,21 +257,21 @@ def _without_zeros(method: Method, ring: Ring) -> Method:
         rows = stage.exponentials
         return Stage(stage.start, tuple(r for r in rows if not all(ring.is_zero(x) is True for x in r)))
 
-    found = CommutatorFree(tuple(map(kept, method.stages)), kept(method.update))
-    return method if found == method else found
+    shorter = CommutatorFree(tuple(map(kept, method.stages)), kept(method.update))
+    return method if shorter == method else shorter
 
 
 def _proved(
     problem: Problem, ansatz: Ansatz, exact: dict[str, str], sharp: dict[str, arb], source: str
-) -> Found:
+) -> Solution:
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Equal spellings would be one unknown.
+            # Two equal decimals in a file are one unknown.
             places = DIGITS
-            while (spelled := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
+            while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1
-            digits[name] = spelled
+            digits[name] = decimal
     proof = [
         "",
         "[proof]",
@@ -283,12 +284,12 @@ def _proved(
 
 
 def _signed(x: arb, places: int) -> str:
-    """Return a number as a decimal with ``places`` places that is an unknown of the file's equations."""
+    """Return a rounded decimal with ``places`` places and the sign ``~``."""
     return ("-" if x < 0 else "") + decimal_places(abs(x), places) + "~"
 
 
-def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Found:
-    """Return the file with a claim for each family and property that is certain."""
+def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
+    """Return the solution with a claim for each proved order and property."""
     if not exact:
         certify(tableau)
     claims: list[OrderClaim] = []
@@ -314,16 +315,16 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Found:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # With names where that is shorter, as it is for numbers with long spellings.
-        written = min(toml_text(written_out(claimed)), written, key=len)
+        # Choose the shorter of two forms: every coefficient in full, or with names for repeated numbers.
+        written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, problem.ansatz.family, problem.order + 1)
-    return Found(Tableau.loads(written), written, certificate, error)
+    return Solution(Tableau.loads(written), written, certificate, error)
 
 
 def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
     """Return the 2-norm of the residuals of this order.
 
-    Which they are is a question of the family (:meth:`orderconds.families.Family.principal_residuals`).
+    The family chooses the residuals (:meth:`orderconds.families.Family.principal_residuals`).
 
     >>> from orderconds.checking import read
     >>> round(principal_error(read("suzuki4"), "vcg", 5), 6)
@@ -333,8 +334,8 @@ def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
     from orderconds.ring.traces import Traces
     from orderconds.solve.tape import Tape
 
-    found = families.get(family)
-    if found.principal_error_limit is not None and order > found.principal_error_limit:
+    chosen = families.get(family)
+    if chosen.principal_error_limit is not None and order > chosen.principal_error_limit:
         return None
     proved = certify(tableau).tableau if tableau.proof is not None else tableau
     numbers: list[float] = []
@@ -358,8 +359,8 @@ def principal_error(tableau: Tableau, family: str, order: int) -> float | None:
         return next(inputs)
 
     method = proved.method.map(traced)
-    read = replace(proved, ring=ring, method=method).read_as(found.formats)
+    read = replace(proved, ring=ring, method=method).read_as(chosen.formats)
     if read is None:
         return None
-    tape = Tape(found.principal_residuals(read, ring, order), width)
+    tape = Tape(chosen.principal_residuals(read, ring, order), width)
     return float(np.linalg.norm(tape.values(np.array([numbers]))[0]))

@@ -1,4 +1,4 @@
-"""Numbers known to many digits as elements of one number field: relations found by lattice reduction.
+"""Recognise numbers known to many digits as elements of one number field, by lattice reduction.
 
 A real number near a root of a polynomial with small integer coefficients shows as a short vector of the
 lattice spanned by (e_k, N x^k), with N large (Lenstra, Lenstra and Lovasz 1982). The result is a guess,
@@ -19,65 +19,65 @@ from orderconds.ring.precision import precision
 from orderconds.ring.roots import isolating, real_roots
 
 MAX_DEGREE = 6
-"""Degree of the fields that are recognised."""
+"""The highest degree of a field that is recognised."""
 
 MAX_TEXT = 160
-"""A closed form longer than this is none."""
+"""A closed form with more characters is not used."""
 
 
 @dataclass(frozen=True)
-class Spelling:
+class ClosedForm:
     """A number as text for a tableau file; ``root`` defines the number ``r`` that it refers to."""
 
     text: str
     root: tuple[str, ...] = ()
 
 
-def spellings(
+def closed_forms(
     numbers: Mapping[str, arb], bits: int, radicals: Mapping[str, arb] | None = None
-) -> dict[str, Spelling] | None:
+) -> dict[str, ClosedForm] | None:
     """Return all of the numbers as elements of one field of degree at most :data:`MAX_DEGREE`, or None.
 
-    ``bits`` is the precision to which the numbers are known. Square roots that are expected, by their
-    spelling, may extend the field of the number of least degree.
+    ``bits`` is the precision to which the numbers are known. ``radicals`` are expected square roots by their
+    text; they may extend the field of the number of least degree.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
-    ...     found = spellings({"x": root / 6, "y": (1 - root) / 2, "z": arb(1) / 4}, 400)
-    >>> {name: x.text for name, x in found.items()}
+    ...     forms = closed_forms({"x": root / 6, "y": (1 - root) / 2, "z": arb(1) / 4}, 400)
+    >>> {name: x.text for name, x in forms.items()}
     {'x': '1/6*sqrt(3)', 'y': '1/2 - 1/2*sqrt(3)', 'z': '1/4'}
     """
     with precision(bits):
         polynomials = {}
         for name, x in numbers.items():
-            found = minimal_polynomial(x, bits)
-            if found is None:
+            forms = minimal_polynomial(x, bits)
+            if forms is None:
                 return None
-            polynomials[name] = found
+            polynomials[name] = forms
         if radicals:
-            found = _extended(numbers, polynomials, radicals, bits)
-            if found is not None:
-                return found
+            forms = _extended(numbers, polynomials, radicals, bits)
+            if forms is not None:
+                return forms
         degree = max((p.degree() for p in polynomials.values()), default=1)
         if degree == 1:
-            return {name: Spelling(str(_root_of_linear(p))) for name, p in polynomials.items()}
+            return {name: ClosedForm(str(_root_of_linear(p))) for name, p in polynomials.items()}
         first = next(name for name, p in polynomials.items() if p.degree() == degree)
         if degree == 2:
             base, called, root = _square_root(polynomials[first])
         else:
             base, called, root = _named(numbers[first], polynomials[first])
         powers = {_power(called, k): base**k for k in range(degree)}
-        return _all_spelled(numbers, powers, root, bits)
+        return _combinations(numbers, powers, root, bits)
 
 
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
-) -> dict[str, Spelling] | None:
+) -> dict[str, ClosedForm] | None:
     """Return the numbers in the field of one of them, the simplest, and of the given square roots."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
-        return _all_spelled(numbers, roots, (), bits)
+        return _combinations(numbers, roots, (), bits)
     first = min(inside, key=lambda name: polynomials[name].degree())
     degree = polynomials[first].degree()
     base, called, root = _named(numbers[first], polynomials[first])
@@ -86,18 +86,18 @@ def _extended(
         for radical, y in roots.items()
         for k in range(degree)
     }
-    return _all_spelled(numbers, basis, root, bits) if len(basis) <= 2 * MAX_DEGREE else None
+    return _combinations(numbers, basis, root, bits) if len(basis) <= 2 * MAX_DEGREE else None
 
 
-def _all_spelled(
+def _combinations(
     numbers: Mapping[str, arb], basis: Mapping[str, arb], root: tuple[str, ...], bits: int
-) -> dict[str, Spelling] | None:
+) -> dict[str, ClosedForm] | None:
     result = {}
     for name, x in numbers.items():
         coefficients = combination(x, list(basis.values()), bits)
-        if coefficients is None or len(text := _spelled(coefficients, list(basis))) > MAX_TEXT:
+        if coefficients is None or len(text := _sum(coefficients, list(basis))) > MAX_TEXT:
             return None
-        result[name] = Spelling(text, root)
+        result[name] = ClosedForm(text, root)
     return result
 
 
@@ -144,7 +144,7 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # By chance a vector is about as long as the determinant's root; a relation is much shorter.
+    # A random vector is about as long as the root of the determinant; a true relation is much shorter.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None
@@ -156,7 +156,7 @@ def _root_of_linear(p: fmpz_poly) -> Fraction:
 
 
 def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return sqrt(D), D without square factors, for the field of a quadratic polynomial."""
+    """Return sqrt(D), with D square-free, for the field of a quadratic polynomial."""
     discriminant = int(p[1]) ** 2 - 4 * int(p[0]) * int(p[2])
     free = 1
     for prime, power in fmpz(discriminant).factor():
@@ -166,7 +166,7 @@ def _square_root(p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
 
 
 def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
-    """Return the root itself under the name r, with what defines it in a file."""
+    """Return the root, its name ``r``, and the lines that define it in a file."""
     monic = fmpq_poly([fmpq(c) for c in p.coeffs()]) / fmpq(p[p.degree()])
     place = min(
         range(len(real_roots(monic, 128))), key=lambda k: float(abs(real_roots(monic, 128)[k] - x).mid())
@@ -176,7 +176,7 @@ def _named(x: arb, p: fmpz_poly) -> tuple[arb, str, tuple[str, ...]]:
     return x, "r", ("[numbers.r]", f"minpoly = [{coefficients}]", f'near = "{near}"')
 
 
-def _spelled(coefficients: Sequence[Fraction], factors: Sequence[str]) -> str:
+def _sum(coefficients: Sequence[Fraction], factors: Sequence[str]) -> str:
     text = ""
     for factor, c in zip(factors, coefficients, strict=True):
         if not c:

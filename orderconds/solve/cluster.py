@@ -1,4 +1,4 @@
-"""Work on a dask cluster: jobs go to its workers and results come back in the order of the jobs."""
+"""Run jobs on a dask cluster and return the results in the order of the jobs."""
 
 from __future__ import annotations
 
@@ -13,14 +13,13 @@ Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 TIMEOUT = 3
-"""Seconds to wait for a scheduler, also for one that has gone."""
+"""Seconds to wait for a scheduler to answer, at the start and after a lost connection."""
 
 
 def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
-    """Yield ``work(job)`` for each job, in order, computed by the cluster whose scheduler has that address.
+    """Yield ``work(job)`` for each job, in order; ``address`` is that of the scheduler.
 
-    A job whose worker dies is given to another worker. InputError where the scheduler does not answer, or
-    stops to.
+    If a worker dies, another worker repeats its job. Raises InputError if the scheduler does not answer.
     """
     level = logging.root.manager.disable
     logging.disable(logging.CRITICAL)  # dask logs a traceback for each connection that breaks
@@ -41,15 +40,15 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
             try:
                 yield future.result()
             except (OSError, CancelledError, TimeoutError, KilledWorker) as problem:
-                lost = "its workers die" if isinstance(problem, KilledWorker) else "the scheduler went away"
+                killed = isinstance(problem, KilledWorker)
                 raise InputError(
-                    lost,
+                    "its workers die" if killed else "the scheduler no longer answers",
                     where=f"--dask {address}",
                     expected="a cluster that runs until the end",
-                    hint="start it again, then the same command; a checkpoint keeps what is finished",
+                    hint="restart the cluster and repeat the command; a checkpoint keeps finished batches",
                 ) from None
     finally:
-        with suppress(Exception):  # it may be gone
+        with suppress(Exception):  # the scheduler may no longer exist
             client.close(timeout=TIMEOUT)
 
 

@@ -1,9 +1,10 @@
-"""Proofs that a method does not exist: order conditions that contradict each other, by exact elimination.
+"""Proofs by exact elimination that no method exists: its order conditions contradict each other.
 
-Conditions in few coefficients are collected, and a Groebner basis of them is computed. If it holds 1 there is
-no method, real or complex; if it holds a polynomial in one coefficient without real roots, as counted by
-Sturm's theorem, there is no real one (zero does not count where the family divides by the coefficient). The
-consequence is then written as a combination of the conditions, which anybody can multiply out.
+Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
+method, real or complex. If it contains a polynomial in one coefficient without real roots, counted by Sturm's
+theorem, there is no real method. (The root zero does not count if the family divides by the coefficient.) The
+certificate writes this consequence as a combination of the conditions, which a reader can verify by
+multiplication.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ MAX_VARIABLES = 3
 """Conditions in more coefficients than this are not eliminated."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""Conditions of more unknowns, or of a higher order, are too long to be written out."""
+"""Conditions with more unknowns, or of a higher order, have polynomials that are too long to expand."""
 
 MAX_DEGREE = 8
 """Degree of the multipliers in a certificate."""
@@ -54,7 +55,7 @@ class Infeasible:
 
     @property
     def reason(self) -> str:
-        """Say why the consequence has no solution."""
+        """The reason why the consequence has no solution."""
         if not self.real:
             return f"{self.consequence} = 0 is false"
         return f"{self.consequence} = 0 has no real root (Sturm)"
@@ -71,7 +72,7 @@ class Infeasible:
 
 
 def infeasible(problem: Problem) -> Infeasible | None:
-    """Return a proof that no real method solves the conditions, or None where this finds none.
+    """Return a proof that no real method solves the conditions, or None if elimination yields no proof.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -93,9 +94,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     for variables, members in _subsystems([x for x in system if not plain.is_zero(x[1])], plain):
         consequence = _consequence(problem, variables, [x for _, x in members], plain)
         if consequence is not None:
-            found = _certificate(variables, members, consequence, plain)
-            if found is not None:
-                return found
+            certificate = _certificate(variables, members, consequence, plain)
+            if certificate is not None:
+                return certificate
     return None
 
 
@@ -116,7 +117,7 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield sets of few variables with the conditions that hold no others, fewest first."""
+    """Yield small sets of variables, smallest first, each with the conditions in these variables only."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
@@ -161,12 +162,12 @@ def _sympy(x: fmpq_mpoly, variables: Sequence[int], symbols: Sequence[sympy.Symb
 
 
 def _flint(polynomial: sympy.Poly, plain: Polynomials) -> fmpq_mpoly:
-    """Return a univariate sympy polynomial, its coefficients whole and without common factor."""
+    """Return a univariate sympy polynomial as flint's, with integer coefficients without common factor."""
     place = plain.names.index(polynomial.gen.name)
-    found = plain.zero
+    result = plain.zero
     for (power,), c in polynomial.primitive()[1].clear_denoms(convert=True)[1].terms():
-        found = found + plain.rational(int(c)) * plain.generators[place] ** power
-    return found
+        result = result + plain.rational(int(c)) * plain.generators[place] ** power
+    return result
 
 
 def _certificate(
@@ -226,13 +227,13 @@ def _multipliers(
         if pivot == len(columns):
             return None
         values[pivot] = reduced[i, len(columns)]
-    found = []
+    products = []
     for k in range(len(members)):
         share = values[k * len(monomials) : (k + 1) * len(monomials)]
-        found.append(
+        products.append(
             sum(
                 (plain.rational(int(c.p), int(c.q)) * m for c, m in zip(share, monomials, strict=True) if c),
                 plain.zero,
             )
         )
-    return found
+    return products

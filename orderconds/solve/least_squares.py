@@ -1,7 +1,7 @@
 """Damped least squares for many starts at once (Levenberg 1944; Marquardt 1963).
 
-The damping is the residual's norm times a factor that follows success: near solutions, isolated or not, the
-method then converges quadratically (Yamashita and Fukushima 2001).
+The damping is the norm of the residual times a factor that shrinks after each success. The method therefore
+converges quadratically near solutions, isolated or not (Yamashita and Fukushima 2001).
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ import numpy as np
 from orderconds.solve.tape import Floats
 
 System = Callable[[Floats], tuple[Floats, Floats]]
-"""Takes points x n to residuals, points x m, and Jacobians, points x m x n."""
+"""A function of points x n; returns residuals, points x m, and Jacobians, points x m x n."""
 
 SOLVED = 1e-13
-"""A residual norm that rounding alone explains."""
+"""A residual norm below this may be a rounding error."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:
@@ -44,11 +44,11 @@ def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Fl
         normal[:, diagonal, diagonal] += (damping[active] * np.sqrt(size[active]) + 1e-18)[:, None]
         right = np.matmul(J.transpose(0, 2, 1), r[..., None])
         tried = points[active] - _solved(normal, right)[..., 0]
-        found, sloped = system(tried)
-        there = _squares(found)
+        residuals, sloped = system(tried)
+        there = _squares(residuals)
         better = (there < size[active]) & np.isfinite(sloped).all(axis=(1, 2))
         chosen = np.flatnonzero(active)[better]
-        points[chosen], values[chosen], slopes[chosen] = tried[better], found[better], sloped[better]
+        points[chosen], values[chosen], slopes[chosen] = tried[better], residuals[better], sloped[better]
         size[chosen] = there[better]
         factor = np.where(better, 0.3, 4.0)
         damping[active] = np.maximum(damping[active] * factor, 1e-6)
@@ -64,7 +64,7 @@ def _squares(values: Floats) -> Floats:
 def _solved(normal: Floats, right: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
-    except np.linalg.LinAlgError:  # one of them is singular to rounding: damp all a little more
+    except np.linalg.LinAlgError:  # a matrix is numerically singular: increase the damping of all
         eye = np.eye(normal.shape[1]) * 1e-9 * (1 + np.trace(normal, axis1=1, axis2=2))[:, None, None]
         return np.asarray(np.linalg.solve(normal + eye, right), dtype=np.float64)
 

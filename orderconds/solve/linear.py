@@ -1,7 +1,6 @@
-"""Linear constraints on the coefficients of a tableau, eliminated exactly one after the other.
-
-A constraint that the ones before it rule out is refused by name; what remains are free coefficients, and the
-others as affine functions of them.
+"""Linear constraints on the coefficients of a tableau, eliminated exactly, one after another. A constraint
+that contradicts earlier ones is refused by name. The result is a set of free coefficients; all others are
+affine functions of these.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ Affine = Mapping[str, Fraction]
 
 @dataclass(frozen=True)
 class Constraint:
-    """``form`` = 0; ``text`` says which wish of the user it is."""
+    """The equation ``form`` = 0; ``text`` is the constraint as the user gave it."""
 
     text: str
     form: Affine
@@ -27,11 +26,11 @@ class Constraint:
 
 @dataclass
 class Elimination:
-    """Coefficients ``names``, later ones expressed by earlier ones as constraints come in.
+    """The coefficients ``names``; each constraint expresses one of them by earlier ones.
 
-    >>> found = Elimination(("a", "b", "c"))
-    >>> found.impose([equality("c = a + 1/2"), equality("b = a")])
-    >>> found.free, spell(found.cell("c"))
+    >>> elimination = Elimination(("a", "b", "c"))
+    >>> elimination.impose([equality("c = a + 1/2"), equality("b = a")])
+    >>> elimination.free, spell(elimination.cell("c"))
     (('a',), '1/2 + a')
     """
 
@@ -48,7 +47,8 @@ class Elimination:
         return self.solved.get(name, {name: Fraction(1)})
 
     def impose(self, constraints: Iterable[Constraint]) -> None:
-        """Add constraints; raises :class:`~orderconds.errors.InputError` for one that cannot hold as well."""
+        """Add constraints; raises :class:`~orderconds.errors.InputError` for one that contradicts the
+        others."""
         rank = {name: place for place, name in enumerate(self.names)}
         for constraint in constraints:
             form = self._reduced(constraint.form)
@@ -69,25 +69,25 @@ class Elimination:
             self.solved[pivot] = row
 
     def _reduced(self, form: Affine) -> dict[str, Fraction]:
-        found = dict(form)
+        result = dict(form)
         for name in form:
             if name in self.solved:
-                found = _substituted(found, name, self.solved[name])
-        return {name: x for name, x in found.items() if x}
+                result = _substituted(result, name, self.solved[name])
+        return {name: x for name, x in result.items() if x}
 
 
 def _substituted(form: Affine, name: str, by: Affine) -> dict[str, Fraction]:
-    found = dict(form)
-    scale = found.pop(name, Fraction(0))
+    result = dict(form)
+    scale = result.pop(name, Fraction(0))
     for other, x in by.items():
-        found[other] = found.get(other, Fraction(0)) + scale * x
-    return {key: x for key, x in found.items() if x}
+        result[other] = result.get(other, Fraction(0)) + scale * x
+    return {key: x for key, x in result.items() if x}
 
 
 def equality(text: str, where: str = "--fix") -> Constraint:
-    """Return the constraint that ``text`` spells, ``"a21 = 1/2"`` or ``"b3 = 1 - b1 - b2"``.
+    """Return the constraint in ``text``, such as ``"a21 = 1/2"`` or ``"b3 = 1 - b1 - b2"``.
 
-    Raises :class:`~orderconds.errors.InputError` for a text that is no linear equation.
+    Raises :class:`~orderconds.errors.InputError` for a text that is not a linear equation.
 
     >>> {name: str(x) for name, x in equality("a21 = 1/2 - b1").form.items()}
     {'a21': '1', '': '-1/2', 'b1': '1'}
@@ -115,19 +115,19 @@ def _affine(x: Expression) -> Affine:
         return {x.name: Fraction(1)}
     if not isinstance(x, Chain):
         raise TypeError("not linear")
-    found = dict(_affine(x.operands[0]))
+    result = dict(_affine(x.operands[0]))
     for sign, operand in zip(x.operators, map(_affine, x.operands[1:]), strict=True):
         if sign in "+-":
             for name, value in operand.items():
-                found[name] = found.get(name, Fraction(0)) + (value if sign == "+" else -value)
+                result[name] = result.get(name, Fraction(0)) + (value if sign == "+" else -value)
             continue
-        if set(found) <= {""} and sign == "*":
-            found, operand = dict(operand), found
+        if set(result) <= {""} and sign == "*":
+            result, operand = dict(operand), result
         if not set(operand) <= {""}:
             raise TypeError("not linear")
         scale = operand.get("", Fraction(0))
-        found = {name: value * scale if sign == "*" else value / scale for name, value in found.items()}
-    return found
+        result = {name: value * scale if sign == "*" else value / scale for name, value in result.items()}
+    return result
 
 
 def zero(name: str, why: str) -> Constraint:
@@ -152,7 +152,7 @@ def equal(why: str, *terms: tuple[int, str]) -> Constraint:
 
 
 def sum_to_one(names: Sequence[str]) -> Constraint:
-    """Return the constraint of consistency.
+    """Return the constraint that the weights sum to 1.
 
     >>> sum_to_one(["b1"]).form
     {'b1': Fraction(1, 1), '': Fraction(-1, 1)}
@@ -161,7 +161,7 @@ def sum_to_one(names: Sequence[str]) -> Constraint:
 
 
 def spell(form: Affine) -> str:
-    """Spell an affine function in the grammar of tableau files.
+    """Return an affine function in the grammar of tableau files.
 
     >>> spell({"": Fraction(1, 2), "b1": Fraction(-1), "b2": Fraction(3, 2)})
     '1/2 - b1 + 3/2*b2'
@@ -176,10 +176,10 @@ def spell(form: Affine) -> str:
 
 
 def named(letter: str, *indices: int) -> str:
-    """Return the name of a coefficient: indices are joined by _ where one has two digits.
+    """Return the name of a coefficient: indices are joined by _ if one has two digits.
 
     >>> named("a", 2, 1), named("a", 10, 1)
     ('a21', 'a10_1')
     """
-    joint = "" if all(i < 10 for i in indices) and len(indices) < 3 else "_"
-    return letter + joint.join(map(str, indices))
+    separator = "" if all(i < 10 for i in indices) and len(indices) < 3 else "_"
+    return letter + separator.join(map(str, indices))

@@ -1,9 +1,8 @@
-"""The principal error made small along a family of solutions: Gauss-Newton in the tangent space.
+"""Minimise the principal error over a family of solutions, by Gauss-Newton steps in the tangent space.
 
-Each step p solves the linearised conditions, F + F' p = 0, and within the freedom that leaves makes
-|E + E' p|^2 + damping |p|^2 least; then a few Newton steps bring the point back to the family. This is
-sequential quadratic programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*,
-Section 18.4).
+Each step p solves the linearised conditions, F + F' p = 0. Among these solutions it minimises |E + E' p|^2 +
+damping |p|^2. A few Newton steps then return to the family. This is sequential quadratic programming with the
+Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*, Section 18.4).
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
 MAX_STEPS = 400
 RESTORED = 1e-12
 ENOUGH = 1e-7
-"""A relative decrease that is not worth another step, when it happens :data:`PATIENCE` times in a row."""
+"""Stop if the relative decrease is less than this :data:`PATIENCE` times in a row."""
 PATIENCE = 12
 
 

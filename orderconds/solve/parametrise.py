@@ -1,4 +1,5 @@
-"""The parametrisation of methods in a search: coefficients named, constrained and laid out in a file."""
+"""The parametrisation of methods in a search: names of coefficients, constraints, and the text of the
+file."""
 
 from __future__ import annotations
 
@@ -23,7 +24,7 @@ from orderconds.solve.spec import Spec, refuse
 
 def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
     """Return the coefficients after a layout's own constraints and those of ``--fix``."""
-    found = Elimination(tuple(names))
+    elimination = Elimination(tuple(names))
     fixed = [equality(text) for text in spec.fix]
     for constraint in fixed:
         for name in constraint.form:
@@ -33,13 +34,13 @@ def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constrai
                     where="--fix",
                     expected=f"one of {', '.join(names)}",
                 )
-    found.impose([*constraints, *fixed])
-    return found
+    elimination.impose([*constraints, *fixed])
+    return elimination
 
 
 @dataclass(frozen=True)
 class _Cells:
-    """Coefficients after elimination: how each is written in the file, and the numbers behind them."""
+    """Coefficients after elimination: the text of each in the file, and the formulas of named numbers."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
@@ -52,25 +53,25 @@ class _Cells:
         return spell(form) if set(form) <= {""} else name
 
     def numbers(self, names: Sequence[str]) -> dict[str, str]:
-        """Return the spellings of dependent coefficients that are no constants."""
-        found = {}
+        """Return the formulas of dependent coefficients that are not constants."""
+        texts = {}
         for name in names:
             form = self.elimination.cell(name)
             if name in self.elimination.solved and not set(form) <= {""}:
-                found[name] = spell(form)
-        return {**found, **(self.extra or {})}
+                texts[name] = spell(form)
+        return {**texts, **(self.extra or {})}
 
     def unknown(self, names: Sequence[str]) -> tuple[str, ...]:
-        """Return the coefficients that are no constants."""
+        """Return the coefficients that are not constants."""
         return tuple(name for name in names if self.written(name) == name)
 
 
 def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
-    """Spell a row of coefficients; zeros at its end are left out unless it is ``full``."""
-    spelled = [cells.written(name) for name in names]
-    while not full and spelled and spelled[-1] == "0":
-        spelled.pop()
-    return "[" + ", ".join(f'"{x}"' for x in spelled) + "]"
+    """Return the text of a row of coefficients, without zeros at its end unless it is ``full``."""
+    texts = [cells.written(name) for name in names]
+    while not full and texts and texts[-1] == "0":
+        texts.pop()
+    return "[" + ", ".join(f'"{x}"' for x in texts) + "]"
 
 
 def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
@@ -102,13 +103,13 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         constraints += [zero(A[0][j], "--fsal") for j in range(s)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
-    found = _eliminated(names, spec, constraints)
+    elimination = _eliminated(names, spec, constraints)
     extra = {}
     if structure == "abscissae":
-        weights = [_Cells(found).written(x) for x in b]
-        extra = {**crouch_grossman_times(weights), **transport(A, weights, _fixed(A, found))}
-    cells = _Cells(found, extra)
-    free = tuple(x for x in found.free if x not in extra)
+        weights = [_Cells(elimination).written(x) for x in b]
+        extra = {**crouch_grossman_times(weights), **transport(A, weights, _fixed(A, elimination))}
+    cells = _Cells(elimination, extra)
+    free = tuple(x for x in elimination.free if x not in extra)
     rows = [_row(cells, line) for line in A]
     body = (
         f'name = "{name}"',
@@ -120,14 +121,14 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     return Ansatz(label, name, structure, body, free, cells.numbers(names), cells.unknown(names))
 
 
-def _fixed(A: Sequence[Sequence[str]], found: Elimination) -> dict[str, str]:
+def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
     """Return the entries of A that are constants; InputError where one depends on others."""
     values = {}
     for name in (x for line in A for x in line):
-        form = found.cell(name)
+        form = elimination.cell(name)
         if set(form) <= {""}:
             values[name] = spell(form)
-        elif name in found.solved:
+        elif name in elimination.solved:
             raise InputError(
                 f"{name} = {spell(form)}", where=WHERE, expected="entries of A that are numbers or free"
             )
@@ -158,14 +159,14 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
     if totals:
         constraints += _totals(stages, update, totals)
         names = [*totals, *names]
-    found = _eliminated(names, spec, constraints)
-    extra |= {name: text for name, text in totals.items() if name in found.free}
+    elimination = _eliminated(names, spec, constraints)
+    extra |= {name: text for name, text in totals.items() if name in elimination.free}
     if structure == "abscissae":
-        extra = _abscissae(stages, update, found)
+        extra = _abscissae(stages, update, elimination)
     elif structure.endswith("abscissae"):
-        extra = _symmetric_abscissae(stages, update, found)
-    cells = _Cells(found, extra)
-    free = tuple(x for x in found.free if x not in extra)
+        extra = _symmetric_abscissae(stages, update, elimination)
+    cells = _Cells(elimination, extra)
+    free = tuple(x for x in elimination.free if x not in extra)
     free = (*free, *(x for x in extra if extra[x] == x))
     numbers = {x: text for x, text in cells.numbers(names).items() if text != x}
     tail = [""]
@@ -178,18 +179,20 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 
 
 def _abscissae(
-    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], found: Elimination
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return totals a_ij with the right abscissae, and the last exponentials of the stages they determine."""
+    """Return sums a_ij of exponents with the required abscissae, and the last exponentials of the stages."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
-        if name in found.solved:
+        if name in elimination.solved:
             raise InputError(
-                f"{name} = {spell(found.cell(name))}", where=WHERE, expected="no fixed coefficients of stages"
+                f"{name} = {spell(elimination.cell(name))}",
+                where=WHERE,
+                expected="no fixed coefficients of stages",
             )
     A = [[named("a", i, j) for j in every] for i in every]
     b = [named("b", i) for i in every]
-    written = [[_Cells(found).written(x) for x in line] for line in update]
+    written = [[_Cells(elimination).written(x) for x in line] for line in update]
     determined = transport(A, b, {})
     extra = {**commutator_free_times(written, b)}
     extra |= {x: determined.get(x, x) for line in A for x in line}
@@ -200,7 +203,7 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the Gauss tableau, spelled: the sums of the exponents of each stage, and the weights."""
+    """Return the Gauss tableau as text: the sums of the exponents of each stage, and the weights."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -214,32 +217,34 @@ def _totals(
 ) -> list[Constraint]:
     """Return the constraints that exponents sum to the Gauss tableau."""
     why, every = "Gauss's tableau", range(len(stages))
-    found = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
-    found += [
+    constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
+    constraints += [
         equal(why, (-1, f"g{i + 1}{j + 1}"), *((1, line[j]) for line in path))
         for i, path in enumerate(stages)
         for j in every
     ]
-    return found
+    return constraints
 
 
 def _symmetric_abscissae(
-    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], found: Elimination
+    stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return sums x_ij of the stages' own exponents with the right abscissae, and the last exponents."""
+    """Return sums x_ij of each stage's own exponents with the required abscissae, and the last exponents."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two")
-    cells = _Cells(found)
+    cells = _Cells(elimination)
     b = [named("b", i) for i in range(1, s + 1)]
     written = [[cells.written(x) for x in line] for line in update]
     x = [[named("x", i, j) for j in range(1, s + 1)] for i in range(1, half + 1)]
     leave = [sum(line in update for line in path) for path in stages[:half]]
     own = [path[k:] for path, k in zip(stages[:half], leave, strict=True)]
     for name in (name for path in own for line in path for name in line):
-        if name in found.solved:
+        if name in elimination.solved:
             raise InputError(
-                f"{name} = {spell(found.cell(name))}", where=WHERE, expected="no fixed coefficients of stages"
+                f"{name} = {spell(elimination.cell(name))}",
+                where=WHERE,
+                expected="no fixed coefficients of stages",
             )
     middle: list[str] = []
     extra = commutator_free_times(written, b)
@@ -260,11 +265,11 @@ def _symmetric_abscissae(
 
 
 def _exponentials(rows: Sequence[Sequence[str]], cells: _Cells) -> list[str]:
-    spelled = [line for names in rows if (line := _row(cells, names)) != "[]"]
-    if not spelled:
+    lines = [line for names in rows if (line := _row(cells, names)) != "[]"]
+    if not lines:
         return []
-    text = f"exp = [{', '.join(spelled)}]"
-    return [text] if len(text) <= 110 else ["exp = [", *(f"  {x}," for x in spelled), "]"]
+    text = f"exp = [{', '.join(lines)}]"
+    return [text] if len(text) <= 110 else ["exp = [", *(f"  {x}," for x in lines), "]"]
 
 
 def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
@@ -281,13 +286,13 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The middle step is the one that the sum determines: the outer ones are named before it.
+    # The sum determines the middle step; therefore the outer steps come before it.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
-    found = Elimination(tuple(order))
-    found.impose(mirrored)
-    names = [x for x in order if x not in found.solved]
-    found = _eliminated(order, spec, [*mirrored, total])
-    cells = _Cells(found)
+    elimination = Elimination(tuple(order))
+    elimination.impose(mirrored)
+    names = [x for x in order if x not in elimination.solved]
+    elimination = _eliminated(order, spec, [*mirrored, total])
+    cells = _Cells(elimination)
     body = (
         f'name = "{name}"',
         'family = "composition"',
@@ -295,7 +300,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         f"gamma = {_row(cells, gamma, full=True)}",
     )
     label = family.solved_as(spec.rkn)
-    return Ansatz(label, name, structure, body, found.free, cells.numbers(order), cells.unknown(names))
+    return Ansatz(label, name, structure, body, elimination.free, cells.numbers(order), cells.unknown(names))
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
@@ -320,8 +325,8 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
         Constraint("the steps of a part sum to 1", {**dict.fromkeys(x, Fraction(1)), "": Fraction(-1)})
         for x in (a, b)
     ]
-    found = _eliminated(order, spec, constraints)
-    cells = _Cells(found)
+    elimination = _eliminated(order, spec, constraints)
+    cells = _Cells(elimination)
     steps = [f'["T", "{cells.written(a[0])}"]']
     for i in range(s):
         steps += [f'["V", "{cells.written(b[i])}"]', f'["T", "{cells.written(a[i + 1])}"]']
@@ -335,7 +340,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
         "]",
     )
     label = family.solved_as(spec.rkn)
-    return Ansatz(label, name, structure, body, found.free, cells.numbers(order), cells.unknown(order))
+    return Ansatz(label, name, structure, body, elimination.free, cells.numbers(order), cells.unknown(order))
 
 
 def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
@@ -375,8 +380,8 @@ def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
 class Layout:
     """How the coefficients of one tableau format are parametrised.
 
-    ``ansatz`` takes a family, what is asked of the method, a structure and a name; ``structures`` returns the
-    structures in which a search begins.
+    ``ansatz`` takes a family, a specification of the method, a structure and a name; ``structures`` returns
+    the structures in which a search begins.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]
@@ -389,7 +394,7 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""Tableau format to its layout: :attr:`orderconds.families.Family.unknowns` names one of them."""
+"""The layout of each tableau format; :attr:`orderconds.families.Family.unknowns` is a key of this table."""
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
@@ -398,15 +403,15 @@ def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found"
     Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that the family
     cannot meet.
 
-    >>> found = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
-    >>> found.free, found.body[2]
+    >>> example = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
+    >>> example.free, example.body[2]
     (('b1', 'b2'), 'A = [[], ["1/2"]]')
     """
-    found = families.get(family)
-    layout = _layout(found)
+    member = families.get(family)
+    layout = _layout(member)
     if spec.stages < 1:
         raise InputError(f"{spec.stages} stages", where="--stages", expected="at least one")
-    return layout.ansatz(found, spec, structure, name)
+    return layout.ansatz(member, spec, structure, name)
 
 
 def structures(family: str, spec: Spec) -> tuple[str, ...]:
@@ -415,8 +420,8 @@ def structures(family: str, spec: Spec) -> tuple[str, ...]:
     >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))
     """
-    found = families.get(family)
-    return _layout(found).structures(found, spec)
+    chosen = families.get(family)
+    return _layout(chosen).structures(chosen, spec)
 
 
 def _layout(family: Family) -> Layout:

@@ -1,12 +1,14 @@
-"""The exponentials of commutator-free methods: all free, or arranged so that the method is symmetric.
+"""The exponentials of commutator-free methods: all coefficients free, or the method symmetric.
 
-With s stages and m exponentials in the update, let bar exchange stages j and s + 1 - j. An update that reads
-the same backwards under bar, and stages i and s + 1 - i that leave it at places k and m - k,
+Take s stages and m exponentials in the update, and let bar exchange stages j and s + 1 - j. The method is
+symmetric if the update reads the same backwards under bar, and if stages i and s + 1 - i branch off it after
+k and m - k exponentials,
 
     Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
     Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0,
 
-make a step of length -h undo one of length h: seen from y1, stage s + 1 - i is reached as stage i is from y0.
+A step of length -h then undoes a step of length h: the path from y1 to stage s + 1 - i is that from y0 to
+stage i.
 """
 
 from __future__ import annotations
@@ -50,7 +52,8 @@ def full_paths(spec: Spec) -> Paths:
 
 
 def symmetric_paths(spec: Spec) -> Paths:
-    """Return stages that leave a symmetric update in pairs, with ``inner`` exponentials at most in each.
+    """Return pairs of stages that branch off a symmetric update, each with at most ``inner`` exponentials of
+    its own.
 
     >>> stages, update, names, _ = symmetric_paths(Spec(stages=2))
     >>> stages[0], update
@@ -70,7 +73,7 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i leaves the update where about its share of the step has been made.
+        # Stage i branches off the update after about i/s of its exponentials.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share

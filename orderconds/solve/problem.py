@@ -23,12 +23,12 @@ from orderconds.tableau import CommutatorFree, Method, RungeKutta
 from orderconds.tableau.unknowns import RootedRing
 
 SMALLEST = 0.01
-"""Coefficients required to be positive are at least this."""
+"""The lower bound of coefficients that must be positive."""
 
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search; equal problems of one process share their programs.
+    """The equations of one search. Equal problems in one process share their compiled programs.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -54,11 +54,11 @@ class Problem:
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return the conditions up to the order that are independent for the ansatz.
 
-        The order of a symmetric method is even (HLW II.3.2), so that those of an even order follow.
+        The order of a symmetric method is even (HLW II.3.2), so conditions of even order are left out.
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
-        return independent_conditions(self.family, self.ansatz.spelled(), highest)
+        return independent_conditions(self.family, self.ansatz.symbolic(), highest)
 
     @cached_property
     def tape(self) -> Tape:
@@ -73,7 +73,7 @@ class Problem:
     def residuals(
         self, values: Sequence[Element], ring: RootedRing, conditions: Sequence[OrderCondition]
     ) -> list[Element]:
-        """Return left-hand sides less right-hand sides for free coefficients in any ring."""
+        """Return left-hand sides minus right-hand sides for free coefficients in any ring."""
         method = self.ansatz.method(values, ring)
         return list(self.family.residuals(method, ring, conditions))
 
@@ -86,7 +86,7 @@ class Problem:
 
     @cached_property
     def coefficients(self) -> Tape:
-        """Return the coefficients that are no constants, then the weights b_i, as a program."""
+        """Return a program for the coefficients that are not constants, followed by the weights b_i."""
         ring = Traces(len(self.ansatz.free))
         cells = self.ansatz.coefficients(ring.inputs, ring)
         weights = _weights(self.ansatz.method(ring.inputs, ring), ring)
@@ -94,9 +94,9 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the places, among ``coefficients``, of those required to be positive."""
+        """Return the indices in ``coefficients`` of those that must be positive."""
         names = self.ansatz.cells
-        found: list[int] = []
+        indices: list[int] = []
         for wish in self.spec.positive:
             if wish == "b":
                 places = list(range(len(names), self.coefficients.size))
@@ -104,11 +104,11 @@ class Problem:
                 places = [k for k, name in enumerate(names) if name == wish]
             if not places:
                 raise InputError(f"{wish!r}", where="--positive", expected=f"b, or one of {', '.join(names)}")
-            found += places
-        return tuple(found)
+            indices += places
+        return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return how far coefficients are beyond the bounds asked for, and the Jacobian of that."""
+        """Return by how much coefficients exceed their bounds, and the Jacobian."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
@@ -124,13 +124,13 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return residuals and bounds overstepped, and their Jacobian, at many points."""
+        """Return the residuals and the excess over bounds, and their Jacobian, at many points."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
-        """Return random points: weights about equal, the rest about zero."""
+        """Return random points, near equal weights and zero other coefficients."""
         free = self.ansatz.free
         weights = [name for name in self.ansatz.cells if name[0] in "bg"]
         mean = np.array([1 / max(len(weights), 1) if name[0] in "bg" else 0.0 for name in free])

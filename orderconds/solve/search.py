@@ -1,8 +1,8 @@
 """Multistart: batches of random starts, each with its own seed, in one process, in several, or on a cluster.
 
-What a batch finds depends on the problem, the seed and the batch's number alone, and batches are read in
-their order: how many processes there are, and whether the search was interrupted and resumed, changes
-nothing. Processes get strings and numbers, and make their own programs.
+The result of a batch depends only on the problem, the seed and the number of the batch, and batches are read
+in their order. Therefore the number of processes does not change the result, nor does an interruption.
+Processes receive strings and numbers only, and compile their own programs.
 """
 
 from __future__ import annotations
@@ -27,21 +27,21 @@ from orderconds.solve.spec import Spec
 from orderconds.solve.tape import Floats
 
 BATCH = 64
-"""Starts of a batch."""
+"""The number of starts in a batch."""
 
 POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""Solutions of a batch that are kept, and of which the principal error is minimised."""
+"""How many solutions of a batch are kept, and how many are minimised."""
 
 
 CHEAP = 4
-"""Up to this order the principal error is computed beside what is asked for."""
+"""Up to this order the principal error of every solution is computed."""
 
 
 SINGULAR = 1e6
-"""Added to the score of solutions at which the conditions' gradients are dependent: they come last."""
+"""Added to the score of solutions with dependent gradients of the conditions, so that they come last."""
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ class Search:
     minimised: bool = False
 
     def described(self) -> dict[str, object]:
-        """Return the search as plain data, as a checkpoint keeps it."""
+        """Return the search as plain data for a checkpoint."""
         record = asdict(self)
         record["spec"] = {key: str(x) if key == "size" else x for key, x in record["spec"].items()}
         return dict(json.loads(json.dumps(record)))
@@ -70,7 +70,7 @@ BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
 class Batch:
     """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
 
-    The score is the principal error, or the largest coefficient where that would cost too much. ``best`` is
+    The score is the principal error or, if that costs too much, the largest coefficient. ``best`` is
     the least residual norm of all starts.
     """
 
@@ -106,13 +106,13 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # Where every solution is singular, a closed form may still prove one.
+    # If every solution is singular, a closed form may still give a proof.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
-        nearest = sorted(chosen, key=lambda found: found[0])[:KEPT]
+        nearest = sorted(chosen, key=lambda pair: pair[0])[:KEPT]
         chosen = [(late + size, x) for x, size in (minimise(problem, x) for _, x in nearest)]
-    best = sorted(chosen, key=lambda found: found[0])[:KEPT]
+    best = sorted(chosen, key=lambda pair: pair[0])[:KEPT]
     solutions = tuple((score, tuple(map(float, x))) for score, x in best)
     return Batch(number, float(norms.min()), solutions)
 
@@ -126,14 +126,14 @@ def _score(problem: Problem, point: Floats) -> float:
 
 @dataclass
 class Checkpoint:
-    """Finished batches on disk, written whole or not at all; None keeps nothing."""
+    """Finished batches on disk, written atomically; nothing is kept if the path is None."""
 
     path: Path | None
     search: Search
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read the batches of an interrupted search; raises InputError where it was another search."""
+        """Read the batches of an interrupted search; raises InputError for those of another search."""
         if self.path is None or not self.path.exists():
             return
         try:
@@ -144,7 +144,7 @@ class Checkpoint:
             raise InputError(
                 f"a checkpoint that cannot be used: {reason(problem)}",
                 where=str(self.path),
-                expected="a file of yours that an interrupted search left",
+                expected="a checkpoint file that you own",
                 hint="delete it, or name another file",
             ) from None
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
@@ -161,7 +161,7 @@ class Checkpoint:
         self.batches = {batch.number: batch for batch in batches}
 
     def add(self, batch: Batch) -> None:
-        """Keep one more batch."""
+        """Add a batch and write the file."""
         if batch.number in self.batches:
             return
         self.batches[batch.number] = batch
@@ -177,7 +177,7 @@ class Checkpoint:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file under another name first, so that a half-written file is never visible.
+    """Write a file under another name and rename it, so that no incomplete file is visible.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -196,11 +196,11 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield batches 0, 1, ... up to ``count`` in their order, those of the checkpoint without work.
+    """Yield batches 0, 1, ... up to ``count`` in order; batches of the checkpoint are not computed again.
 
-    The first batch that is not known runs here; more processes, or the dask cluster at the address
-    ``cluster``, are started for the others. Raises :class:`~orderconds.errors.InputError` for a cluster that
-    does not answer.
+    The first new batch runs in this process. For the others, more processes or the dask cluster at the
+    address ``cluster``, are started. Raises :class:`~orderconds.errors.InputError` for a cluster that does
+    not answer.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]
@@ -228,4 +228,4 @@ def _computed(
 
 
 Reported = Callable[[str], object]
-"""Takes a line about how far a search is."""
+"""A function that receives a line about the progress of a search."""

@@ -1,4 +1,4 @@
-"""A search from start to end: prove infeasibility, or search and write the best method that can be proved."""
+"""The whole search: prove that no method exists, or search and return the best method with a proof."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from orderconds.errors import InputError
 from orderconds.proof.krawczyk import NotProved
 from orderconds.solve.abscissae import WHERE
-from orderconds.solve.certify_solution import Found, certify_solution
+from orderconds.solve.certify_solution import Solution, certify_solution
 from orderconds.solve.elimination import Infeasible, infeasible
 from orderconds.solve.parametrise import structures
 from orderconds.solve.problem import Problem, find_problem
@@ -18,17 +18,17 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""Starts in each structure, where the principal error is not minimised, and where it is."""
+"""Starts in each structure, without and with minimisation of the principal error."""
 
 
 @dataclass
 class Outcome:
     """The outcome of a search: a method, a proof that there is none, or neither.
 
-    ``best`` is the least residual norm of all starts, ``tried`` says in words what was done.
+    ``best`` is the least residual norm of all starts, ``tried`` describes each attempt in words.
     """
 
-    found: Found | None = None
+    solution: Solution | None = None
     none: Infeasible | None = None
     best: float = float("inf")
     tried: list[str] = field(default_factory=list)
@@ -37,7 +37,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Order:
-    """A search and the work that may be spent on it."""
+    """The options of a search and its limits on work."""
 
     family: str
     order: int
@@ -79,7 +79,7 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
     Raises :class:`~orderconds.errors.InputError` for contradictory options.
 
     >>> outcome = solve(Order("cg", 3, Spec(stages=3, explicit=True)))
-    >>> outcome.found.certificate
+    >>> outcome.solution.certificate
     'exact'
     """
     outcome = Outcome()
@@ -91,28 +91,28 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
         return outcome
     for structure in applicable:
         _search(order, structure, outcome, report)
-        if outcome.found is not None:
+        if outcome.solution is not None:
             return outcome
     return outcome
 
 
 def _applicable(order: Order) -> list[str]:
     """Return the structures that the specification allows; raises InputError where there is none."""
-    found, refusal = [], None
+    applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:
             problem = find_problem(order.family, order.order, order.spec, structure)
-            _ = problem.ansatz.spelled()
+            _ = problem.ansatz.symbolic()
             _ = problem.positive
         except InputError as problem:
             if problem.where != WHERE:
                 raise
             refusal = problem
         else:
-            found.append(structure)
-    if not found and refusal is not None:
+            applicable.append(structure)
+    if not applicable and refusal is not None:
         raise refusal
-    return found
+    return applicable
 
 
 def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[str], object]) -> None:
@@ -137,25 +137,25 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         report(f"{done}, best residual {outcome.best:.1e}{shown}")
         if order.minimised:
             continue
-        outcome.found, refused = _finished(problem, [batch], order, source, refused)
-        if outcome.found is not None:
+        outcome.solution, refused = _finished(problem, [batch], order, source, refused)
+        if outcome.solution is not None:
             break
     if order.minimised:
-        outcome.found, refused = _finished(problem, seen, order, source, refused)
+        outcome.solution, refused = _finished(problem, seen, order, source, refused)
     outcome.tried.append(
         f"structure {structure}: {len(problem.ansatz.free)} free coefficients, "
         f"{problem.tape.size} conditions, {len(seen) * BATCH} starts"
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    checkpoint.remove()  # the search is over, whatever it came to
+    checkpoint.remove()  # the search is over, with or without a solution
 
 
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
-) -> tuple[Found | None, str]:
-    """Return the best solution that can be proved, or why the last could not be."""
-    solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda found: found[0])
+) -> tuple[Solution | None, str]:
+    """Return the best solution with a proof, or the reason why the last proof failed."""
+    solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused

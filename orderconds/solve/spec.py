@@ -1,4 +1,4 @@
-"""The specification of a method to be found."""
+"""The specification of a method for the search."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Spec:
 
 
 def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
-    """Raise :class:`~orderconds.errors.InputError` for an option that has no meaning in a family.
+    """Raise :class:`~orderconds.errors.InputError` for an option that the family does not have.
 
     >>> refuse("rk", Spec(stages=2), ("rkn",))
     """

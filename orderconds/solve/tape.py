@@ -1,8 +1,8 @@
 """A recorded program compiled for numpy: values and exact Jacobians at many points together.
 
-The operations that the outputs need are sorted into levels, each depending on earlier levels only, so that
-one level is a few calls of numpy, whatever the number of operations in it. The Jacobian is computed by
-forward differentiation: every operation carries its gradient.
+The operations that the outputs need are sorted into levels, each depending on earlier levels only, so that a
+level takes a few calls of numpy for any number of operations. The Jacobian is computed by forward
+differentiation: every operation carries its gradient.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind whose operands are all known: they fill the rows ``start`` to ``stop``."""
+    """Operations of one kind on rows of earlier levels; their results are the rows ``start`` to ``stop``."""
 
     kind: int
     start: int
@@ -64,24 +64,24 @@ class Tape:
         self.length = len(rows)
 
     def _start(self, points: Floats) -> Floats:
-        found = np.empty((self.length, points.shape[0]))
+        values = np.empty((self.length, points.shape[0]))
         for row, number in self._inputs:
-            found[row] = points[:, number]
+            values[row] = points[:, number]
         for row, value in self._constants:
-            found[row] = value
-        return found
+            values[row] = value
+        return values
 
     def _forward(self, points: Floats) -> Floats:
-        found = self._start(points)
-        with np.errstate(all="ignore"):  # a start may run away; its residuals then say so
+        values = self._start(points)
+        with np.errstate(all="ignore"):  # a start may diverge; its residuals are then infinite
             for level in self._levels:
-                out = found[level.start : level.stop]
+                out = values[level.start : level.stop]
                 if level.kind == ROOT:
-                    x = found[level.left]
+                    x = values[level.left]
                     np.copyto(out, np.copysign(np.abs(x) ** (1 / level.index[:, None]), x))
                 else:
-                    _UFUNC[level.kind](found[level.left], found[level.right], out=out)
-        return found
+                    _UFUNC[level.kind](values[level.left], values[level.right], out=out)
+        return values
 
     def values(self, points: Floats) -> Floats:
         """Return the outputs, points x outputs, at ``points`` (points x inputs)."""
@@ -89,7 +89,7 @@ class Tape:
 
     def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
         """Return the outputs and their Jacobians, points x outputs x inputs."""
-        found = self._forward(points)
+        values = self._forward(points)
         slopes = np.zeros((self.length, points.shape[0], self.width))
         for row, number in self._inputs:
             slopes[row, :, number] = 1.0
@@ -100,17 +100,17 @@ class Tape:
                 if level.kind == ADD:
                     np.add(slopes[x], slopes[y], out=out)
                 elif level.kind == MULTIPLY:
-                    np.multiply(slopes[x], found[y][..., None], out=out)
-                    out += slopes[y] * found[x][..., None]
+                    np.multiply(slopes[x], values[y][..., None], out=out)
+                    out += slopes[y] * values[x][..., None]
                 elif level.kind == ROOT:
-                    ratio = found[level.start : level.stop] / (level.index[:, None] * found[x])
+                    ratio = values[level.start : level.stop] / (level.index[:, None] * values[x])
                     np.multiply(slopes[x], ratio[..., None], out=out)
                 else:
-                    np.multiply(slopes[y], -found[level.start : level.stop][..., None], out=out)
+                    np.multiply(slopes[y], -values[level.start : level.stop][..., None], out=out)
                     out += slopes[x]
-                    out /= found[y][..., None]
+                    out /= values[y][..., None]
         return (
-            np.ascontiguousarray(found[self._outputs].T),
+            np.ascontiguousarray(values[self._outputs].T),
             np.ascontiguousarray(slopes[self._outputs].transpose(1, 0, 2)),
         )
 
@@ -143,7 +143,7 @@ def _levels(operations: Sequence[Operation], rows: Sequence[int]) -> list[_Level
     for p in rows:
         o = operations[p]
         depth.append(1 + max(depth[place[o.left]], depth[place[o.right]]) if o.kind <= ROOT else 0)
-    found, start = list[_Level](), 0
+    levels, start = list[_Level](), 0
     while start < len(rows):
         kind, stop = operations[rows[start]].kind, start + 1
         while stop < len(rows) and operations[rows[stop]].kind == kind and depth[stop] == depth[start]:
@@ -152,6 +152,6 @@ def _levels(operations: Sequence[Operation], rows: Sequence[int]) -> list[_Level
             left = np.array([place[operations[p].left] for p in rows[start:stop]], dtype=np.int64)
             right = np.array([place[operations[p].right] for p in rows[start:stop]], dtype=np.int64)
             index = np.array([int(operations[p].value) for p in rows[start:stop]], dtype=np.int64)
-            found.append(_Level(kind, start, stop, left, right, index))
+            levels.append(_Level(kind, start, stop, left, right, index))
         start = stop
-    return found
+    return levels

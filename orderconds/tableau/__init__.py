@@ -1,4 +1,4 @@
-"""Tableaux: the record, the strict TOML format and its coefficient grammar, properties, the library."""
+"""Tableaux: their data, the TOML format, the grammar of coefficients, properties, and the library."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Elements of a Lie algebra spelled over numbered nodes: ``"[2,1]"``, ``"[a, [1, b]]"``, ``"S*S*S"``.
+"""The text of Lie algebra elements over numbered nodes: ``"[2,1]"``, ``"[a, [1, b]]"``, ``"S*S*S"``.
 
-A number is the field at that node, a name an element defined before, ``[x,y] = x y - y x``. Products stand
-only where a method leaves the Lie algebra of all groups for that of quadratic ones (Cayley).
+A number is the field at that node, a name an element defined before, ``[x,y] = x y - y x``. Products are
+allowed only in methods for quadratic groups (Cayley).
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ Combination = tuple[tuple[Term, Element], ...]
 
 
 def parse(text: str, where: str) -> Term:
-    """Read a term; raises :class:`TableauError` saying what was found and expected at ``where``.
+    """Read a term; raises :class:`TableauError` for a malformed term; ``where`` is its place.
 
     >>> parse("[2,1]", "exponents")
     Bracket(left=1, right=0)
@@ -93,7 +93,7 @@ def leaves(term: Term) -> Iterator[int | str]:
 
 
 def has_product(term: Term) -> bool:
-    """Tell whether a product stands in a term.
+    """Whether a term contains a product.
 
     >>> has_product(parse("[1,2]", "")), has_product(parse("[1,2*3]", ""))
     (False, True)
@@ -128,8 +128,9 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    found = [extent(term) for term, _ in combination] or [(1, 1)]  # the empty sum, zero, is of any length
-    return min(least for least, _ in found), max(most for _, most in found)
+    # The empty sum is zero, which has any length.
+    extents = [extent(term) for term, _ in combination] or [(1, 1)]
+    return min(least for least, _ in extents), max(most for _, most in extents)
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
@@ -216,5 +217,5 @@ def _expect(token: str, tokens: list[str], place: int, text: str, where: str) ->
     return place + 1
 
 
-def _error(found: str, where: str) -> TableauError:
-    return TableauError(found, where=where, expected='a node ("1"), a name, or a bracket ("[2,1]")')
+def _error(problem: str, where: str) -> TableauError:
+    return TableauError(problem, where=where, expected='a node ("1"), a name, or a bracket ("[2,1]")')

@@ -1,4 +1,4 @@
-"""Claims: the orders and properties that a tableau file states of its method, to be verified."""
+"""Claims: the orders and properties that a tableau file states for its method."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that ``family`` (with ``cutoff``, where it takes one) has exactly this order."""
+    """The claim that the method has exactly this order in ``family``, with ``cutoff`` if the family takes
+    one."""
 
     family: str
     cutoff: int | None
@@ -27,7 +28,7 @@ class Claims:
     properties: dict[str, bool] = field(default_factory=dict)
 
     def order(self, family: str, cutoff: int | None = None) -> int | None:
-        """Return the claimed order of a family, or None where nothing is claimed."""
+        """Return the claimed order of a family, or None if none is claimed."""
         for claim in self.orders:
             if (claim.family, claim.cutoff) == (family, cutoff):
                 return claim.order

@@ -1,8 +1,8 @@
-"""Gauss, Radau and Lobatto methods of any number of stages, made from their definitions, exactly.
+"""Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
-The nodes c are the roots of a polynomial M, the s-th Legendre polynomial or its kin, given by Rodrigues'
-formula; the weights integrate the polynomials of degree below s. What fixes A, with the Lagrange polynomials
-l_j of the nodes:
+The nodes c are the roots of a polynomial M, given by Rodrigues' formula: the s-th Legendre polynomial or a
+relative of it. The weights integrate polynomials of degree below s. These rules determine A; l_j are the
+Lagrange polynomials of the nodes:
 
 ==================  ======================================================================================
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
@@ -11,10 +11,10 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                of two of the others (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
-Two kinds come with an embedded row to choose steps by: the quadrature of order s - 1 that leaves one node
-out, the last of Radau IIA and the middle one of Lobatto IIIA (of two the first). It differs from b by a
-multiple of the stages' divided difference. Stages of collocation stay accurate where the equation is stiff,
-and with them this estimate; that of methods of low stage order does not.
+Two kinds have an embedded row for step-size control. It is the quadrature of order s - 1 that leaves out one
+node: the last for Radau IIA, the (first) middle one for Lobatto IIIA. It differs from b by a multiple of the
+stages' divided difference. Stages of collocation methods, and hence this estimate, stay accurate for stiff
+equations; those of methods of low stage order do not.
 
 No coefficient is typed in: nodes are algebraic numbers, and the rest is rational arithmetic with them.
 
@@ -50,9 +50,9 @@ class Nodes:
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
         tower = Tower()
-        found = roots(nodal_polynomial(s, left, right), tower)
+        nodes = roots(nodal_polynomial(s, left, right), tower)
         field = tower.field
-        self.c = sorted((field.lift(x) for x in found), key=float)
+        self.c = sorted((field.lift(x) for x in nodes), key=float)
         self.tower, self.s = tower, s
         self.lagrange = [self._lagrange(j) for j in range(s)]
         self.b = [self.integral(j, self.one) for j in range(s)]
@@ -191,10 +191,10 @@ KINDS = {
     "lobatto3d": Kind(True, True, mean(Nodes.first_column, Nodes.last_column), "Lobatto IIID"),
     "lobatto3e": Kind(True, True, mean(Nodes.rows, Nodes.columns), "Lobatto IIIE"),
 }
-"""What can be constructed."""
+"""The kinds of methods that can be constructed."""
 
 LEAST_WITH_ROW = 3
-"""The fewest stages that leave a quadrature worth comparing with when one is left out."""
+"""The least number of stages with an embedded row."""
 
 
 def construct(kind: str, s: int) -> Tableau:
@@ -247,10 +247,10 @@ def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]
     """
-    found: list[Algebraic] = []
+    result: list[Algebraic] = []
     for factor, _ in polynomial.factor()[1]:
-        found += _roots_of_irreducible(factor, tower)
-    return found
+        result += _roots_of_irreducible(factor, tower)
+    return result
 
 
 def _roots_of_irreducible(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:
@@ -265,13 +265,13 @@ def _roots_of_irreducible(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:
         return [tower.constant(_fraction(middle), Fraction(0)) + sign * x for x in sides for sign in (-1, 1)]
     monic = factor / factor.leading_coefficient()
     coefficients = [_fraction(x) for x in monic.coeffs()]
-    found = []
+    named = []
     for k, enclosed in enumerate(real_roots(monic, 256)[:-1]):
         near = endpoints(enclosed)[0]
         places = Fraction(1, 10**40)
-        found.append(tower.named_root(coefficients, _fraction(near), places, f"c{k + 1}"))
+        named.append(tower.named_root(coefficients, _fraction(near), places, f"c{k + 1}"))
     last = tower.constant(-coefficients[-2], Fraction(0))
-    return [*found, last - sum(found[1:], found[0])]
+    return [*named, last - sum(named[1:], named[0])]
 
 
 def _quadratic(factor: fmpq_poly, tower: Tower) -> list[Algebraic]:

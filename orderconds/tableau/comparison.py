@@ -1,4 +1,4 @@
-"""Whether two tableaux have the same coefficients, as far as their digits tell."""
+"""Compare the coefficients of two tableaux, up to their digits."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from orderconds.ring.protocol import Element
 from orderconds.tableau.record import Tableau
 
 COMPARED = 160
-"""Bits to which an exported method is compared with what reads back."""
+"""Precision in bits of the comparison."""
 
 
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:

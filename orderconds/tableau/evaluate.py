@@ -1,8 +1,8 @@
 """Coefficients of one file evaluated in one ring: Q, the number field their radicals generate, or balls.
 
-The ring is chosen by what is met: rationals stay rational; radicals and named roots build a number field,
+The coefficients determine the ring: rationals stay rational; radicals and named roots build a number field,
 of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`; a ``~`` anywhere, or a larger degree, makes
-everything balls. Equal spellings in one file denote one number and share one element.
+everything balls. Equal expressions in one file denote one number and share one element.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Scalars(Protocol):
         """Return the real root; ValueError for an even root of a negative number."""
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
-        """Return the one real root within a unit of ``near``; ValueError where there is not exactly one."""
+        """Return the one real root within a unit of ``near``; ValueError unless there is exactly one."""
 
     def size(self, x: Element) -> int:
         """Return the bits of the largest integer in the representation of x."""
@@ -50,7 +50,7 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Evaluate expressions, keyed by the place they stand in, in the smallest ring that holds them all.
+    """Evaluate expressions in the smallest ring that contains them all; keys are their places in the file.
 
     ``numbers`` may refer to each other, in any order, without a cycle. Raises :class:`TableauError`.
 
@@ -68,7 +68,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            evaluation.check_unused()  # after the ring is fixed, which they shall not enlarge
+            evaluation.check_unused()  # only now: unused numbers must not enlarge the ring
             return ring, _shared(values, lift)
         except DegreeError:
             pass
@@ -102,7 +102,7 @@ def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -
 
 
 def rounded_and_exact(x: Definition) -> Iterator[Constant]:
-    """Yield every constant that is spelled in an expression.
+    """Yield every constant in an expression.
 
     >>> from orderconds.tableau.grammar import parse
     >>> [str(c.unit) for c in rounded_and_exact(parse("1/2 + 0.25~", ""))]
@@ -118,7 +118,7 @@ def rounded_and_exact(x: Definition) -> Iterator[Constant]:
 
 
 def _bits(constants: Sequence[Constant]) -> int:
-    """Return a working precision well beyond the digits that were given."""
+    """Return a working precision well beyond the given digits."""
     return max([256, *(64 + 4 * len(str(c.unit.denominator)) for c in constants)])
 
 
@@ -131,8 +131,8 @@ class _Evaluation:
         self.open: list[str] = []
         self.place = ""
 
-    def error(self, found: str, expected: str) -> TableauError:
-        return TableauError(found, where=f"{self.where}: {self.place}", expected=expected)
+    def error(self, problem: str, expected: str) -> TableauError:
+        return TableauError(problem, where=f"{self.where}: {self.place}", expected=expected)
 
     def all(self, expressions: Mapping[str, Expression]) -> dict[str, Element]:
         result = {}
@@ -141,16 +141,16 @@ class _Evaluation:
         return result
 
     def check_unused(self) -> None:
-        """Evaluate the numbers that no coefficient refers to, so that an error in one is seen."""
+        """Evaluate the numbers that no coefficient refers to, so that their errors are reported."""
         for name in self.numbers:
             self.place = f"numbers.{name}"
             self.value(Name(name))
 
     def value(self, x: Expression) -> Element:
-        found = self.known.get(x)
-        if found is None:
-            found = self.known[x] = self.bounded(self.compute(x))
-        return found
+        value = self.known.get(x)
+        if value is None:
+            value = self.known[x] = self.bounded(self.compute(x))
+        return value
 
     def bounded(self, value: Element) -> Element:
         if self.scalars.size(value) > MAX_SIZE:

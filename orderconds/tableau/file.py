@@ -32,13 +32,13 @@ from orderconds.tableau.method_properties import PROPERTIES
 from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method
 from orderconds.tableau.toml_reader import parse_toml
-from orderconds.tableau.unknowns import Proof, Spelled
+from orderconds.tableau.unknowns import Proof, SymbolicCoefficients
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
-"""A file with one of these keys is meant as a tableau."""
+"""A file with one of these keys is taken for a tableau."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-"""Characters that end lines unseen or change the direction of writing; tab and newline are none."""
+"""Characters that end lines invisibly or change the direction of writing, without tab and newline."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -60,12 +60,12 @@ class File(Struct, frozen=True):
     method: Method
     embedded: LowerOrder | None
     claims: Claims
-    spelled: Spelled
+    symbolic: SymbolicCoefficients
     proof: Proof | None
 
 
 def text_of(path: str | Path) -> str:
-    """Return the text of a tableau file, refused where it is too large or no UTF-8.
+    """Return the text of a tableau file; TableauError if it is too large or not UTF-8.
 
     >>> from orderconds.tableau import find
     >>> text_of(find("kutta3")).splitlines()[0]
@@ -80,18 +80,18 @@ def text_of(path: str | Path) -> str:
 
 
 def bytes_of(path: str | Path) -> bytes:
-    """Return the content of a regular file, refused where it is too large for a tableau.
+    """Return the content of a regular file; TableauError if it is too large for a tableau.
 
     >>> from orderconds.tableau import find
     >>> bytes_of(find("kutta3"))[:4]
     b'name'
     """
     content = read_bytes(path, "a tableau file", error=TableauError)
-    return content.removeprefix(BOM_UTF8)  # some editors and spreadsheets put one before the text
+    return content.removeprefix(BOM_UTF8)  # some editors and spreadsheets begin a file with this mark
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Whether a TOML file has a key of a tableau; one that cannot be read may have been meant so.
+    """Whether a TOML file has a key of a tableau, or cannot be read.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -113,7 +113,7 @@ def parsed(text: str, where: str) -> Data:
         return parse_toml(text)
     except tomllib.TOMLDecodeError as problem:
         raise TableauError(
-            str(problem), where=where, expected="a TOML file in which no key occurs twice"
+            str(problem), where=where, expected="a TOML file in which each key occurs once"
         ) from None
     except RecursionError:
         raise TableauError("TOML nested too deep", where=where, expected="a table or list or two") from None
@@ -140,10 +140,10 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    except TableauError as problem:  # which names the tableau and the key, not the file
+    except TableauError as problem:  # the message so far names the tableau and the key, but not the file
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
-    source = Spelled(expressions, numbers, where, entry.build)
+    source = SymbolicCoefficients(expressions, numbers, where, entry.build)
     return File(data, entry, ring, method, embedded, _claims(entry, where), source, _proof(entry, source))
 
 
@@ -151,8 +151,8 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
     """Return the typed file, its format chosen by ``family``."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
-        found = "no family" if family is None else f"family = {family!r}"
-        raise TableauError(found, where=f"{where}: family", expected=f"one of {', '.join(FORMATS)}")
+        given = "no family" if family is None else f"family = {family!r}"
+        raise TableauError(given, where=f"{where}: family", expected=f"one of {', '.join(FORMATS)}")
     kind = FORMATS[family]
     try:
         return msgspec.convert(data, kind)
@@ -163,7 +163,7 @@ def _converted(data: Mapping[str, object], where: str) -> Format:
 def _each(
     table: Mapping[str, object], kind: Any, struct: type[Struct], key: str, where: str
 ) -> dict[str, Any]:
-    """Return the entries of a table typed one by one, so that a message can name the entry."""
+    """Convert the entries of a table one by one, so that an error message can name the entry."""
     result = {}
     for name, value in table.items():
         try:
@@ -174,24 +174,28 @@ def _each(
 
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
-    """Turn msgspec's message into one that says where, what, and what was expected."""
-    found, _, path = message.partition(" - at `$")
+    """Turn an error of msgspec into one with the place, the value and the expectation."""
+    summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")
     place = f"{where}: {key}" if key else where
-    if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", found, re.DOTALL):
+    if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", summary, re.DOTALL):
         inner = re.split(r"[.\[]", key)[0]
         struct = _NESTED.get((kind, inner), _NESTED.get(inner, kind))
         keys = ", ".join(sorted(struct.__struct_encode_fields__))
         return TableauError(f"unknown key {unknown[1]!r}", where=place, expected=f"one of {keys}")
-    if missing := re.fullmatch(r"Object missing required field `(.*)`", found, re.DOTALL):
+    if missing := re.fullmatch(r"Object missing required field `(.*)`", summary, re.DOTALL):
         return TableauError(f"no {missing[1]}", where=place, expected=f"the key {missing[1]}")
-    if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", found, re.DOTALL):
+    if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", summary, re.DOTALL):
         hint = ""
         if wrong[2] == "float" and "str" in wrong[1]:
             hint = 'quote it: "0.5" is exactly 1/2, "0.81772~" a rounded decimal'
-        return TableauError(f"a value of type {wrong[2]}", where=place, expected=wrong[1], hint=hint)
-    return TableauError(found[:1].lower() + found[1:], where=place)
+        problem = f"a value of type {wrong[2]}"
+        if wrong[2] == "numpy.ndarray":
+            problem = "NumPy arrays are not accepted here"
+            hint = "pass nested lists of texts or integers, or load a .npz file"
+        return TableauError(problem, where=place, expected=wrong[1], hint=hint)
+    return TableauError(summary[:1].lower() + summary[1:], where=place)
 
 
 def _verify_names(entry: Format, where: str) -> None:
@@ -204,9 +208,9 @@ def _verify_names(entry: Format, where: str) -> None:
                 expected=f"at most {MAX_NAME}",
             )
     for key in ("source", "bibtex"):
-        if found := _CONTROL.search(getattr(entry, key)):
+        if character := _CONTROL.search(getattr(entry, key)):
             raise TableauError(
-                f"the control character U+{ord(found[0]):04X}",
+                f"the control character U+{ord(character[0]):04X}",
                 where=f"{where}: {key}",
                 expected="text that reads as it is written",
             )
@@ -244,7 +248,7 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Read a rational number: of a minimal polynomial, whose radicals need none, or as a source prints it."""
+    """Read a rational number: a coefficient of a minimal polynomial, or a printed decimal."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -269,13 +273,13 @@ def _decimal(text: str, where: str) -> Constant:
     return Constant(Fraction(f"{match[1]}.{places}0"), Fraction(1, 10 ** len(places)))
 
 
-def _proof(entry: Format, spelled: Spelled) -> Proof | None:
-    """Return what the file says of the equations that its decimals solve, the names in it verified."""
+def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
+    """Return the ``[proof]`` of the file, its names verified."""
     given = entry.proof
     if given is None:
         return None
-    place = f"{spelled.where}: proof"
-    decimals = {u.name: u for u in spelled.decimals()}
+    place = f"{symbolic.where}: proof"
+    decimals = {u.name: u for u in symbolic.decimals()}
     if not decimals:
         raise TableauError("a proof for exact coefficients", where=place, expected='decimals with "~"')
     for name in given.pins:
@@ -289,7 +293,7 @@ def _proof(entry: Format, spelled: Spelled) -> Proof | None:
             where=place,
             expected='assumptions such as { B = 6, C = 3, D = 2 } with reduction = "simplifying" only',
         )
-    known = {*entry.numbers, *spelled.expressions}
+    known = {*entry.numbers, *symbolic.expressions}
     for name in given.printed:
         if name not in known:
             raise TableauError(
@@ -303,7 +307,7 @@ def _proof(entry: Format, spelled: Spelled) -> Proof | None:
         printed={name: _rational(x, f"{place}.printed.{name}") for name, x in given.printed.items()},
         unknowns=tuple(u for u in decimals.values() if u.name not in given.pins),
         pinned=tuple(u for u in decimals.values() if u.name in given.pins),
-        spelled=spelled,
+        symbolic=symbolic,
     )
 
 

@@ -1,14 +1,14 @@
-"""What the formats of a tableau file share: keys, claims, proofs, and rows of coefficients.
+"""The common part of all tableau formats: keys, claims, proofs, and rows of coefficients.
 
-A format is read in two steps, since the ring of a tableau is known only once all its coefficients have been
-seen: ``coefficients`` yields every spelled coefficient with its place, ``build`` takes their values. Places
+A format is read in two steps, because the ring of a tableau depends on all its coefficients:
+``coefficients`` yields the text of every coefficient with its place, and ``build`` takes their values. Places
 are named as in the file, entries counted from 1.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Any, Literal
+from collections.abc import Collection, Iterator, Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
 from msgspec import Meta, Struct
 
@@ -39,7 +39,7 @@ class CutoffClaim(Struct, forbid_unknown_fields=True):
 
 
 class ProofEntry(Struct, forbid_unknown_fields=True):
-    """Which equations the rounded decimals of the file solve (:mod:`orderconds.tableau.unknowns`)."""
+    """The equations that the rounded decimals of the file solve (:mod:`orderconds.tableau.unknowns`)."""
 
     conditions: str
     order: Annotated[int, Meta(ge=1, le=20)]
@@ -50,9 +50,9 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 
 
 Number = Coefficient | RootEntry
-"""What may stand under ``numbers``."""
+"""A value in the table ``numbers``."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""What may stand under ``claims``: a property, the order of a family, orders by cutoff."""
+"""A value in the table ``claims``: a property, the order in a family, or orders by cutoff."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
@@ -66,30 +66,42 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     claims: dict[str, Any] = {}
     proof: ProofEntry | None = None
 
+    in_arrays: ClassVar[bool] = False
+    """Whether named arrays can hold a tableau of this format (:mod:`orderconds.exchange.arrays`)."""
+    distinctive_key: ClassVar[str] = ""
+    """The array that identifies this format if none is stated; '' for the format of all other arrays."""
+    as_products: ClassVar[bool] = False
+    """Whether arrays hold the format as a list of exponentials."""
+
+    @classmethod
+    def defaults(cls, names: Collection[str]) -> Data:
+        """Return the keys that arrays with these names leave out."""
+        return {}
+
     def coefficients(self) -> Places:
-        """Yield (place, spelling) of every coefficient."""
+        """Yield (place, text) of every coefficient."""
         yield from ()
 
     def verify(self, where: str) -> None:
-        """Raise :class:`TableauError` unless the shapes fit."""
+        """Raise :class:`TableauError` unless the rows have the right lengths."""
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the method, given the value at every place."""
-        raise TypeError(f"{type(self).__name__} is the part that formats share")
+        raise TypeError(f"{type(self).__name__} is an abstract format")
 
 
 def row_places(row: list[Coefficient], place: str) -> Places:
-    """Yield the place and the spelling of each entry of a row.
+    """Yield the place and the text of each entry of a row.
 
     >>> list(row_places(["1/2", 1], "b"))
     [('b[1]', '1/2'), ('b[2]', 1)]
     """
-    for j, spelled in enumerate(row):
-        yield f"{place}[{j + 1}]", spelled
+    for j, coefficient in enumerate(row):
+        yield f"{place}[{j + 1}]", coefficient
 
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
-    """Return the row at ``place``, zeros following the entries that the file gives.
+    """Return the row at ``place``, filled with zeros after the entries of the file.
 
     >>> from orderconds.ring import QQ
     >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)

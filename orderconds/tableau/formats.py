@@ -1,9 +1,9 @@
-"""The formats of a tableau file, one class each: which keys it has and which method they make."""
+"""The formats of a tableau file. Each class has the keys of one format and builds the method."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated
+from collections.abc import Collection, Iterator, Mapping
+from typing import Annotated, ClassVar
 
 from msgspec import Meta, Struct, field
 
@@ -40,12 +40,16 @@ class EmbeddedEntry(Struct, forbid_unknown_fields=True):
 
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "rk"``: A by rows, zeros at their ends may be left out, and b; c, if given, is verified."""
+    """``family = "rk"``: A by rows (zeros at the end of a row may be left out), b, and optionally c, which is
+    verified."""
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
     c: list[Coefficient] = field(default_factory=list)
     embedded: EmbeddedEntry | None = None
+
+    in_arrays: ClassVar[bool] = True
+    distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
         """Check len(A) = len(b) and that no row is longer."""
@@ -107,6 +111,9 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
     A_hat: list[list[Coefficient]]
     b_hat: list[Coefficient]
 
+    in_arrays: ClassVar[bool] = True
+    distinctive_key: ClassVar[str] = "A_hat"
+
     def _parts(self) -> Iterator[tuple[str, list[list[Coefficient]], str, list[Coefficient]]]:
         yield "A", self.A, "b", self.b
         yield "A_hat", self.A_hat, "b_hat", self.b_hat
@@ -149,7 +156,8 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials, the first acts first, on stage ``from`` (counted from 1; default y0)."""
+    """A product of exponentials applied to stage ``from`` (counted from 1; default y0); the first acts
+    first."""
 
     exp: list[list[Coefficient]] = []
     start: int | None = field(default=None, name="from")
@@ -162,7 +170,7 @@ class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
 
 
 class LowStorage(Struct, forbid_unknown_fields=True):
-    """K <- A_i K + F(Y), Y <- exp(h B_i K) Y, in two registers (2N)."""
+    """A scheme with two registers (2N): K <- A_i K + F(Y), Y <- exp(h B_i K) Y."""
 
     A: list[Coefficient]
     B: list[Coefficient]
@@ -179,8 +187,12 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     low_storage: LowStorage | None = None
     embedded: EmbeddedProduct | None = None
 
+    in_arrays: ClassVar[bool] = True
+    distinctive_key: ClassVar[str] = "exponentials"
+    as_products: ClassVar[bool] = True
+
     def verify(self, where: str) -> None:
-        """Check that one of the two forms is given and that stages start from earlier ones."""
+        """Check that the file has exactly one of the two forms and that stages start from earlier ones."""
         if self.low_storage:
             if self.stage or self.update:
                 raise TableauError(
@@ -290,3 +302,14 @@ FORMATS: dict[str, type[Format]] = {
     "rk": RungeKuttaFile,
     "splitting": SplittingFile,
 }
+
+
+def array_format(names: Collection[str]) -> str:
+    """Return the format of a tableau whose arrays have these names, recognised by its distinctive array.
+
+    >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
+    ('rk', 'prk', 'composition')
+    """
+    kinds = {name: kind for name, kind in FORMATS.items() if kind.in_arrays}
+    distinct = [name for name, kind in kinds.items() if kind.distinctive_key in names]
+    return min(distinct or [name for name, kind in kinds.items() if not kind.distinctive_key])

@@ -1,4 +1,4 @@
-"""The grammar of a coefficient: bounded arithmetic, parsed by recursive descent, never run as code.
+"""The grammar of a coefficient: arithmetic of bounded size, parsed by recursive descent, never executed.
 
 ::
 
@@ -49,9 +49,9 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """``operands`` joined from left to right by ``operators``, one fewer; all of ``+ -`` or all of ``* /``.
+    """Operands joined from left to right by ``operators``, which are all ``+ -`` or all ``* /``.
 
-    Flat, so that the depth of an expression is that of its parentheses.
+    The chain is flat, so that the depth of an expression is that of its parentheses.
     """
 
     operators: tuple[str, ...]
@@ -72,7 +72,7 @@ ZERO = Constant(Fraction(0))
 def parse(text: str, where: str = "") -> Expression:
     """Parse one coefficient.
 
-    Raises :class:`TableauError` with the position of what it could not read.
+    Raises :class:`TableauError` with the position of the error.
 
     >>> parse("0.81772~")
     Constant(value=Fraction(20443, 25000), unit=Fraction(1, 100000))
@@ -83,18 +83,18 @@ def parse(text: str, where: str = "") -> Expression:
 
 
 def spell(x: Expression, limit: int | None = None) -> str:
-    """Return text of the same value, which parses to x where x was parsed; cut anywhere beyond ``limit``.
+    """Return the text of an expression; a text longer than ``limit`` is cut.
 
     >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
     ['(-(1 - sqrt(2)))*3/4', '2^(-1/3)', '0.50~', '1 - (2 - 3)']
     """
-    pieces, length = [], 0
-    for piece in _pieces(x, 0):
-        pieces.append(piece)
-        length += len(piece)
+    parts, length = [], 0
+    for part in _parts(x, 0):
+        parts.append(part)
+        length += len(part)
         if limit is not None and length > limit:
             break
-    return "".join(pieces)
+    return "".join(parts)
 
 
 SUM, SIGN, PRODUCT, POWER, ATOM = range(5)
@@ -110,33 +110,33 @@ def _level(x: Expression) -> int:
     return POWER if isinstance(x, Power) and x.exponent != Fraction(1, 2) else ATOM
 
 
-def _pieces(x: Expression, least: int) -> Iterator[str]:
-    """Yield the text of x, in parentheses where it binds less tightly than ``least``."""
+def _parts(x: Expression, least: int) -> Iterator[str]:
+    """Yield the text of x, in parentheses if it binds less tightly than ``least``."""
     level = _level(x)
     if level < least:
-        yield from ("(", *_pieces(x, SUM), ")")
+        yield from ("(", *_parts(x, SUM), ")")
     elif isinstance(x, Constant):
         yield _constant(x)
     elif isinstance(x, Name):
         yield x.name
     elif isinstance(x, Power) and level == ATOM:
-        yield from ("sqrt(", *_pieces(x.base, SUM), ")")
+        yield from ("sqrt(", *_parts(x.base, SUM), ")")
     elif isinstance(x, Power):
-        yield from _pieces(x.base, ATOM)
+        yield from _parts(x.base, ATOM)
         yield f"^({x.exponent})" if x.exponent.denominator > 1 else f"^{x.exponent}"
     elif level == SIGN:
         yield "-"
-        yield from _pieces(x.operands[1], POWER)
+        yield from _parts(x.operands[1], POWER)
     else:
         first, *others = x.operands
-        yield from _pieces(first, SUM if level == SUM else PRODUCT)
+        yield from _parts(first, SUM if level == SUM else PRODUCT)
         for operator, operand in zip(x.operators, others, strict=True):
             yield operator if level == PRODUCT else f" {operator} "
-            yield from _pieces(operand, PRODUCT if level == SUM else POWER)
+            yield from _parts(operand, PRODUCT if level == SUM else POWER)
 
 
 def _constant(x: Constant) -> str:
-    """Spell a constant: a fraction is a decimal where it is one, as the grammar has it."""
+    """Return the text of a constant: a decimal if it is finite, else a fraction."""
     unit = x.unit or next(
         (Fraction(1, 10**n) for n in range(MAX_TEXT) if 10**n % x.value.denominator == 0), None
     )
@@ -157,8 +157,8 @@ class _Parser:
         self.position = 0
         self.depth = 0
 
-    def error(self, found: str, expected: str = EXPECTED) -> TableauError:
-        return TableauError(found, where=self.where, expected=expected)
+    def error(self, problem: str, expected: str = EXPECTED) -> TableauError:
+        return TableauError(problem, where=self.where, expected=expected)
 
     def scan(self) -> list[tuple[str, str, int]]:
         tokens, position, end = [], 0, len(self.text.rstrip())
@@ -176,15 +176,15 @@ class _Parser:
         return repr(self.text if len(self.text) <= 60 else self.text[:57] + "...")
 
     def unexpected(self) -> TableauError:
-        kind, spelled, at = self.tokens[self.position]
-        found = "the end" if kind == "end" else repr(spelled)
-        return self.error(f"{found} at character {at + 1} of {self.shown()}")
+        kind, content, at = self.tokens[self.position]
+        token = "the end" if kind == "end" else repr(content)
+        return self.error(f"{token} at character {at + 1} of {self.shown()}")
 
     def accept(self, *signs: str) -> str | None:
-        kind, spelled, _ = self.tokens[self.position]
-        if kind == "sign" and spelled in signs:
+        kind, content, _ = self.tokens[self.position]
+        if kind == "sign" and content in signs:
             self.position += 1
-            return spelled
+            return content
         return None
 
     def require(self, sign: str) -> None:
@@ -256,23 +256,23 @@ class _Parser:
 
     def integer(self) -> Fraction:
         sign = -1 if self.accept("-") else 1
-        kind, spelled, _ = self.tokens[self.position]
+        kind, content, _ = self.tokens[self.position]
         if kind != "integer":
             raise self.unexpected()
         self.position += 1
-        return Fraction(sign * int(spelled))
+        return Fraction(sign * int(content))
 
     def atom(self) -> Expression:
-        kind, spelled, _ = self.tokens[self.position]
+        kind, content, _ = self.tokens[self.position]
         if kind in ("integer", "decimal"):
             self.position += 1
-            value = Fraction(spelled)
+            value = Fraction(content)
             if self.accept("~") is None:
                 return Constant(value)
-            return Constant(value, Fraction(1, 10 ** len(spelled.partition(".")[2])))
+            return Constant(value, Fraction(1, 10 ** len(content.partition(".")[2])))
         if kind == "name":
             self.position += 1
-            return self.root() if spelled == "sqrt" else Name(spelled)
+            return self.root() if content == "sqrt" else Name(content)
         if self.accept("("):
             result = self.sum()
             self.require(")")

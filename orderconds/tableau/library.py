@@ -1,4 +1,4 @@
-"""The tableaux that come with the project: in the source tree where there is one, else inside the wheel."""
+"""The library of tableaux: in the source tree if there is one, else in the installed package."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide x = y; one element (equal spellings of a file) equals itself even as a ball."""
+    """Decide x = y; an element is equal to itself, even if it is a ball."""
     return True if x is y else ring.is_zero(x - y)
 
 
@@ -85,7 +85,7 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 
 
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3), in the order in which the stages stand.
+    """a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3), with the stages in the given order.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -134,7 +134,7 @@ PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
 
 
 def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
-    """Whether a row of numbers is the same from its end.
+    """Whether a row of numbers reads the same backwards.
 
     >>> from orderconds.ring import QQ
     >>> [reads_backwards([QQ.rational(n) for n in row], QQ) for row in ((1, 2, 1), (1, 2, 2))]
@@ -147,8 +147,8 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Whether a step of length -h undoes one of length h (HLW V.3).
 
-    Of an adjoint pair alpha_{s+1-i} = beta_i; a splitting reads the same backwards; for a Magnus method nodes
-    lie symmetric about 1/2 and exponents, taken in reverse at reversed nodes, change their words' signs.
+    For an adjoint pair, alpha_{s+1-i} = beta_i. A splitting reads the same backwards. For a Magnus method see
+    :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -1,7 +1,7 @@
-"""The coefficients of a method as immutable records over one ring, and how one format reads as another.
+"""The coefficients of a method as immutable data over one ring, and conversions between formats.
 
 Stages are counted from 0 here and from 1 in files. In every product of exponentials the first row acts first
-(stands rightmost).
+(it is the rightmost factor).
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ class PartitionedRungeKutta:
         )
 
     def first(self) -> RungeKutta:
-        """Return the tableau of the first part, the method where there is no second."""
+        """Return the tableau of the first part, which is the method for a system without a second part."""
         return RungeKutta(self.A, self.b)
 
 
@@ -91,7 +91,7 @@ class PartitionedRungeKutta:
 class Stage:
     """A product of exponentials acting on stage ``start`` (None: on y0).
 
-    ``exponentials`` are rows of length s; row beta stands for exp(h sum_j beta_j k_j), the first acts first.
+    ``exponentials`` are rows of length s; row beta is exp(h sum_j beta_j k_j); the first row acts first.
     """
 
     start: int | None
@@ -126,9 +126,9 @@ class CommutatorFree:
     def same_update(self, other: Stage, ring: Ring) -> bool:
         """Whether ``other`` is proved to be the update for any fields, so that their difference is zero.
 
-        Exponentials of zero are left out and neighbours with proportional exponents, which commute, joined:
-        such products are equal for all fields only where their exponents are (Chen 1958, of piecewise linear
-        paths).
+        Zero exponents are removed, and neighbours with proportional exponents, which commute, are combined.
+        Reduced products are equal for all fields only if their exponents are equal (Chen 1958, on piecewise
+        linear paths).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(
@@ -149,7 +149,7 @@ class CommutatorFree:
 
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
-    """Return a product of exponentials without those of zero, neighbours that commute joined."""
+    """Return a product of exponentials without zero exponents, commuting neighbours combined."""
     kept: list[Row] = []
     for row in rows:
         if kept and _proportional(kept[-1], row, ring):
@@ -222,4 +222,4 @@ class EmbeddedUpdate:
 
 
 LowerOrder = Embedded | EmbeddedUpdate
-"""What estimates the error: weights of a Runge-Kutta method, an update of a commutator-free one."""
+"""The data for an error estimate: weights of a Runge-Kutta method, an update of a commutator-free method."""

@@ -1,8 +1,9 @@
-"""Whether a commutator-free method is symmetric: read from its end it is the same method.
+"""Whether a commutator-free method is symmetric: read backwards it is the same method.
 
-A step of length -h that starts from y1 undoes one of length h from y0 if, stages j and s + 1 - j exchanged,
-the update reads the same backwards, and stage s + 1 - i is reached from y1 by the exponentials that lead from
-y0 to stage i, their signs changed. Neighbouring exponentials that are multiples of each other count as one.
+Exchange stages j and s + 1 - j. A step of length -h from y1 undoes a step of length h from y0 under two
+conditions: the update reads the same backwards, and the exponentials from y1 to stage s + 1 - i are those
+from y0 to stage i with opposite signs. Neighbouring exponentials that are multiples of each other count as
+one.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from orderconds.tableau.methods import CommutatorFree, Row
 
 
 def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
-    """Say whether a method is symmetric in the order in which its stages stand; None where balls do not tell.
+    """Whether a method is symmetric with its stages in the given order; None if balls are too wide to decide.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]
@@ -49,19 +50,19 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
     """Return a product of exponentials with neighbours that are multiples of each other added up."""
-    found: list[Row] = []
+    reduced: list[Row] = []
     for row in rows:
         total = row
-        if found and _parallel(found[-1], row, ring):
-            total = tuple(x + y for x, y in zip(found.pop(), row, strict=True))
+        if reduced and _parallel(reduced[-1], row, ring):
+            total = tuple(x + y for x, y in zip(reduced.pop(), row, strict=True))
         if not all(ring.is_zero(x) is True for x in total):
-            found.append(total)
-    return found
+            reduced.append(total)
+    return reduced
 
 
 def _parallel(x: Row, y: Row, ring: Ring) -> bool:
-    # Most coefficients are zero, and so are most minors. One that is not, where the other row has zero, and
-    # one the other way round make a minor that is not zero.
+    # Most coefficients and minors are zero. The rows are not parallel if each has a non-zero entry where the
+    # other has a zero.
     zeros = [(ring.is_zero(u), ring.is_zero(v)) for u, v in zip(x, y, strict=True)]
     if (False, True) in zeros and (True, False) in zeros:
         return False

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Literal
+from collections.abc import Collection, Iterator, Mapping
+from typing import ClassVar, Literal
 
 from msgspec import field
 
@@ -15,6 +15,7 @@ from orderconds.tableau.brackets import spell as spell_term
 from orderconds.tableau.file_format import (
     MAX_PARTS,
     Coefficient,
+    Data,
     Format,
     Places,
     counted,
@@ -35,6 +36,13 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
     gamma: list[Coefficient] | None = None
     alpha: list[Coefficient] | None = None
     beta: list[Coefficient] | None = None
+
+    in_arrays: ClassVar[bool] = True
+
+    @classmethod
+    def defaults(cls, names: Collection[str]) -> Data:
+        """Return the base that goes with the steps."""
+        return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
         """Check that the steps are those of the base, and that each alpha has its beta."""
@@ -81,15 +89,15 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
     rkn: str | None = None
 
     def verify(self, where: str) -> None:
-        """Check that parts are named once each and that steps and ``rkn`` name parts."""
+        """Check that the names of parts differ and that steps and ``rkn`` refer to parts."""
         if not 2 <= len(self.parts) <= MAX_PARTS:
             raise TableauError(
                 f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
             )
         for name in self.parts:
             if not name or self.parts.count(name) > 1:
-                found = f"the part {name!r} twice" if name else "a part without name"
-                raise TableauError(found, where=f"{where}: parts", expected="a name for each part")
+                problem = f"the part {name!r} twice" if name else "a part without name"
+                raise TableauError(problem, where=f"{where}: parts", expected="a name for each part")
         counted(len(self.step), f"{where}: step")
         known = ", ".join(self.parts)
         for k, (name, _) in enumerate(self.step):
@@ -101,13 +109,13 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"rkn = {self.rkn!r} with parts {known}",
                 where=f"{where}: rkn",
-                expected="two parts and the name of the one that is linear in no velocity, V",
+                expected="two parts, and the name of the part V",
             )
 
     def coefficients(self) -> Places:
         """Yield the steps."""
-        for k, (_, spelled) in enumerate(self.step):
-            yield f"step[{k + 1}]", spelled
+        for k, (_, coefficient) in enumerate(self.step):
+            yield f"step[{k + 1}]", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
         """Return the splitting."""
@@ -121,7 +129,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
     """``family = "magnus"``: nodes c and exponents, tables of brackets over nodes counted from 1.
 
-    ``elements`` names Lie elements for those after it and for the exponents; ``map`` is ``exp`` or ``cay``.
+    ``elements`` names Lie elements, to which later elements and the exponents may refer; ``map`` is ``exp``
+    or ``cay``.
     """
 
     c: list[Coefficient]
@@ -136,7 +145,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             yield f"exponents[{k + 1}]", table
 
     def verify(self, where: str) -> None:
-        """Check that terms are brackets of nodes and of elements named before, products with cay alone."""
+        """Check that terms are brackets of nodes and of earlier elements; products are allowed only with
+        cay."""
         s = counted(len(self.c), f"{where}: c")
         counted(len(self.exponents), f"{where}: exponents", "exponents")
         known: list[str] = []
@@ -173,18 +183,19 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             raise TableauError(
                 f"the product {key!r}",
                 where=where,
-                expected='brackets; products stand with map = "cay" alone',
+                expected='brackets; products only with map = "cay"',
             )
 
     def coefficients(self) -> Places:
         """Yield the nodes, then the coefficients of the elements and the exponents."""
         yield from row_places(self.c, "c")
         for place, table in self._tables():
-            for key, spelled in table.items():
-                yield f"{place}.{key}", spelled
+            for key, coefficient in table.items():
+                yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method; TableauError where products do not pair up to elements of quadratic groups."""
+        """Return the method; TableauError if its products do not add up to Lie elements of quadratic
+        groups."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -195,7 +206,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # brackets alone lie in every Lie algebra
+        # only brackets lie in every Lie algebra
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():
@@ -204,6 +215,6 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                     raise TableauError(
                         f"a product that leaves quadratic groups in exponent {k + 1}",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="x*y*z beside z*y*x with one coefficient, x*y beside y*x with opposite ones",
+                        expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite ones",
                     )
         return method, None

@@ -97,15 +97,16 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""Exponents whose brackets would expand to more products of nodes are judged without expanding them."""
+"""Exponents with more products of nodes than this are compared without expanding their brackets."""
 
 
 @dataclass(frozen=True)
 class Magnus:
     """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
 
-    ``exponents`` hold one combination each, the first acting first; ``elements`` name Lie elements that
-    later ones refer to. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).
+    ``exponents`` hold one combination each, the first acting first; ``elements`` are Lie elements, to which
+    later elements and the exponents refer. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1
+    (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)
@@ -148,12 +149,12 @@ class Magnus:
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Tell whether :meth:`words` are few enough to be written out."""
+        """Whether :meth:`words` are few enough to be expanded."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Tell whether every exponent is a combination of the A_i alone."""
+        """Whether every exponent is a combination of the A_i, without brackets."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)
@@ -168,4 +169,4 @@ Method = (
     | Splitting
     | Magnus
 )
-"""What a tableau may hold."""
+"""The kinds of methods in a tableau."""

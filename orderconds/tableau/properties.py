@@ -1,6 +1,6 @@
-"""Properties of a tableau, derived from its coefficients and never declared.
+"""Properties of a tableau, computed from its coefficients.
 
-Each is True, False, or None where the coefficients are balls too wide to tell.
+Each is True, False, or None if the coefficients are balls too wide to decide.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from orderconds.tableau.stability import stability, stability_of_midpoints
 
 
 def properties(tableau: Tableau) -> dict[str, Verdict]:
-    """Return every property of :data:`PROPERTIES` that has a meaning for this tableau, in that order.
+    """Return the properties that are defined for this tableau, in the order of :data:`PROPERTIES`.
 
-    A commutator-free method is asked whether it is explicit, symmetric, and ends with its last stage.
+    For a commutator-free method these are ``explicit``, ``symmetric`` and ``fsal``.
 
     >>> from orderconds.tableau import Tableau
     >>> midpoint = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["1/2"]]\\nb = ["1"]')
@@ -38,7 +38,7 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
         palindrome = symmetric_paths(method, ring)
         return {
             "explicit": all(_commutator_free_explicit(method, ring)),
-            "symmetric": _symmetric_by_spelling(tableau) if palindrome is None else palindrome,
+            "symmetric": _symmetric_for_all_decimals(tableau) if palindrome is None else palindrome,
             "fsal": _ends_at_update(method, ring),
         }
     if isinstance(method, Composition):
@@ -47,7 +47,7 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
         return {"symplectic": symplectic_pair(method, ring)}
     if isinstance(method, AdjointComposition | Splitting | Magnus):
         verdict = symmetric_product(method, ring)
-        return {"symmetric": _symmetric_by_spelling(tableau) if verdict is None else verdict}
+        return {"symmetric": _symmetric_for_all_decimals(tableau) if verdict is None else verdict}
     return {**_of_tableau(method, ring), **stability(method, ring)}
 
 
@@ -55,8 +55,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
     """Return the properties that are None, with the reason.
 
     >>> from orderconds.tableau import Tableau
-    >>> found = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]')
-    >>> undecided(found, properties(found))["a_stable"]
+    >>> rounded = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]')
+    >>> undecided(rounded, properties(rounded))["a_stable"]
     'rounded decimals'
     """
     balls = isinstance(tableau.ring, Balls)
@@ -64,13 +64,13 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
     return {name: reason for name, verdict in computed.items() if verdict is None}
 
 
-def _symmetric_by_spelling(tableau: Tableau) -> Verdict:
-    """Say whether a product is symmetric whatever its decimals stand for; None where that does not tell."""
+def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
+    """Whether a product is symmetric for all values of its decimals; None if this is not certain."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
 
-    ring = RandomMember(tableau.proof.spelled)
+    ring = RandomMember(tableau.proof.symbolic)
     try:
         method = ring.method()
     except OUTSIDE:
@@ -86,9 +86,9 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 
 
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
-    """Composed midpoints are symplectic and diagonally implicit by construction, whatever the steps are.
+    """Composed midpoints are symplectic and diagonally implicit for all steps.
 
-    The composition is symmetric where the steps read the same backwards.
+    The composition is symmetric if the steps read the same backwards.
     """
     gamma = method.gamma
     verdicts = {

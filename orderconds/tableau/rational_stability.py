@@ -1,6 +1,7 @@
-"""Stability functions with rational coefficients: flint's polynomials and its certified roots.
+"""A- and L-stability for rational coefficients, with flint's polynomials and certified roots.
 
-The same criteria as in :mod:`orderconds.tableau.stability`, for methods of a hundred stages as well.
+The same criteria as in :mod:`orderconds.tableau.stability`, but fast enough for methods with a hundred
+stages.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Say whether P/Q is A-stable and L-stable; None where a pole lies on the axis or too near to tell.
+    """Whether P/Q is A-stable and L-stable; None if a pole is on the axis or too near to decide.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))

@@ -1,4 +1,4 @@
-"""Compositions of implicit midpoint steps in plain arrays A, b."""
+"""Recognise compositions of implicit midpoint steps in plain arrays A, b."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from orderconds.tableau.record import Tableau
 
 
 def as_composition(tableau: Tableau) -> Tableau | None:
-    """Return a tableau of arrays as a composition of midpoints with steps b_i, None where it is none.
+    """Return a tableau (A, b) as a composition of midpoints with steps b_i, or None if it is not one.
 
-    The arrays are those of one where a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo
-    and Marthinsen, Lemma 3.5.4). Rounded decimals need to agree up to their last digits only: the digits
-    then support what follows.
+    A tableau is such a composition if a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo
+    and Marthinsen, Lemma 3.5.4). Rounded decimals need to agree only up to their last digits; conclusions are
+    then supported by these digits.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))
     >>> arrays = replace(jump, family="rk", method=jump.read_as(("rk",)))
-    >>> found = as_composition(arrays)
-    >>> found.family, len(found.method.gamma)
+    >>> recognised = as_composition(arrays)
+    >>> recognised.family, len(recognised.method.gamma)
     ('composition', 3)
     >>> as_composition(Tableau.load(find("gauss2"))) is None
     True

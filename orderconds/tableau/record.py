@@ -1,4 +1,4 @@
-"""The tableau: exact coefficients over one ring, with their source and what the file claims of them."""
+"""The tableau: the coefficients of a method over one ring, with their source and the claims of the file."""
 
 from __future__ import annotations
 
@@ -54,8 +54,8 @@ class Tableau:
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return the same method with coefficients in another ring.
 
-        ``convert`` maps one coefficient; without it the embedding of this ring in ``ring`` is used
-        (:func:`orderconds.ring.embed.embedding`), which raises TypeError where there is none.
+        ``convert`` maps one coefficient; without it the embedding of this ring in ``ring`` is used. Raises
+        TypeError if there is none (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -67,7 +67,7 @@ class Tableau:
         )
 
     def lower(self) -> Tableau | None:
-        """Return the method that the embedded row makes of the same stages, None where there is none.
+        """Return the method with the same stages and the embedded row as update, or None without such a row.
 
         >>> from orderconds.tableau import find
         >>> [str(x) for x in Tableau.load(find("cg3")).lower().method.b]
@@ -83,11 +83,10 @@ class Tableau:
         return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
-        """Return the method in the first of these formats that it can be read in, or None.
+        """Return the method in the first of these formats to which it can be converted, or None.
 
-        A tableau reads as what its file says; a composition also as ``rk`` (composed midpoints, or Euler
-        methods for an adjoint pair), one of an adjoint pair as ``splitting`` too. How an ``rk`` tableau
-        serves other families is for the family to say.
+        A tableau has the format of its file. A composition also has the format ``rk`` (composed midpoints, or
+        Euler methods for an adjoint pair), and one of an adjoint pair the format ``splitting``.
         """
         method = self.method
         for wanted in formats:
@@ -98,9 +97,10 @@ class Tableau:
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau this method is on an abelian group; of a pair, the first part's.
+        """Return the Runge-Kutta tableau of this method on an abelian group; for a pair, that of its first
+        part.
 
-        Raises :class:`TableauError` for a splitting or a Magnus method, which is none.
+        Raises :class:`TableauError` for a splitting or a Magnus method.
         """
         if isinstance(self.method, PartitionedRungeKutta):
             return self.method.first()
@@ -167,4 +167,4 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""File format to the function that reads methods of other formats in it; None for those it does not read."""
+"""For a file format, the function that converts methods of other formats to it, or returns None."""

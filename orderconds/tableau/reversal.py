@@ -1,10 +1,10 @@
 """Whether a Magnus method is symmetric: a step of length -h undoes one of length h.
 
-The step back sees -A_{s+1-i} at node i. Where the nodes lie symmetric about 1/2 it undoes the step if each
-exponent, with -A_{s+1-i} for A_i, is the negative of that which stands in its place from the other end.
-Combinations of nodes are odd or even under that substitution, or neither; brackets and products of such
-elements are odd or even as products of signs. A single odd exponent is thus seen without writing out
-brackets of brackets; others are compared as combinations of products of nodes.
+The reverse step has -A_{s+1-i} at node i. If the nodes are symmetric about 1/2, it undoes the step under this
+condition: substituting -A_{s+1-i} for A_i in exponent k gives the negative of exponent k counted from the
+end. A combination of nodes may be odd or even under this substitution. The parity of a bracket or product
+follows from those of its factors. Thus a single odd exponent is recognised without expanding nested brackets;
+other exponents are compared as combinations of products of nodes.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from orderconds.tableau.products import Magnus
 
 
 def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
-    """Return the verdict; None where balls, or brackets too many to write out, leave it open.
+    """Return the verdict; None if balls are too wide, or brackets too many to expand.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -42,7 +42,7 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 
 def sign(method: Magnus, ring: Ring) -> int | None:
-    """Return -1 where the first exponent is odd under A_i -> -A_{s+1-i}, 1 where even, None if not seen.
+    """Return -1 if the first exponent is odd under A_i -> -A_{s+1-i}, 1 if it is even, else None.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

@@ -1,10 +1,11 @@
 """A- and L-stability of a Runge-Kutta tableau, decided from its stability function in exact arithmetic.
 
 R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), common factors removed. The method is
-A-stable iff every zero of Q has positive real part (Routh) and E(y) = |Q(iy)|^2 - |P(iy)|^2, a polynomial
-in y^2, is nowhere negative (Sturm); L-stable iff deg P < deg Q besides (Hairer and Wanner, *Solving
+A-stable iff every zero of Q has positive real part (Routh) and E(y) = |Q(iy)|^2 - |P(iy)|^2, a polynomial in
+y^2, is nowhere negative (Sturm). It is L-stable iff in addition deg P < deg Q (Hairer and Wanner, *Solving
 Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are decided in the field of the
-coefficients; of balls nothing is decided, nor where a field's numbers would take long (:data:`LARGEST`).
+coefficients. The result is undecided for balls, and for fields in which the computation would take too long
+(:data:`LARGEST`).
 """
 
 from __future__ import annotations
@@ -25,17 +26,18 @@ Polynomial = list[Element]
 
 
 LARGEST = 100
-"""Rational tableaux with a larger implicit block, over which flint takes a second, are left undecided."""
+"""Rational tableaux with a larger implicit block are left undecided; flint takes a second at this size."""
 
 EFFORT = 10**11
-"""How many pairs of bits may be multiplied over other fields, a second or so: Euclid's remainders swell."""
+"""Limit on the work over other fields, in products of bits: about a second. Remainders in Euclid's algorithm
+grow fast."""
 
 
 class SignedRing(Ring, Protocol):
     """A ring whose elements have signs."""
 
     def sign(self, x: Element) -> int | None:
-        """Return the sign, None where the ring cannot tell."""
+        """Return the sign, or None if the ring cannot decide."""
 
 
 class StabilityFunction(Struct, frozen=True):
@@ -46,7 +48,7 @@ class StabilityFunction(Struct, frozen=True):
 
 
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
-    """Return ``a_stable`` and ``l_stable``; None where the ring has no signs (balls).
+    """Return ``a_stable`` and ``l_stable``; None if the ring has no signs (balls).
 
     >>> half, one = QQ.rational(1, 2), QQ.one
     >>> stability(RungeKutta(((half,),), (one,)), QQ)
@@ -86,10 +88,10 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 
 
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
-    """Return the same of composed midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
+    """Return the same for composed midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the axis and at infinity. A negative step is a pole on the left, unless a positive one
-    cancels it.
+    |R| = 1 on the axis and at infinity. A negative step gives a pole in the left half plane, unless a
+    positive step cancels it.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -113,11 +115,11 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
 
 
 class _Undecided(Exception):
-    """A ball that contains zero stands where a sign is needed, or a sign would take long."""
+    """A sign cannot be decided: a ball contains zero, or the computation would take too long."""
 
 
 class _Limited:
-    """A number field with a bound on its work."""
+    """A number field that counts its work and stops at a limit."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
@@ -133,13 +135,13 @@ class _Limited:
 
 
 def _bits(x: Element) -> int:
-    """Return the length of a number of Q or of a number field."""
+    """Return the number of bits of an element of Q or of a number field."""
     coefficients = x.polynomial.coeffs() if hasattr(x, "polynomial") else [x]
     return max((int(fmpq(c).p).bit_length() + int(fmpq(c).q).bit_length() for c in coefficients), default=1)
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Charge for ``count`` products of these numbers; quotients make it quadratic in their length."""
+    """Count the work of ``count`` products of these numbers; it is quadratic in their length."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -209,7 +211,7 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Say whether every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
+    """Whether every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -227,7 +229,7 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
-    """Say whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
+    """Whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -255,7 +257,7 @@ def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
 
 
 def positive_roots(p: Sequence[Element], ring: SignedRing) -> int:
-    """Return how many different zeros p has beyond 0, by Sturm's chain.
+    """Return the number of distinct positive zeros of p, by Sturm's chain.
 
     >>> positive_roots([QQ.rational(x) for x in (2, -3, 1)], QQ)
     2

@@ -1,4 +1,4 @@
-"""TOML of bounded depth: the standard reader takes gigabytes for keys of thousands of parts."""
+"""TOML with short keys. (The standard reader needs gigabytes for keys with thousands of parts.)"""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ import tomllib
 from orderconds.tableau.file_format import Data
 
 MAX_PARTS = 24
-"""No key of a tableau file has more than two parts."""
+"""The most parts of a key; keys of tableau files have at most two."""
 
 _PART = r"(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')"
 _LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){{{MAX_PARTS}}}")
 
 
 def parse_toml(text: str) -> Data:
-    """Return the keys and values; ValueError for what is no TOML, or has keys of very many parts.
+    """Return the keys and values; ValueError for invalid TOML, or for a key of very many parts.
 
     >>> parse_toml('a.b = "1"')
     {'a': {'b': '1'}}

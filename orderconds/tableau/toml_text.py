@@ -1,6 +1,6 @@
-"""The keys and values of a tableau file as TOML text, laid out as people write them.
+"""Format the keys and values of a tableau file as TOML text, as people write it.
 
-Rows stand on one line, matrices too long for one on a line a row, tables under their own headings.
+A row is on one line. A matrix that is too long for one line has a line for each row. Tables have headings.
 """
 
 from __future__ import annotations
@@ -30,14 +30,14 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield the lines of what needs no heading of its own."""
+    """Yield the lines of the values without a heading."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)
 
 
 def _headed(key: str, value: object) -> bool:
-    """Whether a value stands under a heading: tables do, but for a short embedded row."""
+    """Whether a value has a heading: tables have one, except a short embedded row."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)
@@ -64,7 +64,7 @@ def _headings(prefix: str, table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _blocks(value: object, key: str) -> TypeGuard[list[Mapping[str, object]]]:
-    """Whether a list of tables stands as ``[[key]]``: the stages of a method do."""
+    """Whether a list is written as tables ``[[key]]``, as the stages of a method are."""
     return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
 
 

@@ -1,4 +1,4 @@
-"""The rounded decimals of a file as unknowns of equations, and what the file says of their proof.
+"""The rounded decimals of a file as unknowns of equations, and the ``[proof]`` table of the file.
 
 A decimal with ``~`` approximates a number without a known closed form. With a ``[proof]`` table it is an
 unknown: the true method solves the order conditions that the table names, near the decimals of the file.
@@ -8,11 +8,11 @@ unknown: the true method solves the order conditions that the table names, near 
     [proof]
     conditions = "cg"          # the family whose independent conditions are the equations
     order = 4                  # all of them up to this order
-    pins = ["a31", "a42"]      # decimals taken at their word: exact, no unknowns
-    reduction = "symmetric"    # optional: what makes fewer equations enough
-    printed = { a21 = "0.8177227988124852" }   # optional: as the source prints them
+    pins = ["a31", "a42"]      # decimals that are exact numbers, not unknowns
+    reduction = "symmetric"    # optional: a reason why fewer equations suffice
+    printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-An unknown is named as under ``numbers``, or by its place (``A[2][1]``). Equal spellings are one unknown.
+An unknown is named as under ``numbers``, or by its place (``A[2][1]``). Equal decimals are one unknown.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ from orderconds.tableau.methods import LowerOrder
 from orderconds.tableau.products import Method
 
 Built = tuple[Method, LowerOrder | None]
-"""A method and what estimates its error."""
+"""A method and its embedded row."""
 
 
 class RootedRing(Ring, Protocol):
-    """A ring in which radicals can be taken: balls, jets."""
+    """A ring with radicals: balls, jets."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root."""
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal: its name, and the one positive constant that is spelled in the file."""
+    """A rounded decimal: its name, and its absolute value in the file."""
 
     name: str
     constant: Constant
@@ -50,9 +50,9 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """What a file says of the equations that its decimals solve; ``printed`` are the source's numbers.
+    """The equations that the decimals of a file solve. ``printed`` are the numbers printed in the source.
 
-    ``unknowns`` are what the equations are solved for, ``pinned`` the decimals taken as exact.
+    The equations are solved for ``unknowns``; the decimals ``pinned`` are exact numbers.
     """
 
     conditions: str
@@ -62,15 +62,15 @@ class Proof:
     printed: Mapping[str, Fraction]
     unknowns: tuple[Unknown, ...]
     pinned: tuple[Unknown, ...]
-    spelled: Spelled = field(repr=False)
+    symbolic: SymbolicCoefficients = field(repr=False)
 
     def over(self, ring: RootedRing, values: Mapping[str, Element]) -> Built:
         """Return the method with ``values`` for the unknowns and the pinned decimals as exact numbers."""
-        return self.spelled.method(ring, self._known(ring, values))
+        return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
         """Return the number of that name, or at that place, with ``values`` for the unknowns."""
-        return self.spelled.number(name, ring, self._known(ring, values))
+        return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
         known = {u.constant: values[u.name] for u in self.unknowns}
@@ -79,7 +79,7 @@ class Proof:
         return known
 
 
-class Spelled(Struct, frozen=True):
+class SymbolicCoefficients(Struct, frozen=True):
     """The parsed coefficients of a file, to be evaluated in another ring or with other decimals."""
 
     expressions: Mapping[str, Expression]
@@ -94,25 +94,25 @@ class Spelled(Struct, frozen=True):
 
     def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
         """Return one number of the file, by its name or its place."""
-        spelled = {name: Name(name) if name in self.numbers else self.expressions[name]}
-        return evaluate_in(_Substituted(ring, known), spelled, self.numbers, self.where)[name]
+        expression = {name: Name(name) if name in self.numbers else self.expressions[name]}
+        return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
     def decimals(self) -> tuple[Unknown, ...]:
         """Return every rounded decimal, named numbers first, in the order of the file."""
-        found: dict[Constant, str] = {}
+        names_of: dict[Constant, str] = {}
         for name, definition in (*self.numbers.items(), *self.expressions.items()):
             for constant in rounded_and_exact(definition):
                 if constant.unit:
-                    found.setdefault(constant, name)
-        names = list(found.values())
+                    names_of.setdefault(constant, name)
+        names = list(names_of.values())
         return tuple(
             Unknown(name if names.count(name) == 1 else f"{name}: {float(constant.value):.6g}", constant)
-            for constant, name in found.items()
+            for constant, name in names_of.items()
         )
 
 
 class _Substituted:
-    """Scalars of a ring in which the rounded decimals have the values given."""
+    """Scalars of a ring, with given values for the rounded decimals."""
 
     def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
         self.ring, self.known = ring, known

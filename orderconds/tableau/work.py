@@ -1,10 +1,10 @@
-"""What a step costs: field evaluations, exponentials and brackets, on the tableau as a family reads it.
+"""The cost of a step in each family: field evaluations, exponentials and brackets.
 
-Evaluations are those of a step after another: stages that enter the update, an explicit first-same-as-last
-stage not counted again. Of an implicit method they are those of one sweep of its iteration. Equal exponents
-are one exponential, applied where it is needed; brackets are those of dexpinv applied stage by stage, without
-simplification (dexpinv of the zero argument needs none). Of a Magnus method they are its commutators, each
-counted once, and an exponential may be a Cayley transform.
+Evaluations are counted for the stages that enter the update. The first stage of an explicit
+first-same-as-last method counts only in the first step, and an implicit method counts one sweep of its
+iteration. Equal exponents count as one exponential. Brackets are those of dexpinv at each stage, without
+simplification; dexpinv at zero needs none. For a Magnus method they are its different commutators, and an
+exponential may be a Cayley transform.
 """
 
 from __future__ import annotations
@@ -22,7 +22,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Field evaluations, exponentials and brackets of one step; the latter two are None off a group."""
+    """Field evaluations, exponentials and brackets of one step; the latter two are None for methods that are
+    not on groups."""
 
     evaluations: int
     exponentials: int | None = None
@@ -34,7 +35,7 @@ class Work:
 
 
 def evaluations(tableau: Tableau) -> Work | None:
-    """Return the field evaluations of a step, None for a format of which they are not counted.
+    """Return the field evaluations of a step, None for a format without such a count.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
@@ -50,7 +51,7 @@ def evaluations(tableau: Tableau) -> Work | None:
 
 
 def commutator_free_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of exponentials; a Butcher tableau has one stage in each exponential.
+    """Return the cost of a commutator-free step; a Butcher tableau has one stage in each exponential.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> commutator_free_work(heun)
@@ -143,13 +144,13 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return how many brackets dexpinv cut after this power takes: up to the last B_k that is not zero."""
+    """Return the number of brackets of dexpinv cut after this power: up to the last non-zero B_k."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2
 
 
 def _distinct(rows: Sequence[Sequence[Element]], ring: Ring) -> int:
-    """Return how many different exponents there are, the zero one not counted."""
+    """Return the number of different non-zero exponents."""
     moving = [row for row in rows if any(ring.is_zero(x) is not True for x in row)]
     return len({tuple(ring.key(x) for x in row) for row in moving})

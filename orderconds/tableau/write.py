@@ -1,4 +1,4 @@
-"""Writing a tableau as a file that reads back as the same tableau."""
+"""Write a tableau as a file; reading the file gives the same tableau."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ Spell = Callable[[Element], str]
 def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
-    What was read from a file is written as it was spelled there, with its names, decimals and proof. Other
-    coefficients are written in full, balls with the digits they support (``~``, one unit in the last).
+    Coefficients from a file keep their text, names, decimals and proof. Other coefficients are written in
+    full; balls have the digits that are certain to one unit in the last place (``~``).
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -42,7 +42,7 @@ def dumps(tableau: Tableau) -> str:
 
 
 def as_data(tableau: Tableau) -> Data:
-    """Return the keys and values of the tableau's file; no part of the tableau is left out.
+    """Return the keys and values of the tableau's file; every part of the tableau is included.
 
     >>> from orderconds.tableau import Tableau, find
     >>> as_data(Tableau.load(find("cg4")))["b"]
@@ -50,7 +50,7 @@ def as_data(tableau: Tableau) -> Data:
     """
     file = tableau.file
     if file is None or file.method is not tableau.method or file.embedded is not tableau.embedded:
-        return written_out(tableau)
+        return without_names(tableau)
     data = deepcopy(dict(file.data)) | {"name": tableau.name}
     for key in ("source", "bibtex"):
         if getattr(tableau, key) != data.get(key, ""):
@@ -61,14 +61,14 @@ def as_data(tableau: Tableau) -> Data:
     return data
 
 
-def written_out(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the keys and values of a file with every coefficient spelled in full, without names.
+def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
+    """Return the keys and values of a file with every coefficient in full, without names.
 
-    Named are roots that have no other spelling and, with ``name_radicals``, square roots inside others.
+    Exceptions are roots without a formula and, with ``name_radicals``, square roots inside other roots.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'
-    >>> written_out(Tableau.loads(text))
+    >>> without_names(Tableau.loads(text))
     {'name': 'm', 'family': 'rk', 'A': [['1/2']], 'b': ['1']}
     """
     radicals = _Radicals(tableau.ring) if name_radicals else None
@@ -83,7 +83,7 @@ def _coefficients(tableau: Tableau, text: Spell) -> Data:
     method, embedded = tableau.method, tableau.embedded
 
     def row(x: Row) -> list[str]:
-        """Spell a row without the zeros at its end, which the format supplies."""
+        """Return the texts of a row without the zeros at its end."""
         kept = list(x)
         while kept and tableau.ring.is_zero(kept[-1]) is True:
             kept.pop()
@@ -132,7 +132,7 @@ def _product(method: AdjointComposition | Splitting | Magnus, text: Spell) -> Da
 
 
 class _Radicals:
-    """Names r1, r2, ... for square roots where some stand inside others."""
+    """Names r1, r2, ... for square roots that occur inside others."""
 
     def __init__(self, ring: Any) -> None:
         self.text: Spell = ring.text
@@ -146,17 +146,17 @@ class _Radicals:
         }
 
     def _named(self, text: str, known: Sequence[str]) -> str:
-        for spelling in reversed(known):
-            text = text.replace(spelling, self.names[spelling])
+        for radical in reversed(known):
+            text = text.replace(radical, self.names[radical])
         return text
 
     def spell(self, x: Element) -> str:
-        """Spell an element by the names."""
+        """Return the text of an element, with names for roots."""
         return self._named(self.text(x), list(self.names))
 
 
 def _named_roots(tableau: Tableau) -> Data:
-    """Return the numbers that the field's spelling refers to by name."""
+    """Return the named numbers to which texts of the field refer."""
     return {
         name: {"minpoly": list(minpoly), "near": near}
         for name, minpoly, near in getattr(tableau.ring, "named_roots", ())
@@ -164,11 +164,11 @@ def _named_roots(tableau: Tableau) -> Data:
 
 
 def _claims(claims: Claims) -> Data:
-    found: Data = {}
+    table: Data = {}
     for claim in claims.orders:
         if claim.cutoff is None:
-            found[claim.family] = claim.order
+            table[claim.family] = claim.order
         else:
-            found.setdefault(claim.family, []).append({"cutoff": claim.cutoff, "order": claim.order})
-    found |= claims.properties
-    return {"claims": found} if found else {}
+            table.setdefault(claim.family, []).append({"cutoff": claim.cutoff, "order": claim.order})
+    table |= claims.properties
+    return {"claims": table} if table else {}

@@ -94,7 +94,7 @@ def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
-    """Yield the same trees one by one, without enumerating all of them first.
+    """Yield the same trees one by one, on demand.
 
     >>> text(next(directed_rooted_trees_in_turn(50))).count("[")
     49
@@ -133,7 +133,7 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield the tree rooted at each of its vertices in turn, edges keeping their directions.
+    """Yield the tree rooted at each of its vertices; the edges keep their directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']

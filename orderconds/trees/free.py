@@ -1,4 +1,4 @@
-"""Free (unrooted) trees and what becomes of a rooted tree when its root moves.
+"""Free (unrooted) trees, and the effect of moving the root of a tree.
 
 The conditions of symplectic Runge-Kutta methods belong to free trees, for b_i a_ij + b_j a_ji = b_i b_j gives
 phi(u o v) + phi(v o u) = phi(u) phi(v), o being Butcher's product (Sanz-Serna and Abia 1991; HLW VI.7.1). A
@@ -38,7 +38,7 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Say whether some edge parts a tree in two equal rooted trees.
+    r"""Whether some edge divides a tree into two equal rooted trees.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)

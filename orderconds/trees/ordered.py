@@ -38,7 +38,7 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # The last level that can fall does, and what follows rises as steeply as it may.
+        # The last level that can decrease does so; the levels after it increase as fast as possible.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

@@ -22,7 +22,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # The last vertex that is not a child of the root moves up; what follows repeats its left neighbour.
+        # The last vertex that is not a child of the root moves up; the vertices after it repeat its left
+        # neighbour.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

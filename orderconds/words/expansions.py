@@ -124,7 +124,7 @@ def words_of_weight(weight: int) -> Iterator[Word]:
 
 
 def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
-    """Return a series to this weight, zeros left out; ``coefficient`` is :func:`magnus`, say.
+    """Return a series up to this weight, without zeros; ``coefficient`` is a function such as :func:`magnus`.
 
     >>> {word: str(value) for word, value in expansion(magnus, 3).items()}
     {(1,): '1', (2,): '1/2', (3,): '1/3', (1, 2): '1/12', (2, 1): '-1/12'}

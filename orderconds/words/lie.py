@@ -20,7 +20,7 @@ Bracket = Letter
 """A letter, or a pair of brackets."""
 
 Key = Callable[[Letter], Letter]
-"""What letters are ordered by."""
+"""The sort key of a letter."""
 
 S = TypeVar("S", str, Word)
 

@@ -27,7 +27,7 @@ Coordinates = dict[Word, Fraction]
 
 @dataclass(frozen=True)
 class LieSeries:
-    """A Lie series: what it is, its letters in rising order, their weights, its coordinates up to a weight.
+    """A Lie series: a summary, its letters in rising order, their weights, and coordinates up to a weight.
 
     ``letters`` maps the largest weight to the letters of at most that weight.
 

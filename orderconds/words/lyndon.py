@@ -73,7 +73,7 @@ def lyndon_factors(
 
 
 def is_lyndon(word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None) -> bool:
-    """Say whether a word is a Lyndon word; the empty word is none.
+    """Whether a word is a Lyndon word; the empty word is not.
 
     >>> is_lyndon("AAB"), is_lyndon("ABAB")
     (True, False)

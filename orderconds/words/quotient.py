@@ -1,7 +1,7 @@
 """The functionals on words that vanish on a two-sided ideal: coordinates of the quotient's group.
 
-A homomorphism of a free algebra onto a quotient by an ideal J is seen by those combinations of words alone
-that are orthogonal to J. Modulo products of lighter ones they are the dual of the quotient's Lie algebra
+A homomorphism of a free algebra onto a quotient by an ideal J is determined by the combinations of words that
+are orthogonal to J. Modulo products of lighter ones they are the dual of the quotient's Lie algebra
 (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 

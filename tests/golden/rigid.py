@@ -4,7 +4,7 @@ method:     hand-made, for tests
 order:      1
 state:      [0..2] m: angular momentum in the body
 operations: 14 add, 26 mul, 1 stumpff_12 a step
-made by:    none
+command:    none
 version:    orderconds test
 
 Use:

@@ -30,10 +30,10 @@ def compensated(compiled: Compiled) -> Compiled:
     """
     kernel = compiled.kernel
     if kernel.deferred is not None:  # deferred flows would be applied once for many steps
-        kernel = to_kernel(compiled.program, compiled.view)
+        kernel = to_kernel(compiled.program, compiled.problem)
     if kernel.carried is not None:
         solvers = {loop.label: loop.solver for loop in kernel.loops}
-        kernel = to_kernel(compiled.program, compiled.view, solvers, whole=True)
+        kernel = to_kernel(compiled.program, compiled.problem, solvers, whole=True)
     return replace(compiled, kernel=with_carries(kernel))
 
 

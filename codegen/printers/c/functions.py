@@ -1,7 +1,7 @@
 """Functions of the run representation in C: types, declarations, statements.
 
-A scalar is ``const`` where it is assigned once, an array parameter where nothing writes to it. Arrays are
-copied by ``memcpy``, records cleared by ``memset``. Nothing here knows what a function computes.
+A scalar that is assigned once is ``const``, and so is an array parameter that nothing writes to. Arrays are
+copied by ``memcpy``, records cleared by ``memset``.
 """
 
 from __future__ import annotations
@@ -35,13 +35,15 @@ from codegen.run.terms import Kind, Term, own, symbols
 from codegen.run.writes import written
 
 MANY = 20
-"""From so many short statements in a row on several share a line."""
+"""More than MANY consecutive short statements share lines."""
 
-ONE_TEST = "one test for all; where only their sum overflows, x - x is zero for a number, else NaN"
+ONE_TEST = (
+    "one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite"
+)
 
 
 class FunctionPrinter:
-    """Spells the functions of one unit under a prefix."""
+    """Writes the functions of one unit in C, under a prefix."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
@@ -51,7 +53,7 @@ class FunctionPrinter:
         self.writes = {f.name: written(unit, f) for f in unit.functions}
 
     def called(self, name: str) -> str:
-        """Return what a function is called."""
+        """Return the name of a function in C."""
         function = self.unit.parts.get(name)
         return f"{self.prefix}{name}" if function is not None and function.public else name
 
@@ -64,11 +66,15 @@ class FunctionPrinter:
         return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
-        """Return the declaration of a parameter; C++ reads headers, where sizes are no promise."""
+        """Return the declaration of a parameter; ``static`` sizes are no C++, so a ``header`` has none."""
         name = self.identifiers[function.name].of(parameter)
+        # ``const`` shows callers which arrays a function leaves unchanged, and the compiler checks
+        # it.
         const = "" if parameter.text in self.writes[function.name] else "const "
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
+        # ``static n`` tells the compiler that n entries exist. C++ does not know this syntax and
+        # reads headers.
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -84,7 +90,9 @@ class FunctionPrinter:
         return f"{const}{kind} {name}[{promised}{parameter.shape[0]}]"
 
     def head(self, function: Function, header: bool = False) -> list[str]:
-        """Return the lines of a function's head, a prototype in a ``header``."""
+        """Return the lines of a function's head, or of its prototype in a ``header``."""
+        # Private functions are static: the compiler may inline them, and two modules in one program
+        # do not clash.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -128,7 +136,7 @@ class FunctionPrinter:
 
 
 def _without_zeros(row: Sequence[str]) -> str:
-    """Return a row without the zeros at its end, which C fills in, as integers where it can."""
+    """Return a row without trailing zeros; C initialises the remaining entries to zero."""
     kept = list(row)
     while len(kept) > 1 and kept[-1].startswith("0.0"):
         kept.pop()
@@ -153,13 +161,15 @@ class _Body:
             if term.value is not None:
                 read |= {self.identifiers.variable(own(s)) for s in symbols(term.value)}
         parameters = [p for p in self.function.parameters if p.kind is not Kind.SIGNAL]
+        # The interface is fixed, even if this kernel does not use a parameter; the cast avoids a
+        # warning.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
         return [*(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of some statements; short ones share lines where they are many."""
+        """Return the lines of statements; many consecutive short ones share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
             before = self.before(statement)
@@ -174,7 +184,7 @@ class _Body:
         return lines
 
     def before(self, statement: Statement) -> list[str]:
-        """Return the declarations that stand before a statement, one line a type."""
+        """Return the declarations before a statement, one line for each type."""
         waiting = self.declared.before.get(id(statement), [])
         lines: list[str] = []
         for kind, group in groupby(waiting, key=lambda x: self.printer.type_of(x[1].kind)):
@@ -200,6 +210,8 @@ class _Body:
             case While():
                 yield from self.loop(statement)
             case For(index, count, body, reverse):
+                # size_t is unsigned: a reversed loop decrements in its test, because `i >= 0` is
+                # always true.
                 i, n = self.identifiers.of(index), self.terms.line(count)
                 yield (
                     f"for (size_t {i} = {n}; {i}-- > 0;) {{"
@@ -214,7 +226,7 @@ class _Body:
         return [f"    {line}" for line in self.block(body)]
 
     def branch(self, statement: If) -> Iterator[str]:
-        """Yield the lines of a branch, those of an else that is a branch beside it."""
+        """Yield the lines of a branch; an else that is a single branch becomes ``else if``."""
         test = statement.test
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
@@ -222,6 +234,7 @@ class _Body:
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
+        # `else if` has no block in which a declaration before the inner test could be.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
             first, *rest = self.branch(orelse[0])
             yield f"}} else {first}"
@@ -245,24 +258,29 @@ class _Body:
         yield "}"
 
     def kind(self, statement: Statement, target: Term) -> str:
-        """Return the type where a statement declares its target, else nothing."""
+        """Return the type if a statement declares its target, else nothing."""
         name = self.identifiers.of(target) if target.op == "name" else ""
+        # ``const`` for single assignments: a reader sees that the value is final, and the compiler
+        # checks it.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
         return f"{'const ' if constant else ''}{self.printer.type_of(target.kind)} "
 
     def assign(self, statement: Assign) -> Iterator[str]:
-        """Yield the lines of an assignment, a copy, or a record that is cleared."""
+        """Yield the lines of an assignment, of a copy, or of clearing a record."""
         target, value = statement.target, statement.value
         if value.op == "fresh":
             name = self.terms.line(target)
             record = (
                 f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
             )
+            # All bytes zero represent 0 and 0.0 in IEEE formats.
             yield f"memset({record});"
             return
         if target.shape:
+            # C does not assign arrays. Compilers replace a memcpy of constant size by plain moves;
+            # source and target are different arrays and never overlap.
             copied = (self.terms.line(target), self.terms.line(value), self.extent(target, value))
             yield f"memcpy({', '.join(copied)});"
             return
@@ -278,8 +296,9 @@ class _Body:
         yield from fill(f"{kind}{name} =", self.terms.text(value).segments, ";")
 
     def extent(self, target: Term, value: Term) -> str:
-        """Return how many bytes are copied: the size of an array of this function, or a count of numbers."""
+        """Return the bytes to copy: the size of a local array, or a count times the size of an entry."""
         parameters = {p.text for p in self.function.parameters}
+        # sizeof an array parameter is the size of a pointer, so it is used for local arrays only.
         for term in (target, value):
             if term.op == "name" and term.text not in parameters:
                 return f"sizeof {self.terms.line(term)}"
@@ -308,7 +327,7 @@ class _Body:
         yield from fill(f"const {kind} {identifier}{size} =", segments, ";")
 
     def argument(self, term: Term) -> str:
-        """Return an argument: of a record its address."""
+        """Return an argument; a record is passed by its address."""
         text = self.terms.line(term)
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
@@ -324,6 +343,7 @@ class _Body:
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")
             return
         if len(results) > 1:
+            # A C function returns one value; further results are written through pointers.
             names = [self.identifiers.of(r) for r in results]
             given += [f"&{n}" for n in names]
             results = ()

@@ -25,11 +25,13 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import needed
 from codegen.templates import environment
 
+# -ffp-contract=off: a fused multiply-add rounds once in place of twice, and the results would
+# depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
-"""The flags that emitted C is promised to compile under, without a warning."""
+"""Emitted C compiles without a warning under these flags."""
 
 FRAMES = 640
-"""Bytes for what calls leave on the stack besides numbers, and for the frames of helpers."""
+"""Bytes for return addresses, saved registers and the frames of helpers."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -39,7 +41,9 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     identifiers = identify(unit, RESERVED | own_names(interface))
     printer = FunctionPrinter(unit, identifiers, interface.format, interface.prefix)
     snippets = needed(
-        *("c", helpers(unit), interface.format),
+        "c",
+        helpers(unit),
+        interface.format,
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
@@ -73,15 +77,16 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 
 def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> list[list[str]]:
-    """Return the lines of what a module defines: records, tables, functions."""
+    """Return the lines of the definitions of a module: records, tables, functions."""
     definitions = [printer.record(record.name) for record in unit.records if not record.public]
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
+        # C has no closures: a function with a context pointer supplies constant inputs to a step.
         if function.name == "step" and n:
             definitions.append(
                 [
-                    "/* Run-time inputs that are constant: context holds them. */",
+                    "/* Constant run-time inputs; context points to their values. */",
                     f"static void hold({real} t, {real} inputs[{n}], void *context)",
                     "{",
                     "    (void)t;",
@@ -106,25 +111,26 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the size of all matrices that are inverted, 0 where they differ or are large."""
+    """Return the common size of all inverted matrices, 0 if they differ or are large."""
     sizes = {len(x.unknowns) for x in kernel.loops if x.newton is not None and not x.newton.inverted}
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Say how much of the stack a call takes at most: what holds every number of a step at once.
+    """Return a bound on the stack of a call: space for every number of a step at once.
 
-    That is what compilers take who keep all names apart (-O0); tests hold it against ``-fstack-usage``.
+    At -O0 a compiler uses about this much, a slot for each name; tests compare it with ``-fstack-usage``.
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers_held(unit) // 64) * 64
     inverting = NEWTON in interface.solvers or CHORD in interface.solvers
+    # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
-    return f"at most {rounded + frames} bytes, without what the mathematical library takes"
+    return f"at most {rounded + frames} bytes; functions of the mathematical library add to this"
 
 
 def own_names(interface: Interface) -> frozenset[str]:
-    """Return what a module itself declares or defines, which no variable may hide."""
+    """Return the names that a module itself declares, which no variable may hide."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     functions = {
         f"{prefix}{name}" for name in ("step", "run", "run_adaptive", "jacobian", "statistics", "input")
@@ -137,6 +143,7 @@ def prototypes(interface: Interface) -> str:
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
     time = f"{real} t, " if interface.time else ""
+    # Names are irrelevant in a prototype, and those of a scene might be keywords of C.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     matrices = "size_t matrices; " if interface.newton else ""

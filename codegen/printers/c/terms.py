@@ -6,14 +6,12 @@ from collections.abc import Collection, Sequence
 from typing import ClassVar
 
 from codegen.printers.c.text import closed_call, greatest
-from codegen.printers.expression import Style, spell
+from codegen.printers.expression import Style, render
 from codegen.printers.infix import (
     AND,
-    ATOM,
     CHOICE,
     COMPARED,
     OR,
-    PRODUCT,
     SIGN,
     SUM,
     Infix,
@@ -27,16 +25,16 @@ from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 
 FUNCTIONS = {"abs": "fabs", "power": "pow"}
-"""Library functions that C calls otherwise."""
+"""Library functions that have another name in C."""
 
 
 def literal(precision: Precision, x: float) -> str:
-    """Spell a number that needs no rounding, or that is rounded already."""
+    """Return a number of the format as a C literal."""
     return precision.text(x) + precision.suffix
 
 
 def style(precision: Precision) -> Style:
-    """Return how C spells constants and functions in a precision: ``0.5f`` and ``sqrtf``."""
+    """Return the constants and function names of C in a precision: ``0.5f`` and ``sqrtf``."""
 
     def called(name: str) -> str:
         return name + precision.suffix if name in LIBRARY and name != "isfinite" else name
@@ -45,7 +43,7 @@ def style(precision: Precision) -> Style:
 
 
 class Terms(Infix):
-    """Spells the terms of one function; ``pointers`` are those parameters that are records."""
+    """Writes the terms of one function in C; ``pointers`` are the parameters that are records."""
 
     words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
 
@@ -59,7 +57,7 @@ class Terms(Infix):
     def negated(self, test: Term) -> Text:
         """Return the text of a test that fails."""
         if test.op == "given":
-            return Text((f"{self.line(test.args[0])} == NULL",), ATOM - 4)
+            return Text((f"{self.line(test.args[0])} == NULL",), COMPARED)
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
@@ -67,7 +65,9 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the two tests of which one says that all values are numbers."""
+        """Return two tests; all values are finite if one of them holds."""
+        # isfinite of one sum replaces a test for each value. Only a sum of finite values that
+        # overflows fails it wrongly; x - x, which cannot overflow, decides this rare case.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
@@ -82,7 +82,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                return Text(spell(term.value, dict(self.identifiers.spelled), self.style), SUM)
+                return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.upper + term.text,))
             case "item" | "part" | "field":
@@ -94,7 +94,7 @@ class Terms(Infix):
             case "finite":
                 return self.finite(term.args)
             case "given":
-                return Text((f"{self.line(term.args[0])} != NULL",), PRODUCT - 2)
+                return Text((f"{self.line(term.args[0])} != NULL",), COMPARED)
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
@@ -106,7 +106,8 @@ class Terms(Infix):
                 return Text(("INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return a name; the signal of inputs is a function and its context."""
+        """Return a name; a signal of inputs is passed as a function and its context."""
+        # C has no closures.
         return "input, context" if term.kind is Kind.SIGNAL else self.identifiers.of(term)
 
     def number(self, term: Term) -> str:
@@ -144,11 +145,12 @@ class Terms(Infix):
         """Return one of two values."""
         segments = self.text(test).within(OR)
         first, second = self.text(yes).within(COMPARED), self.text(no)
+        # ?: associates to the right: a chain of choices needs no parentheses.
         last = second.segments if second.level == CHOICE else second.within(COMPARED)
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 
     def finite(self, values: Sequence[Term]) -> Text:
-        """Return whether all values are numbers."""
+        """Return the test that all values are finite."""
         first = values[0]
         if first.shape:
             return Text((f"all_finite({self.line(first)}, {first.shape[0]})",))

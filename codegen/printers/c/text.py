@@ -1,4 +1,4 @@
-"""Text of C: lines that are filled, comments that end where they should, nested calls."""
+"""Text of C: filled lines, safe comments, nested calls."""
 
 from __future__ import annotations
 
@@ -11,20 +11,22 @@ WIDTH = 100
 
 
 def greatest(terms: list[str]) -> tuple[str, ...]:
-    """Spell the greatest of some terms as a balanced tree of two-argument calls, cut after its commas.
+    """Return the maximum of terms as a balanced tree of two-argument calls, in segments that end in commas.
 
     >>> greatest(["a", "b", "c"])
     ('greater(a,', 'greater(b,', 'c))')
     """
     if len(terms) == 1:
         return (terms[0],)
+    # A balanced tree has logarithmic depth; the latency of a linear chain would be that of all
+    # comparisons.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle]), greatest(terms[middle:])
     return (*closed("greater(", first, ","), *closed("", second, ")"))
 
 
 def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
-    """Spell a call, cut after its commas.
+    """Return a call in segments that end in commas.
 
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
@@ -34,12 +36,12 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 
 def comment(text: str) -> str:
-    """Return text that cannot end the C comment it stands in."""
+    """Return text that cannot end a C comment."""
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def block_comment(text: str) -> list[str]:
-    """Return a comment on one line, or on several with stars before them; nothing for no text."""
+    """Return a comment on one line, or on several that begin with a star; no lines for an empty text."""
     safe = comment(text)
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
     if len(lines) < 2:
@@ -52,7 +54,7 @@ def fill(
 ) -> list[str]:
     """Join start, segments and end with spaces, breaking lines before segments that do not fit.
 
-    ``separator`` stands between start and the first segment.
+    ``separator`` separates start and the first segment.
 
     >>> fill("x =", ("a", "+ b", "+ c"), ";", width=18)
     ['x = a + b', '    + c;']
@@ -68,7 +70,7 @@ def fill(
 
 
 def together(statements: Sequence[str], width: int = WIDTH) -> list[str]:
-    """Return lines of as many short statements as there is room for.
+    """Return lines, each with as many short statements as fit.
 
     >>> together(["a = 1;", "b = 2;", "c = 3;"], width=22)
     ['a = 1; b = 2;', 'c = 3;']

@@ -1,4 +1,4 @@
-"""Words that no variable of emitted C may take."""
+"""Reserved words of emitted C."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _WORDS = """
 """
 
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
-"""Words that no variable may take, besides the names of the run representation.
+"""Words that are excluded as names of variables, besides the names of the run representation.
 
 Keywords of C and, since both read headers, of C++; macros of headers that the module or its caller is likely
 to include; the mathematical library; helpers.

@@ -1,7 +1,7 @@
 """Functions of the run representation in Python: lists that are changed in place, statuses that are returned.
 
-Neighbouring entries of a list are read, and written, together. An arithmetic error, where C computes with an
-infinity or a NaN, becomes what the function's guard says. Nothing here knows what a function computes.
+Consecutive entries of a list are read, and written, by one statement. Python raises an arithmetic error where
+C computes an infinity or a NaN; the guard of a function converts it to a status or to NaNs.
 """
 
 from __future__ import annotations
@@ -34,11 +34,11 @@ from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 
 TOGETHER = 3
-"""From so many neighbouring entries on they are read or written by one statement."""
+"""At least TOGETHER consecutive entries are read or written by one statement."""
 
 
 class FunctionPrinter:
-    """Spells the functions of one unit."""
+    """Writes the functions of one unit in Python."""
 
     def __init__(self, unit: Unit, identifiers: dict[str, Identifiers], constants: Constants) -> None:
         self.unit, self.identifiers, self.constants = unit, identifiers, constants
@@ -53,10 +53,12 @@ class FunctionPrinter:
         body = _Body(self, function).block(function.body, depth)
         if not function.guard:
             return [*lines, *body]
+        # Python raises ZeroDivisionError, OverflowError or ValueError where C computes an infinity
+        # or a NaN.
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
-        """Return the lines of what an arithmetic error makes of a function."""
+        """Return the lines that follow an arithmetic error."""
         if function.guard == RAISES_STATUS:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
@@ -87,7 +89,7 @@ class FunctionPrinter:
         return f"[{inner}] * {shape[0]}"
 
     def record(self, record: Record) -> list[str]:
-        """Return the lines of a class whose fields are zero at first and after ``clear``."""
+        """Return the lines of a class; its fields are zero initially and after ``clear``."""
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
@@ -134,6 +136,8 @@ class _Body:
         lines: list[str] = []
         place = 0
         while place < len(body):
+            # In CPython, unpacking a list or assigning a slice is faster than a subscript for each
+            # entry.
             group = self.entries(body[place:])
             if len(group) >= TOGETHER:
                 lines += self.together(group, depth)
@@ -144,7 +148,7 @@ class _Body:
         return lines
 
     def entries(self, body: Sequence[Statement]) -> list[Assign]:
-        """Return the statements at the beginning that read, or write, neighbouring entries of one list."""
+        """Return the leading statements that read, or write, consecutive entries of one list."""
         group: list[Assign] = []
         for statement in body:
             if not isinstance(statement, Assign):
@@ -157,7 +161,7 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Whether a statement goes on with what some statements do."""
+        """Whether a statement accesses the entry after those of ``group`` and reads none that they write."""
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -171,11 +175,13 @@ class _Body:
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
+        # A joint assignment evaluates all values before it writes: none may depend on an entry
+        # written before it.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
     def together(self, group: Sequence[Assign], depth: int) -> list[str]:
-        """Return the lines that read or write neighbouring entries."""
+        """Return the lines that read or write consecutive entries."""
         reading = all(_entry(s.value) is not None and s.target.op == "name" for s in group)
         entry = group[0].value if reading else group[0].target
         array, start = entry.args[0], _entry(entry) or 0
@@ -233,19 +239,22 @@ class _Body:
             yield from self.condition("while", statement.test, depth)
             yield from self.block(statement.body, depth + 1)
             return
+        # Python has no loop with the test at its end.
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
-        """Yield the lines of an assignment, a copy, or a record that is cleared."""
+        """Yield the lines of an assignment, of a copy, or of clearing a record."""
         target, value = statement.target, statement.value
         name = self.terms.line(target)
         if value.op == "fresh":
             yield f"{'    ' * depth}{name}.clear()"
             return
         if target.shape:
+            # A slice assignment changes the caller's list; a plain one would only rebind the local
+            # name.
             name = name if target.op == "part" else f"{name}[:]"
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
@@ -257,7 +266,7 @@ class _Body:
         yield from indented(f"{name} = ", text.segments, depth)
 
     def array(self, statement: Array, depth: int) -> Iterator[str]:
-        """Yield the lines that make a list."""
+        """Yield the lines that create a list."""
         name = statement.name
         start = f"{self.identifiers.of(name)} = "
         if statement.values:
@@ -276,7 +285,7 @@ class _Body:
 
 
 def _entry(term: Term) -> int | None:
-    """Return the place of an entry of a list of scalars, None where that is not known before a run."""
+    """Return the index of an entry of a list of scalars, None if it is not a constant."""
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

@@ -1,4 +1,4 @@
-"""One step as a Python module: step and run, an exception that says why, the recipe as docstring."""
+"""One step as a Python module: step and run, an exception with the reason, the recipe as docstring."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
 
 LIMITS = ["rtol=1e-6", "atol=1e-9", "limit=100000"]
-"""The defaults of a run that chooses its steps."""
+"""The default options of an adaptive run."""
 
 
 def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[str, str]:
@@ -35,7 +35,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 @dataclass(frozen=True)
 class _Module:
-    """One module on its way to text."""
+    """The text of one module, and the parts that it is assembled from."""
 
     kernel: Kernel
     interface: Interface
@@ -43,27 +43,28 @@ class _Module:
 
     @cached_property
     def unit(self) -> Unit:
-        """What the module defines; a caller's step is a run of one step."""
+        """The unit of the module without ``step``, which is a run of one step in Python."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
+        # The public ``step`` is in the template, where it calls ``run``.
         kept = tuple(f for f in unit.functions if f.name != "step")
         return Unit(unit.scalars, unit.records, unit.tables, kept)
 
     @cached_property
     def identifiers(self) -> dict[str, Identifiers]:
-        """What names are called in each function."""
+        """The identifiers in each function."""
         underscored = {f"_{f.name}" for f in self.unit.functions}
         classes = {class_of(record) for record in self.unit.records}
         return identify(self.unit, RESERVED | PUBLIC | underscored | classes)
 
     @cached_property
     def constants(self) -> Constants:
-        """How constants are spelled."""
-        taken = {name for of in self.identifiers.values() for name in of.spelled.values()}
+        """The constants of the module."""
+        taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
         return Constants(self.interface.format, frozenset(taken))
 
     @cached_property
     def printer(self) -> FunctionPrinter:
-        """What spells the unit."""
+        """The printer of the unit's functions."""
         return FunctionPrinter(self.unit, self.identifiers, self.constants)
 
     @property
@@ -73,8 +74,8 @@ class _Module:
 
     @cached_property
     def parameters(self) -> list[str]:
-        """What the run-time parameters are called."""
-        names = self.identifiers["run"].spelled
+        """The identifiers of the run-time parameters."""
+        names = self.identifiers["run"].by_name
         return [names[p] for p in self.interface.parameters]
 
     @cached_property
@@ -104,14 +105,14 @@ class _Module:
         return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:
-        """Return the lines of what the module defines, before the functions for callers."""
+        """Return the lines of the private definitions of the module."""
         definitions = [self.printer.record(r) for r in self.unit.records if not r.public]
         definitions += [[text] for text in self.needed.texts]
         definitions += [self.printer.table(table) for table in self.unit.tables]
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters with the scene's values, where these are known."""
+        """Return the run-time parameters, with the scene's values as defaults if all are known."""
         known = self.recipe.defaults
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
@@ -160,7 +161,7 @@ class _Module:
     def adaptive(
         self, inputs: list[str], given: list[str], optional: list[str], counted: list[str]
     ) -> dict[str, object] | None:
-        """Return what the template needs of a run that chooses its steps."""
+        """Return the variables of the template for an adaptive run."""
         if not self.interface.adaptive:
             return None
         arguments = ["state", "now", "end", "size", "rtol", "atol", "limit", *self.parameters, *inputs]
@@ -173,13 +174,13 @@ class _Module:
         }
 
     def jacobian(self, time: list[str], inputs: list[str], given: list[str]) -> dict[str, object] | None:
-        """Return what the template needs of the derivative of a step."""
+        """Return the variables of the template for the derivative of a step."""
         if not self.interface.variations:
             return None
         return {
             "dim": self.interface.variations,
             "arguments": ", ".join(["state", *time, "h", *inputs, *given]),
-            "passed": ", ".join(["state", *time, "h", *self.parameters, *inputs, "found"]),
+            "passed": ", ".join(["state", *time, "h", *self.parameters, *inputs, "matrix"]),
         }
 
 

@@ -1,7 +1,7 @@
 """Terms in Python: names, literals, entries of lists, attributes, calls of the standard library.
 
-In single precision constants are NumPy's float32, each made once and named: a product of one with a float of
-Python may be a double.
+In single precision constants are named float32 objects of NumPy, each created once: the product of a float32
+and a Python float may be a double.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from codegen.ir.number import Number
-from codegen.printers.expression import Style, spell
+from codegen.printers.expression import Style, render
 from codegen.printers.infix import CHOICE, COMPARED, NOT, OR, SUM, Infix, Text, closed, joined
 from codegen.run.identifiers import Identifiers
 from codegen.run.precision import DOUBLE, Precision
@@ -17,7 +17,7 @@ from codegen.run.terms import Kind, Term
 
 
 class Constants:
-    """How a module spells constants; in single precision ``digits`` are those of its named ones."""
+    """The constants of a module; in single precision ``digits`` maps their names to their digits."""
 
     def __init__(self, precision: Precision, taken: frozenset[str]) -> None:
         self.precision, self.taken = precision, taken
@@ -29,13 +29,14 @@ class Constants:
         return self.text(self.precision.round(value))
 
     def text(self, x: float) -> str:
-        """Return how a number of the format is spelled, with its sign."""
+        """Return the text of a number of the format, with its sign."""
         text = self.precision.text(x)
         if self.precision is DOUBLE:
             return text
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
+            # A scene may use C1 as a name.
             while f"C{place}" in self.taken or f"C{place}" in self.digits:
                 place += 1
             self._names[size] = f"C{place}"
@@ -44,7 +45,7 @@ class Constants:
 
 
 class Terms(Infix):
-    """Spells the terms of one function."""
+    """Writes the terms of one function in Python."""
 
     words: ClassVar[dict[str, str]] = {}
 
@@ -67,7 +68,7 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
-                return Text(spell(term.value, dict(self.identifiers.spelled), self.constants.style), SUM)
+                return Text(render(term.value, dict(self.identifiers.by_name), self.constants.style), SUM)
             case "status":
                 return Text((term.text,))
             case "item":
@@ -91,7 +92,7 @@ class Terms(Infix):
                 return self.argument(term)
 
     def argument(self, term: Term) -> Text:
-        """Return what stands for an argument that is there, is not there, or is a function."""
+        """Return the text of a test or value for an optional argument, of a signal, or of infinity."""
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
@@ -114,7 +115,7 @@ class Terms(Infix):
         return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
-        """Return one of two values."""
+        """Return a conditional expression."""
         first = joined(self.text(yes).within(OR))
         condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
@@ -124,6 +125,7 @@ class Terms(Infix):
         given = [self.line(x) for x in term.args]
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
+        # `0.0 ** -1` raises in Python; the helper returns an infinity as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments

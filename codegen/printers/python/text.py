@@ -1,4 +1,4 @@
-"""Text of Python: lines that are broken where they are too long."""
+"""Text of Python: long lines are broken."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ WIDTH = 88
 
 
 def quoted(text: str) -> str:
-    """Spell a string with double quotes."""
+    """Return a string literal with double quotes."""
     return json.dumps(text, ensure_ascii=False)
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
-    """Return start, terms with commas and end on one line, or with as many terms a line as there is room for.
+    """Return start, terms with commas and end on one line, or on several with as many terms as fit on each.
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
@@ -27,7 +27,7 @@ def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
 
 
 def packed(segments: Sequence[str], depth: int) -> list[str]:
-    """Return lines of as many segments as there is room for."""
+    """Return lines, each with as many segments as fit."""
     space = "    " * depth
     lines = [f"{space}{segments[0]}"]
     for segment in segments[1:]:
@@ -39,7 +39,7 @@ def packed(segments: Sequence[str], depth: int) -> list[str]:
 
 
 def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
-    """Return start and segments on one line, or in parentheses on several where that is too long.
+    """Return start and segments on one line, or in parentheses on several if one line is too long.
 
     >>> indented("x = ", ("a", "+ b"), 1)
     ['    x = a + b']
@@ -61,7 +61,7 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
 
 
 def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
-    """Return the lines that give the entries of a list their names."""
+    """Return the lines that unpack a list into names."""
     lines = listed("", names, depth)
     if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
         return [f"{lines[0]} = {value}"]

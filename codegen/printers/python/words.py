@@ -1,4 +1,4 @@
-"""Words that no variable of emitted Python may take."""
+"""Reserved words of emitted Python."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _WORDS = """
 """
 
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
-"""Keywords, and what a module imports or defines, which no variable may hide."""
+"""Keywords, and names that a module imports or defines."""
 
 _PUBLIC = """
     state steps stride statistics counted rows completed status rtol atol limit end now size accepted rejected
-    found inputs failure given
+    matrix inputs failure given
 """
 
 PUBLIC = frozenset(_PUBLIC.split())
-"""Names that the functions for callers use, which parameters may not take."""
+"""Local names of the public functions, excluded for parameters."""

@@ -40,20 +40,20 @@ def compiled(kind, place, method):
 @pytest.mark.parametrize(("kind", "place", "method", "order"), ALL)
 def test_the_order_is_exact(kind, place, method, order):
     made = compiled(kind, place, method)
-    assert valuation(local_error(made.program, made.view, QQ, order + 1)) == order + 1
+    assert valuation(local_error(made.program, made.problem, QQ, order + 1)) == order + 1
 
 
 @pytest.mark.parametrize(("kind", "place", "method", "order"), ALL)
 def test_emitted_steps_are_those_of_the_interpreter(kind, place, method, order):
     made = compiled(kind, place, method)
     allowed = 64 if emit_compiled(made, "c").manifest["interface"]["blocks"] else 16
-    state = list(made.view.initial(FloatDomain(0.0)))
+    state = list(made.problem.initial(FloatDomain(0.0)))
     values, first = {"t": 0.0}, 0
-    for block in made.view.state:
+    for block in made.problem.state:
         values[block.name] = tuple(state[first : first + len(block.symbols)])
         first += len(block.symbols)
-    after = interpret(made.lowered, made.view, FloatDomain(1 / 64), values)
-    expected = [x for block in made.view.state for x in after[block.name]]
+    after = interpret(made.lowered, made.problem, FloatDomain(1 / 64), values)
+    expected = [x for block in made.problem.state for x in after[block.name]]
     for target in ("c", "python"):
         found = load(emit_compiled(made, target)).step(state, 1 / 64)
         assert ulps(found, expected) <= allowed

@@ -226,7 +226,7 @@ def test_emit_writes_both_targets(tmp_path):
 def test_the_order_of_the_program_is_exact(method):
     made = compile_method("toy_field", method)
     order = certified_order(made.method, made.scene).order
-    assert valuation(local_error(made.program, made.view, QQ, order + 1)) == order + 1
+    assert valuation(local_error(made.program, made.problem, QQ, order + 1)) == order + 1
 
 
 def test_both_targets_take_the_same_step_with_the_jacobian():

@@ -101,9 +101,9 @@ def test_assignments_stand_in_the_order_in_which_they_can_be_ready():
 def test_the_fast_top_spares_a_column_that_gravity_does_not_read():
     """Of the first column and the third one is turned: the second is read by every kick."""
     made = compile_method("fast_heavy_top", "splitting:blanes_moan_rkn4")
-    core = part(made.program, made.view).core
+    core = part(made.program, made.problem).core
     times = {
-        spare: time(to_kernel(core, replace(made.view, group=SO3(spare)), chains=SHORTENED))
+        spare: time(to_kernel(core, replace(made.problem, group=SO3(spare)), chains=SHORTENED))
         for spare in (None, 0, 1, 2)
     }
     assert time(made.kernel) == min(times.values()) == times[0] == times[2]
@@ -113,7 +113,7 @@ def test_the_fast_top_spares_a_column_that_gravity_does_not_read():
 
 def test_methods_without_flows_are_compiled_as_they_were():
     made = compile_method(scenes.load("dipole"), "vcg:midpoint")
-    kernels = fastest(made.program, made.view), to_kernel(made.program, made.view)
+    kernels = fastest(made.program, made.problem), to_kernel(made.program, made.problem)
     assert str(kernels[0]) == str(kernels[1])
 
 
@@ -122,7 +122,7 @@ def test_a_column_is_the_cross_product_of_the_others(spare):
     from codegen.ir.domain import PreciseDomain
 
     d = PreciseDomain(0, 40)
-    view = compile_method(top_scene(diag(2, 3, 2)), "splitting:strang").view
+    view = compile_method(top_scene(diag(2, 3, 2)), "splitting:strang").problem
     g, x = view.initial(d)[:9], tuple(d.rational(k, 7) for k in (1, -2, 3))
     found, expected = SO3(spare).expmul(d, x, g), SO3().expmul(d, x, g)
     assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-38

@@ -38,7 +38,7 @@ def test_steps_in_parts_are_the_steps_themselves(name):
     """With forty digits, over three steps; what is joined and what is put off is as the table says."""
     scene, method, joined, late = CASES[name]
     made = compiled(scene, method)
-    view, parted = made.view, part(made.program, made.view)
+    view, parted = made.problem, part(made.program, made.problem)
     assert [a.operation.part for a in parted.core.assigns() if isinstance(a.operation, FlowFor)] == joined
     for program, parts in ((parted.begin, joined), (parted.finish, late)):
         found = (
@@ -143,7 +143,7 @@ def test_a_run_that_fails_leaves_the_last_good_state_with_its_end_made(target):
 
 def test_a_step_makes_one_kick_less_and_no_spin():
     made = compiled("fast_heavy_top", "splitting:blanes_moan_rkn4")
-    parted = part(made.program, made.view)
+    parted = part(made.program, made.problem)
     assert made.lowered.counts() == {"flow": 19}
     assert made.program.counts() == {"flow": 14}
     assert parted.core.counts() == {"flow": 11, "flow_for": 1}
@@ -152,5 +152,5 @@ def test_a_step_makes_one_kick_less_and_no_spin():
 def test_methods_that_solve_or_exponentiate_put_nothing_off():
     for method in ("vcg:midpoint", "cg:cg3"):
         made = compiled("dipole", method)
-        assert part(made.program, made.view) is None
+        assert part(made.program, made.problem) is None
         assert made.kernel.deferred is None

@@ -202,7 +202,7 @@ def test_without_the_part_along_the_step_the_energy_is_kept_to_the_quadrature_on
         return assign.args[:1] if isinstance(assign.operation, Secant) else rewriter.emit(assign)
 
     program = rewrite(made.program, rule)
-    broken = replace(made, program=program, kernel=to_kernel(program, made.view))
+    broken = replace(made, program=program, kernel=to_kernel(program, made.problem))
     assert drift(made.scene, emit_compiled(broken, "c"), 0.01) > {"midpoint": 1e-7, "gauss2": 1e-12}[tableau]
 
 

@@ -115,7 +115,7 @@ def test_one_function_serves_all_parts_of_a_step(driven):
     state = start
     for t, h in ((0.5, 0.1), (0.6, 0.2), (0.8, 0.1), (0.9, 0.2)):
         state = base.run(state, h, 1, t=t, **signals)
-    for target, loop in (("c", "sweep = 1"), ("python", "for sweep in")):
+    for target, loop in (("c", "sweep++;"), ("python", "sweep += 1")):
         emission = emit_compiled(made, target)
         assert "".join(emission.files.values()).count(loop) == 1
         whole = load(emission).run(start, 0.3, 2, t=0.5, **signals)

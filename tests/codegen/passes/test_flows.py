@@ -51,10 +51,10 @@ def test_the_spin_of_a_top_without_symmetry_is_not():
 def test_neighbours_of_one_part_are_one_and_nothing_is_left_of_flows_that_cancel():
     view, program, _ = spelled(top_scene(diag(2, 3, 2)), Method("splitting", shipped("strang")))
     letters = flows.word(program)
-    doubled = flows.spelled(program, [letters[0], *letters])
+    doubled = flows.with_flows(program, [letters[0], *letters])
     assert [d for p, d in parts(flows.run(doubled, view)) if p == "V"] == [1.0, 0.5]
     back = replace(letters[0], duration=Coefficient(-letters[0].duration.value, 1))
-    undone = flows.spelled(program, [back, *letters])
+    undone = flows.with_flows(program, [back, *letters])
     assert [p for p, _ in parts(flows.run(undone, view))] == ["T.mean", "T.turn", "V"]
 
 
@@ -63,7 +63,7 @@ def test_kicks_at_two_times_are_two():
     view, program, _ = spelled(scenes.load("linear_oscillator"), Method("splitting", shipped("strang")))
     letters = [letter for letter in flows.word(program) if letter.part == "V"]
     assert len({letter.time for letter in letters}) == 2
-    assert len(flows.word(flows.run(flows.spelled(program, letters), view))) == 2
+    assert len(flows.word(flows.run(flows.with_flows(program, letters), view))) == 2
 
 
 def test_the_pass_is_undone_where_it_changes_what_is_computed(monkeypatch):

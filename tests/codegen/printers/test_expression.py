@@ -1,4 +1,4 @@
-"""Spelling of expressions: few parentheses, and the value that the expression has."""
+"""Text of expressions: few parentheses, and the value that the expression has."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from codegen.ir.expr import Expr, Space, evaluate
 from codegen.ir.kernel import Field, Kernel
 from codegen.ir.number import Number
 from codegen.kernel.schedule import Assignment, arrange
-from codegen.printers.expression import number, spell
+from codegen.printers.expression import number, render
 from orderconds.errors import InputError
 
 S = Space()
@@ -52,7 +52,7 @@ class Doubles:
     ids=str,
 )
 def test_parentheses_stand_only_where_they_are_needed(expression, text):
-    assert " ".join(spell(expression, {})) == text
+    assert " ".join(render(expression, {})) == text
 
 
 @pytest.mark.parametrize("value", [(1, 3), (2, 1), (1, 10), (10**25, 3), (1, 3 * 10**25), (-7, 5)])
@@ -97,6 +97,6 @@ def test_the_text_has_the_value_of_the_expression_to_the_last_bit(expression):
         return
     for statement in arrangement.statements:
         assert isinstance(statement, Assignment)
-        known[statement.name] = eval(" ".join(spell(statement.value, {})), {}, known)
-    found = eval(" ".join(spell(arrangement.outputs[0], {})), {}, known)
+        known[statement.name] = eval(" ".join(render(statement.value, {})), {}, known)
+    found = eval(" ".join(render(arrangement.outputs[0], {})), {}, known)
     assert found == expected or (math.isnan(found) and math.isnan(expected))

@@ -37,7 +37,7 @@ def test_the_matrix_is_the_residuals_derivative_up_to_h(compiled):
     kernel = compiled.kernel
     (loop,) = kernel.loops
     h = 2.0**-20
-    state = [float(x) for x in compiled.view.initial(FloatDomain(0.0))]
+    state = [float(x) for x in compiled.problem.initial(FloatDomain(0.0))]
     known = dict(zip((s for f in kernel.state for s in f.symbols), state, strict=True)) | {"h": h}
     domain = FloatDomain(h)
     for statement in kernel.body:
@@ -73,7 +73,7 @@ def test_the_matrix_is_the_residuals_derivative_up_to_h(compiled):
 
 def test_the_momentum_about_the_vertical_is_kept_to_rounding(compiled):
     module = load(emit("dipole", compiled.method.label))
-    state = module.run(list(compiled.view.initial(_floats())), 0.01, 2000)
+    state = module.run(list(compiled.problem.initial(_floats())), 0.01, 2000)
     assert abs(float(state[-1])) < 2e-14
 
 

@@ -92,7 +92,7 @@ def test_no_kernel_is_built_beside_a_cheap_fixed_point_of_many_unknowns(monkeypa
 @pytest.mark.parametrize("method", ["vcg:midpoint", "vcf:cf4", "vrkmk(2):gauss2", "ambient:gauss2"])
 def test_the_chosen_solver_is_the_robust_one_of_least_predicted_time(method):
     sides = {s: compiled("dipole", method, s) for s in (FIXED_POINT, NEWTON, CHORD)}
-    tried = {s: Candidate(made.kernel, made.view, start_of(made.scene)) for s, made in sides.items()}
+    tried = {s: Candidate(made.kernel, made.problem, start_of(made.scene)) for s, made in sides.items()}
     (choice,) = compiled("dipole", method).solvers
     assert choice.solver == min((s for s in tried if tried[s].robust), key=lambda s: tried[s].step())
 

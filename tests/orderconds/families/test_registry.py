@@ -115,7 +115,7 @@ def test_a_complete_file_claims_it() -> None:
 
 
 def test_a_search_finds_its_methods_and_claims_the_order() -> None:
-    found = solve(Order("quadrature", 4, Spec(stages=2, symmetric=True))).found
+    found = solve(Order("quadrature", 4, Spec(stages=2, symmetric=True))).solution
     assert found is not None
     assert found.tableau.claims.order("quadrature") == 4
     (order,) = check(found.tableau, family="quadrature").orders

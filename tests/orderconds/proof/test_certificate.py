@@ -88,7 +88,7 @@ REFUSED: dict[str, tuple[str, str]] = {
     ),
     "not symmetric": (
         text("yoshida6").replace('"g3", "g2", "g1"]', '"g3", "g1", "g2"]'),
-        "not symmetric by its spelling",
+        "not symmetric for all values of its decimals",
     ),
     "odd order of a symmetric method": (
         text("yoshida6").replace("order = 6\nreduction", "order = 5\nreduction"),

@@ -17,7 +17,7 @@ from orderconds.tableau.file import text_of
 
 def counts(family: str, order: int, spec: Spec, structure: str) -> list[int]:
     found = ansatz(family, spec, structure)
-    conditions = independent_conditions(families.get(found.family), found.spelled(), order)
+    conditions = independent_conditions(families.get(found.family), found.symbolic(), order)
     return [sum(c.order == n for c in conditions) for n in range(1, order + 1)]
 
 
@@ -30,7 +30,7 @@ def test_compositions_of_midpoints_have_one_condition_at_every_odd_order_first()
     # Composed midpoints under vcg: 1, 0, 1, 1 conditions; sum b = 1 holds by the spelling.
     text = 'name = "m"\nfamily = "rk"\nA = [["b1/2"], ["b1", "b2/2"], ["b1", "b2", "b3/2"]]\n'
     text += 'b = ["b1", "b2", "b3"]\n[numbers]\nb1 = "0.31~"\nb2 = "0.47~"\nb3 = "1 - b1 - b2"\n'
-    spelled = Tableau.loads(text + '[proof]\nconditions = "vcg"\norder = 4').proof.spelled
+    spelled = Tableau.loads(text + '[proof]\nconditions = "vcg"\norder = 4').proof.symbolic
     found = independent_conditions(families.get("vcg"), spelled, 4)
     assert [c.order for c in found] == [3, 4]
 

@@ -7,7 +7,7 @@ from flint import arb
 
 from orderconds.ring import precision as precision_module
 from orderconds.ring.precision import precision
-from orderconds.solve.closed_form import minimal_polynomial, spellings
+from orderconds.solve.closed_form import closed_forms, minimal_polynomial
 from orderconds.tableau import Tableau
 
 BITS = 800
@@ -17,7 +17,7 @@ def test_numbers_of_one_field_are_spelled_by_one_root() -> None:
     with precision(BITS):
         r = arb(2).root(3)
         numbers = {"x": r / 3, "y": 1 + r * r / 5, "z": arb(7) / 3}
-        found = spellings(numbers, BITS)
+        found = closed_forms(numbers, BITS)
     assert found is not None
     text = 'name = "m"\nfamily = "rk"\nA = [["{x}"]]\nb = ["{y} - ({z})"]\n'.format(
         **{name: x.text for name, x in found.items()}
@@ -32,7 +32,7 @@ def test_numbers_of_one_field_are_spelled_by_one_root() -> None:
 def test_expected_square_roots_shorten_what_is_spelled() -> None:
     with precision(BITS):
         q, r = arb(2).root(3), arb(15).sqrt()
-        found = spellings({"x": 1 + q, "y": r * q * q / 7 - q, "z": r / 2}, BITS, {"sqrt(15)": r})
+        found = closed_forms({"x": 1 + q, "y": r * q * q / 7 - q, "z": r / 2}, BITS, {"sqrt(15)": r})
     assert found is not None
     assert found["z"].text == "1/2*sqrt(15)"
     assert found["x"].text == "r"
@@ -41,7 +41,7 @@ def test_expected_square_roots_shorten_what_is_spelled() -> None:
 
 def test_a_number_of_another_field_is_not_forced_into_one() -> None:
     with precision(BITS):
-        assert spellings({"x": arb(2).sqrt(), "y": arb(3).sqrt()}, BITS) is None
+        assert closed_forms({"x": arb(2).sqrt(), "y": arb(3).sqrt()}, BITS) is None
 
 
 @pytest.mark.parametrize("make", [arb.pi, lambda: arb(3).exp(), lambda: arb(2).root(3) + arb(3).root(5)])
@@ -52,5 +52,5 @@ def test_what_is_no_number_of_small_degree_is_not_recognised(make) -> None:
 
 def test_precision_is_what_it_was() -> None:
     before = precision_module.working_bits()
-    spellings({"x": arb(1) / 4}, 300)
+    closed_forms({"x": arb(1) / 4}, 300)
     assert precision_module.working_bits() == before

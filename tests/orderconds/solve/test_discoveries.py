@@ -78,7 +78,7 @@ def test_the_three_stage_method_has_the_weights_and_sums_of_gauss() -> None:
 
 @pytest.mark.slow
 def test_five_stages_have_half_of_the_error_of_suzukis_composition() -> None:
-    found = solve(Order("vcg", 4, Spec(5), minimised=True, starts=128)).found
+    found = solve(Order("vcg", 4, Spec(5), minimised=True, starts=128)).solution
     assert found is not None
     assert found.certificate == "ball"
     suzuki = principal_error(read("suzuki4"), "vcg", 5)

@@ -31,7 +31,7 @@ def test_batches_survive_being_written() -> None:
 
 
 def test_a_killed_search_resumed_gives_the_same_file(tmp_path: Path) -> None:
-    whole = solve(ORDER).found
+    whole = solve(ORDER).solution
     assert whole is not None
     path = tmp_path / "checkpoint"
     stopped = batches(SEARCH, 4, Checkpoint(path, SEARCH))
@@ -40,7 +40,7 @@ def test_a_killed_search_resumed_gives_the_same_file(tmp_path: Path) -> None:
     assert len(record["batches"]) == 2
     resumed = solve(
         Order(ORDER.family, 3, ORDER.spec, seed=3, minimised=True, starts=256, checkpoint=path)
-    ).found
+    ).solution
     assert resumed is not None
     assert resumed.text == whole.text
     assert not path.exists()
@@ -57,8 +57,8 @@ def test_the_checkpoint_is_used_and_not_computed_again(tmp_path: Path) -> None:
 
 
 def test_two_processes_give_the_same_file_as_one() -> None:
-    alone = solve(ORDER).found
-    together = solve(Order("vcg", 3, Spec(3), seed=3, minimised=True, starts=256, processes=2)).found
+    alone = solve(ORDER).solution
+    together = solve(Order("vcg", 3, Spec(3), seed=3, minimised=True, starts=256, processes=2)).solution
     assert alone is not None
     assert together is not None
     assert together.text == alone.text
@@ -115,7 +115,7 @@ def test_a_scheduler_that_dies_is_one_error_and_the_checkpoint_stays(tmp_path: P
             scheduler.kill()
             _, err = search.communicate(timeout=60)
     assert search.returncode == 2
-    assert err.startswith(f"orderconds: --dask {address}: the scheduler went away; ")
+    assert err.startswith(f"orderconds: --dask {address}: the scheduler no longer answers; ")
     assert err.count("\n") == 1
     assert checkpoint.exists()
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -11,8 +12,9 @@ from hypothesis import strategies as st
 from orderconds.errors import TableauError
 from orderconds.ring import QQ
 from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, dumps
+from orderconds.tableau.record import from_data
 from orderconds.tableau.toml_text import toml_text
-from orderconds.tableau.write import written_out
+from orderconds.tableau.write import without_names
 
 HEAD = 'name = "t"\nfamily = "rk"\n'
 EULER = HEAD + 'A = [[]]\nb = ["1"]\n'
@@ -72,7 +74,7 @@ def test_a_written_tableau_reads_back_the_same(text: str) -> None:
         return
     assert Tableau.loads(dumps(tableau)) == tableau
     assert dumps(Tableau.loads(dumps(tableau))) == dumps(tableau)
-    full = Tableau.loads(toml_text(written_out(tableau)))
+    full = Tableau.loads(toml_text(without_names(tableau)))
     assert (full.method, full.embedded) == (tableau.method, tableau.embedded)
 
 
@@ -310,6 +312,12 @@ def test_a_file_of_more_than_a_million_bytes_is_not_parsed(tmp_path: Path) -> No
     large.write_text(EULER + "#" * 1_000_000)
     with pytest.raises(TableauError, match="a file of more than 1000000 bytes"):
         Tableau.load(large)
+
+
+def test_the_message_on_numpy_arrays_says_what_to_pass() -> None:
+    data = {"name": "t", "family": "rk", "A": np.zeros((1, 1)), "b": ["1"]}
+    with pytest.raises(TableauError, match=r"NumPy arrays are not accepted here.*pass nested lists"):
+        from_data(data)
 
 
 @given(text=st.text(max_size=60))

@@ -153,7 +153,7 @@ MALFORMED = {
         "step[1][2]: a value of type float",
         "quote",
     ),
-    "rkn of no part": (SPLITTING + 'rkn = "W"\nstep = [["T", 1]]\n', "rkn = 'W'", "the name of the one"),
+    "rkn of no part": (SPLITTING + 'rkn = "W"\nstep = [["T", 1]]\n', "rkn = 'W'", "the name of the part V"),
     "unknown key of a splitting": (
         SPLITTING + 'steps = []\nstep = [["T", 1]]\n',
         "unknown key 'steps'",

@@ -34,7 +34,7 @@ def test_old_values_with_their_increments_and_carries_are_the_new_ones(scene, me
     from codegen.kernel.translate import to_kernel
 
     compiled = compile_method(scene, method)
-    plain, carried = to_kernel(compiled.program, compiled.view), compensated(compiled).kernel
+    plain, carried = to_kernel(compiled.program, compiled.problem), compensated(compiled).kernel
     domain, draw = PreciseDomain(0, 60), random.Random(3)
     number = domain.context.mpf
     symbols = [s for field in plain.state for s in field.symbols]
