@@ -3,7 +3,7 @@
     python benchmarks/solver_choice.py [--rounds N] [--only SCENE ...] [--fit]
 
 For each scene of the gallery and each implicit method that applies, C is emitted with a fixed point, Newton's
-method and chords (and as ``--solver auto`` makes it, where it mixes them). The programs make the same steps,
+method and simplified Newton (and as ``--solver auto`` makes it, where it mixes them). The programs make the same steps,
 those of the usage example, from the initial state; they run in turn, in rounds of changing order, and CPU
 time is taken inside the process. Figures are medians over the rounds. ``--fit`` prints the weights of
 ``codegen/run/step_cost.py`` that fit these figures best; it needs scipy. Nothing is written when only some
@@ -24,7 +24,7 @@ from pathlib import Path
 from codegen import scenes
 from codegen.build import compile_files, find_compiler
 from codegen.emitter import Compiled, compile_method, emit_compiled, start_of
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.run.solver_choice import AUTO, SWEEPS, Candidate
 from codegen.run.step_cost import Amounts
 from orderconds.errors import InputError
@@ -43,7 +43,7 @@ METHODS = (
     "discrete_gradient:midpoint",
     "slgi:midpoint",
 )
-SOLVERS = {FIXED_POINT: "fixed point", NEWTON: "Newton", CHORD: "chord"}
+SOLVERS = {FIXED_POINT: "fixed point", NEWTON: "Newton", SIMPLIFIED_NEWTON: "simplified Newton"}
 ROUNDS, STEPS, SECONDS = 7, 1000, 0.01
 """Rounds, steps of a run, and how long the runs of a round take together at least."""
 ASKED = 1.1
@@ -301,7 +301,7 @@ HEAD = f"""
 `solver_choice.py` times emitted C of the implicit methods on the scenes of the gallery, with each solver:
 {STEPS} steps of the usage example's size from the initial state.
 
-- *fixed point*, *Newton*, *chord*: nanoseconds a step, predicted by `codegen/run/step_cost.py` from a trial
+- *fixed point*, *Newton*, *simplified Newton*: nanoseconds a step, predicted by `codegen/run/step_cost.py` from a trial
   of 20 steps, and measured (median of CPU time). A prediction is missing where the trial does not converge, a
   measurement where a step fails.
 - *chosen*: by `--solver auto`; *(robust)* where the fastest solver was passed over because it does not

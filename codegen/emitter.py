@@ -168,7 +168,7 @@ def emit(
     ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
     ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that become run-time
     inputs, ``frame`` is the frame of momenta, ``space`` or ``body``; ``adaptive`` adds a run with step
-    control, ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``chord``,
+    control, ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``, ``simplified-newton``,
     ``fixed-point`` or ``auto``, the cheapest. Errors as :func:`compile_method`, UnknownName for a target,
     InputError for a prefix that C cannot take.
     """

@@ -38,7 +38,9 @@ if TYPE_CHECKING:
 )
 @click.option("--precision", default="double", help="double (the default) or single.")
 @click.option(
-    "--solver", default="auto", help="newton, chord, fixed-point or auto (the default: the cheapest)."
+    "--solver",
+    default="auto",
+    help="newton, simplified-newton, fixed-point or auto (the default: the cheapest).",
 )
 @click.option(
     "--explain", is_flag=True, help="Print the program after each pass, and the parts that were left out."

@@ -28,6 +28,7 @@ class Factor:
 
     def scaled(self, by: Fraction) -> Factor:
         """Return the function of t/by: phi(scale by t)^power."""
+        # phi(s t) with t = by t' is phi(s by t'): only the scale changes.
         return Factor(self.function, self.scale * by, self.order, self.power)
 
     def inverse(self) -> Factor:

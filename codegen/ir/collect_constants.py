@@ -47,6 +47,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
 
 def _bare(node: Expr) -> Expr:
     """Return a node without its sign and its numeric factors."""
+    # A constant is always the first factor of a product (Space.mul).
     while node.op == "neg" or (node.op == "mul" and node.args[0].op == "const"):
         node = node.args[-1]
     return node
@@ -109,12 +110,14 @@ class _Gathering:
         # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
+                # Each node once: the combination of a shared node serves all its readers.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the expression of a node's combination; an inverse takes its first numerator."""
+        """Return the expression of a node's combination; an inverse gets its first reader's numerator."""
         if node.id not in self.written:
+            # Written at the first reading and then reused, so sharing survives.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
@@ -152,6 +155,7 @@ class _Gathering:
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
+            # (c x)(d y) = (c d)(x y): both numbers leave the product and join the reader's.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}

@@ -20,6 +20,7 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     >>> gradient(x * x * x, ["x", "y"])[1]
     0
     """
+    # The adjoint of a node is the derivative of root by the node; that of root itself is 1.
     space = root.space
     bars: dict[int, Expr] = {root.id: space.one}
     # In this order all users of a node have added to its adjoint before the node passes it on.
@@ -67,12 +68,14 @@ def _derivatives(node: Expr) -> list[Expr]:
     half = space.const(Number.rational(1, 2))
     match node.payload:
         case "sqrt":
+            # 1/(2 sqrt x) with the root that is computed already.
             return [half * (space.one / node)]
         case "sin":
             return [space.call("cos", x)]
         case "cos":
             return [-space.call("sin", x)]
         case "exp":
+            # exp is its own derivative: no second call.
             return [node]
         case "log":
             return [space.one / x]

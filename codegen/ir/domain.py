@@ -140,8 +140,10 @@ class FloatDomain:
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last one."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
+        # Comparisons with a NaN are false, so without this test the iteration would go on to its limit.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration left the finite numbers")
+        # Relative to the largest unknown: small ones are no more accurate than the sums that they enter.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         # With the rate change/before, the remaining error is about change^2/before: below half a unit in the
@@ -239,6 +241,7 @@ class SeriesDomain:
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
+        # Coefficients are exact, so a local error that vanishes to some order does so provably.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
@@ -281,6 +284,7 @@ class SeriesDomain:
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return a/b where the valuation of a is at least that of b; 0 where b vanishes."""
+        # The quotient of two series that both vanish at h = 0 has a limit there.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
@@ -295,6 +299,7 @@ class SeriesDomain:
         total, term, j = first, first, 0
         while True:
             j += 1
+            # The ratio of neighbouring factorials, so that no factorial is divided by another.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
             # z has no constant term, so each term gains a power of h and one is beyond the truncation.
@@ -314,6 +319,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
+        # By node number: hash-consing makes equal times one node.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

@@ -103,6 +103,7 @@ class Space:
     """
 
     def __init__(self) -> None:
+        # The table holds every node alive, so numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
@@ -185,6 +186,7 @@ class Space:
         """Return a b; a constant factor comes first."""
         if b.op == "const":
             a, b = b, a
+        # As in exact arithmetic: x is taken to be finite.
         if a is self.zero or b is self.zero:
             return self.zero
         if a.op == "const":
@@ -253,6 +255,7 @@ class Space:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return function(args) for a function of :data:`FUNCTIONS`."""
         if function not in FUNCTIONS:
+            # An unknown name would fail in a printer only, far from its cause.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
@@ -276,6 +279,7 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
             node = waiting.pop()
             if node is None:  # a marker: all arguments of the node below it were yielded
                 user = waiting.pop()
+                # A marker lies directly above its node on the stack.
                 assert user is not None
                 yield user
             elif node.id not in seen:
@@ -294,9 +298,11 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
     With an expression domain this is substitution.
     """
+    # Read twice below: an iterator would be empty the second time.
     roots = list(roots)
     result: dict[int, Scalar] = {}
     for node in walk(roots):
+        # Arguments come first in walk, so their values exist.
         args = [result[a.id] for a in node.args]
         match node.op:
             case "const":

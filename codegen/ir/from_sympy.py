@@ -56,6 +56,7 @@ class _Reader:
 
         if isinstance(e, sympy.Symbol):
             return self.space.sym(e.name)
+        # Before Float: a rational number stays exact, a float is refused.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
         # Sums are read as binary operations in sorted order:
@@ -85,6 +86,7 @@ class _Reader:
                 below.append(self._power(self.node(a.base), -a.exp, a))
             else:
                 above.append(self.node(a))
+        # Numerator and divisor are separate products: x/(y z) has one division, x y^-1 z^-1 has two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -108,6 +110,7 @@ def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
+    # From the first node and not from 0 or 1: no node is created that simplification removes.
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

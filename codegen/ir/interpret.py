@@ -89,6 +89,7 @@ def interpret(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
+    # The operation of programs and not a formula of its own: all groups have it.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -101,6 +102,8 @@ def outward(
     It is mu plus the change between the ends: a q that is not quite orthogonal by rounding then rotates the
     change alone, and not mu.
     """
+    # Both ends are converted alike, so that roundings of a q
+    # that is not quite orthogonal cancel in the difference.
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
@@ -136,6 +139,7 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
+        # Passes remove unknowns: an expected value is used if its unknown still exists.
         env[unknown] = expected.get(unknown, env[start])
     size: Scalar = None
     for _ in range(limit):
@@ -172,6 +176,7 @@ def _correct(
     ``rounded`` rounds the images.
     """
     kinds = [u.kind for u in block.unknowns]
+    # All unknowns of a block form one vector, because their equations depend on one another.
     widths = [len(flatten(s.kind, env[s])) for s in block.starts]
 
     def images(numbers: list[Scalar]) -> list[Scalar]:
@@ -186,6 +191,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
+    # sharp: the corrections have converged, and one more was made.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -197,9 +203,11 @@ def _correct(
             # Column j of 1 - g'(u), the derivative of u - g(u); the correction is its inverse times g(u) - u.
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
+        # (1 - g') d = g(u) - u.
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:  # each correction squares the error
+            # The increment is the root of the precision, and Newton's method squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
@@ -222,6 +230,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
         if not rows[k][k]:
             raise NotConverged("Newton's matrix is singular")
         for i in range(k + 1, n):
+            # Entries below the pivot are not read again, so they need not become zero exactly.
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
     solution: list[Scalar] = []

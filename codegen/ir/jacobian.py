@@ -26,6 +26,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
+    # Columns are found by number, since a variable that no root reads has no vertex.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
@@ -33,6 +34,7 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     matrix = [[space.zero] * len(symbols) for _ in roots]
     for i in range(len(roots)):
         for source, factor in graph.before[-1 - i].items():
+            # Only variables are left before a result: all inner vertices are gone.
             matrix[i][columns[source]] = factor
     return tuple(tuple(row) for row in matrix)
 
@@ -87,6 +89,7 @@ class _Graph:
         # vertex is the first, which is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
+        # A vertex may have several entries in the queue; the first that is valid counts.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
@@ -107,6 +110,7 @@ class _Graph:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
+        # The vertex leaves both tables first: products below must not find edges to it.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]

@@ -25,7 +25,7 @@ ELAPSED = "elapsed.h"
 LONGEST = 256
 """The most steps for which a flow is deferred: its angles stay moderate."""
 
-FIXED_POINT, NEWTON, CHORD = "fixed-point", "newton", "chord"
+FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The methods that a block may be solved by."""
 
 SLOWEST = 2.0**-12
@@ -104,6 +104,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
+    # 512 roundings: changes at rounding level grow with the number of terms in a sweep.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -114,7 +115,7 @@ class Loop:
         """The name of the method."""
         if self.newton is None:
             return FIXED_POINT
-        return CHORD if self.newton.leading else NEWTON
+        return SIMPLIFIED_NEWTON if self.newton.leading else NEWTON
 
     @property
     def close(self) -> float:
@@ -127,7 +128,7 @@ class Loop:
         # unknowns: their error is the rate times the last change.
         if self.read_anew and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
-        first_order = self.solver == CHORD or (self.newton is not None and self.newton.residuals)
+        first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16
 
 
@@ -154,9 +155,9 @@ class Start:
     # A guess that misses by half of the change is hardly better than u1, the guess of degree 0.
     ROUGH: ClassVar[float] = 0.5
     # A limit that is hardly ever reached: before the first success each try halves the step, so 100 of them
-    # reach 2^-100 h. After it, each failure takes the root of the factor: eight in a row end the search.
+    # reach 2^-100 h. After it, each failure takes the root of the factor: nine in a row end the search.
     TRIES: ClassVar[int] = 100
-    # The factor starts at 2, and 2^(1/2^8) < 1 + 2^-8: the eighth failure after a success is the last.
+    # The largest factor is 4, and 4^(1/2^9) < 1 + 2^-8: the ninth failure in a row is the last.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 
@@ -225,7 +226,7 @@ class Estimate:
 class Function:
     """A function that a kernel calls in several places: ``outputs`` over ``body``, of ``inputs`` alone.
 
-    Its k-th result is the expression that calls ``NAME.k``; ``about`` spells it in operations of a program.
+    Its k-th result is the expression that calls ``NAME.k``; ``about`` writes it in operations of a program.
     """
 
     name: str

@@ -53,6 +53,7 @@ class FirstOrder:
 
         :class:`NotLinearised` where a root has no expansion at h = 0 that the rules here find.
         """
+        # There is no space to take the symbol h from.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
@@ -60,6 +61,7 @@ class FirstOrder:
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
+        # The two coefficients are joined at the end only: h is a symbol again in the result.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
@@ -75,6 +77,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             return _Dual((node, zero), {})
         case "sym":
             if node.payload == STEP:
+                # h = 0 + 1 h.
                 return _Dual((zero, one), {})
             # Unknowns have no part of order h of their own: the expansion is at fixed unknowns.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
@@ -88,6 +91,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "mul":
             return _product(space, args[0], args[1])
         case "div":
+            # a/b = a (1/b): one rule less, and the inverse of a shared divisor is one node.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
             result = args[0]
@@ -163,6 +167,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, first = space.call("log", low), space.one / low
         second = -(first * first)
     else:
+        # sin'' = -sin and cos'' = -cos: the second derivative is minus the value.
         other = {"sin": "cos", "cos": "sin"}[function]
         at, turned = space.call(function, low), space.call(other, low)
         first, second = (turned, -at) if function == "sin" else (-turned, -at)

@@ -42,6 +42,7 @@ class NormalForms:
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
+        # Monomials hold numbers of nodes, which sort and hash faster than nodes; this table leads back.
         self.atoms: dict[int, Expr] = {}
         # An expression that is not expanded is a variable from the beginning.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
@@ -107,6 +108,7 @@ class NormalForms:
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
         """Return a polynomial as an expression, the most frequent factor taken out first."""
+        # A copy: polynomials are kept for later expressions.
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
@@ -126,6 +128,7 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
+        # Each call removes a factor from a term, so the recursion ends.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
@@ -159,6 +162,7 @@ class NormalForms:
                 for atom, k in n:
                     powers[atom] = powers.get(atom, 0) + k
                 total = _add(total, tuple(sorted(powers.items())), x * y)
+        # Stops an expansion before it fills the memory: products of sums grow exponentially with their depth.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
@@ -166,6 +170,7 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Return a polynomial without the left side of any relation."""
         done: Polynomial = {}
+        # popitem takes the latest entry: the order is that of insertion, and so does not depend on hashes.
         waiting = dict(polynomial)
         # Each step replaces one leading product. It ends if the rules do, which the class requires of them.
         while waiting:

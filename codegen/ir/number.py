@@ -71,6 +71,7 @@ class Number:
         True
         """
         try:
+            # Fraction reads 0.1 as 1/10; a float would not.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
             value = None

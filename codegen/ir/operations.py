@@ -107,6 +107,7 @@ class Zero(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
+        # Scalars of the domain: sums with a plain 0 would have another type.
         return ((domain.rational(0),) * problem.dimension(),)
 
 
@@ -124,6 +125,7 @@ class Linear(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Whether there is at least one term, and all are of the kind of the result."""
+        # An empty sum is Zero, which knows its kind; here the arguments determine it.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
@@ -146,6 +148,7 @@ class Linear(Operation):
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
+                # A product by 1 is left out: over power series it is a full multiplication.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))

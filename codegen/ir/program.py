@@ -138,6 +138,7 @@ class Program:
         """Return the program as text, one statement a line."""
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
+        # The frame changes the meaning of all statements, so it is shown before them.
         lines += ["  with Ad*(q, mu) for mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):

@@ -176,6 +176,7 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
+        # The duration is the last argument, so that state and time have the same places as in FlowOf.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 

@@ -20,6 +20,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     """
     known: dict[int, Expr] = {}
     for node in walk(roots):
+        # A symbol without a seed is constant.
         if node.op == "sym":
             if node.payload in seeds:
                 known[node.id] = seeds[node.payload]
@@ -28,6 +29,7 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # A node that no seeded symbol reaches has no tangent: absence in the table is an exact zero.
         if not moving:
             continue
+        # After the test above: functions without a derivative are allowed where nothing moves.
         slopes = partials(node)
         total = node.space.zero
         # The chain rule along one direction: one product for

@@ -9,6 +9,7 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
+# A dual is a kind of its own: Ad and Ad* differ, and a pairing needs one of each.
 class Kind(StrEnum):
     """The type of a value: ``Alg`` is the Lie algebra, ``Dual`` its dual, ``Point`` the manifold acted on."""
 

@@ -66,6 +66,7 @@ class _Verifier:
 
     def block(self, block: Solve) -> None:
         """Check one block; its body may read the unknowns."""
+        # The shape comes first: unknowns, starts and images correspond by place.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")

@@ -79,7 +79,7 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Whether a flow lasts h: each part of a consistent splitting does, also where balls cannot prove it."""
-    # In doubles: a sum of decimal coefficients is one to rounding only.
+    # In doubles: a ball around one rounds to one, but cannot be proved equal to it.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.interpret import flatten
-from codegen.ir.kernel import CHORD
+from codegen.ir.kernel import SIMPLIFIED_NEWTON
 from codegen.ir.linearise import FirstOrder, NotLinearised
 from codegen.ir.normal_form import NormalForms
 from codegen.ir.program import Program, Solve
@@ -145,7 +145,7 @@ def _operations(roots: Iterable[Expr]) -> int:
 
 def with_matrix(block: Block, solver: str) -> Block:
     """Return the block with the matrix of Newton's method, exact or to first order."""
-    leading = solver == CHORD
+    leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
     # The first-order matrix contracts by O(h^2) a sweep: more sweeps, each of them far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:

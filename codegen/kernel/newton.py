@@ -83,7 +83,7 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # No pivots: for n <= 3 and a matrix near 1 the expansion is accurate, and it has no branches.
+    # Cofactors need no pivots, so no branches on data. An error here only slows the iteration down.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor

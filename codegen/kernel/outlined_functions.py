@@ -146,7 +146,7 @@ def _sum(
     coefficients: Sequence[Coefficient], symbol: Mapping[Coefficient, Expr], args: Sequence[Values]
 ) -> Values:
     """Return a sum with symbols for its coefficients; terms with equal coefficients are added first."""
-    # c x + c y = c (x + y): one product fewer, as in the unoutlined sum.
+    # c x + c y = c (x + y): one product fewer for each component.
     groups: dict[Coefficient, Values] = {}
     for c, x in zip(coefficients, args, strict=True):
         groups[c] = tuple(a + b for a, b in zip(groups[c], x, strict=True)) if c in groups else x

@@ -11,12 +11,12 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Function, Kernel, Let, Loop, Start
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Function, Kernel, Let, Loop, Start
 
 METHODS = {
     FIXED_POINT: "fixed point",
     NEWTON: "Newton's method",
-    CHORD: "Newton's method with the matrix to first order in h",
+    SIMPLIFIED_NEWTON: "Newton's method with the matrix to first order in h",
 }
 """Names of the solvers in headers."""
 

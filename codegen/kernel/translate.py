@@ -61,7 +61,7 @@ def to_kernel(
 ) -> Kernel:
     """Return the kernel of a program in its problem (:func:`codegen.lower.problem`).
 
-    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or CHORD, the others are iterated.
+    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON, the others are iterated.
     With ``variations`` the kernel also propagates a variation of the state (``Kernel.vary``). A value of
     ``chains`` other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step, or one with
     variations, begins and ends with the state's own momentum (:mod:`codegen.kernel.carried_momentum`).
@@ -262,7 +262,7 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # Assignments, not operations: lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Rewritten chains are spread over the whole step, so no trees are left to repeat.
+        # Rewritten chains no longer contain the results of trees, so nothing could be replaced by calls.
         if long and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)

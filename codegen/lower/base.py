@@ -89,6 +89,7 @@ class Lowering(ABC):
         """Return the family whose order conditions hold for the program; they may depend on the scene."""
         from orderconds import families
 
+        # The label includes the cut-off, on which the conditions depend.
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:

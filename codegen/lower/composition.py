@@ -20,6 +20,7 @@ class CompositionLowering(FlowLowering):
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
+        # Other tableaux have no gamma, and no base method is implied.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
         # Strang's step of length gamma is Phi_{gamma/2} after

@@ -78,6 +78,7 @@ class FlowLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene with the exact flows that the method composes, by name."""
         word = self.read(scene, method).word
+        # Only flows that the word names: others would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
         # Sorted by name: the order of emitted functions must not depend on the word.
         return replace(scene, flows=dict(sorted(flows.items())))

@@ -67,6 +67,7 @@ def lower(scene: Problem, method: Method) -> Program:
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
+    # Stage values and brackets have one table, because rows combine both.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:
@@ -80,6 +81,7 @@ def lower(scene: Problem, method: Method) -> Program:
     def images() -> list[Var]:
         # A bracket may use earlier ones, in the order of the program.
         for r, (left, right) in enumerate(written.brackets):
+            # Both arguments are combinations: [a + b, c] is one bracket and not two.
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)
             values["B", r] = build.bracket(f"B{r + 1}", x, z)
         result = []

@@ -55,6 +55,7 @@ def register(lowering: type[Lowering]) -> type[Lowering]:
         raise MethodError(
             f"a second lowering of family {lowering.family}", where=lowering.__name__, expected="one"
         )
+    # One instance a family: lowerings have no state.
     _registered[lowering.family] = lowering()
     return lowering
 

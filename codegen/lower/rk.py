@@ -19,6 +19,7 @@ class RungeKuttaLowering(FieldLowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return why the family does not take a scene: it leaves any manifold but R^n."""
         group = scene.as_field().group
+        # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:
             return None
         hint = "use rkmk, cg or cf, or ambient to leave the manifold"

@@ -113,6 +113,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
+    # Which part comes first does not matter: Phi and Phi* may exchange their roles.
     durations = [x for _, x in joined]
     # An odd number: the word ends with the part that it began with, if need be for no time.
     if len(durations) % 2 == 0:

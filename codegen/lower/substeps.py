@@ -53,6 +53,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # One substep is the step itself.
     if repetition is None or len(repetition[1]) < 2:
         return None
+    # Proof, file and embedded row belong to the whole tableau, and would be wrong for a group of it.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )

@@ -51,6 +51,7 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
     """Return the weights, which the step's equations divide by; ZeroWeight names the first zero one."""
     for i, weight in enumerate(weights, start=1):
+        # Only a proven zero is refused; a small weight is no error.
         if weight.is_zero:
             raise ZeroWeight(
                 f"b_{i} = 0", where=method.label, expected="all b_i non-zero: the method divides by them"

@@ -110,6 +110,7 @@ class _Step(ExpandedStep):
         """Return xi, b_i mu and mu at the beginning of the step."""
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
+        # m_i is b_i times a momentum, so it starts at b_i mu0.
         weighted = [
             build.lin(f"m0_{i + 1}", Kind.DUAL, [(Coefficient(self.b[i]), self.mu)]) for i in range(self.s)
         ]

@@ -81,6 +81,7 @@ class _Step(ExpandedStep):
         """Append ad_x^k first, or its dual, for k = 0..r."""
         powers = [first]
         for k in range(self.r):
+            # ad_x^k v from ad_x^{k-1} v: one bracket a power.
             powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))
         return powers
 
@@ -92,6 +93,7 @@ class _Step(ExpandedStep):
         # dual is ad*_{-w} (ad*_x)^i M; terms with one i share the outer bracket.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
+            # The sum over k is in the algebra, before the bracket: r brackets and not r (r + 1)/2.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)

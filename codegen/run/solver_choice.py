@@ -1,6 +1,6 @@
-"""How each block of equations is solved: by a fixed point, Newton's method or chords.
+"""How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
 
-Newton's method keeps an exact matrix as long as it contracts; chords compute one, to first order in h, in
+Newton's method keeps an exact matrix as long as it contracts; simplified Newton computes one, to first order in h, in
 each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of H.
 Marthinsen's thesis (*Lie group integrators*) too, because momenta are computed within a sweep; were they
 unknowns beside the velocities, two sweeps would gain one.
@@ -30,7 +30,7 @@ from dataclasses import dataclass
 
 from codegen.errors import MethodError
 from codegen.ir.differentiate import NotDifferentiable
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Kernel
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.program import Program
 from codegen.kernel.newton import SMALL
 from codegen.kernel.schedule import METHODS
@@ -41,7 +41,7 @@ from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
 AUTO = "auto"
-CHOICES = (AUTO, NEWTON, CHORD, FIXED_POINT)
+CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 """What a caller may ask for."""
 
 ASKED = "as asked for"
@@ -211,7 +211,7 @@ class _Selection:
 
     def chosen(self) -> tuple[Kernel, tuple[Choice, ...]]:
         """Return the kernel and the choice for each block."""
-        for solver in (NEWTON, CHORD):
+        for solver in (NEWTON, SIMPLIFIED_NEWTON):
             self.consider(solver)
         able = {s: c for s, c in self.candidates.items() if c.usual.converged}
         if not able:
@@ -239,7 +239,7 @@ class _Selection:
     def consider(self, solver: str) -> None:
         """Build and try the kernel of a solver, unless it cannot be the best.
 
-        Of many unknowns, chords need not be tried once Newton's method converges, robust or not: they invert
+        Of many unknowns, simplified Newton need not be tried once Newton's method converges, robust or not: it inverts
         a matrix in each step.
         """
         least = self.least(solver)
@@ -266,9 +266,9 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return what a step costs at least with a matrix, in nanoseconds: one sweep of each block.
 
-        A sweep is that of the fixed point with a product by the inverse. Chords invert a matrix in each step,
-        Newton's method one in all steps of a trial; small ones are inverted by formulas, whose operations are
-        not known before.
+        A sweep costs one sweep of the fixed point and one product with the inverse. Simplified Newton inverts a
+        matrix in each step, Newton's method one in all steps of the trial. Formulas invert small matrices; the
+        number of their operations is not known in advance, so they count as free.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
@@ -277,7 +277,9 @@ class _Selection:
             n = len(loop.unknowns)
             total += Amounts(arithmetic=2 * n * n).times(self.parts)
             if n > SMALL:
-                total += inversion(n).times(self.parts / (1 if solver == CHORD else trial_steps(self.fixed)))
+                total += inversion(n).times(
+                    self.parts / (1 if solver == SIMPLIFIED_NEWTON else trial_steps(self.fixed))
+                )
         return total.cost(WEIGHTS)
 
     @property

@@ -8,7 +8,7 @@ the inverse of a matrix times the residuals, in the last sweep too:
   sweep and from step to step, until a change exceeds ``Newton.CONTRACTION`` times the one before it. If the
   change does not decrease right after the matrix was computed, or if the matrix is singular, the loop has
   failed.
-- *chord*: the matrix to first order in h is cheap, and is computed before the sweeps of each step.
+- *simplified Newton*: the matrix to first order in h is cheap. It is computed before the sweeps of each step.
 - *residuals*: the matrix of residuals to first order in h is kept for ``Newton.period`` steps.
 """
 
@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from codegen.ir.kernel import CHORD, NEWTON, Newton
+from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Newton
 from codegen.kernel.schedule import METHODS, Iteration
 from codegen.run.language import Array, Assign, Call, For, If, Note, Return, Statement, While
 from codegen.run.places import places
@@ -325,7 +325,7 @@ class _Newton(_Loop):
 
     def cell(self, place: int) -> Term:
         """Return an entry of the inverse; it is a variable if the inverse is computed in each step."""
-        if self.iteration.loop.solver == CHORD and self.newton.inverted:
+        if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
             # This inverse is used in one step only: scalars can stay in registers, entries of an
             # array cannot.
             return real(f"inverse_{self.number}_{place}")

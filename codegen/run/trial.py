@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from codegen.ir.angle_depth import chain
-from codegen.ir.kernel import CHORD, NEWTON, Kernel
+from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.run.execute import Machine
 from codegen.run.floats import EmittedFloats
 from codegen.run.plan import STATISTICS, Plan
@@ -67,7 +67,7 @@ class Trials:
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,
-            CHORD: float(max(1, len(self.plan.kernel.substeps))),
+            SIMPLIFIED_NEWTON: float(max(1, len(self.plan.kernel.substeps))),
         }
         return Trial(
             steps,

@@ -5,8 +5,8 @@
  * order:      1
  * state:      [0..2] m: angular momentum in the body
  * operations: 14 add, 26 mul, 1 stumpff_12 a step
- * stack:      at most 576 bytes, without what the mathematical library takes
- * made by:    none
+ * stack:      at most 576 bytes; functions of the mathematical library add to this
+ * command:    none
  * version:    orderconds test
  *
  * Build: cc -std=c11 -O2 -ffp-contract=off -c rigid.c
@@ -102,7 +102,7 @@ static void stumpff_12_far(double z, double *c1, double *c2)
         *c2 = stumpff_series_2(z);
         return;
     }
-    /* the answer is no number where the angle is so large that it has no correct digit */
+    /* NaN if the angle is so large that no digit of the result is correct */
     const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
@@ -154,7 +154,7 @@ int rigid_run(double state[static 3], double h, size_t steps, double *trajectory
         const double new_m0 = m0 + v0 * c1_1 + (w1 * v2 - w2 * v1) * c2_1;
         const double new_m1 = m1 + v1 * c1_1 + (w2 * v0 - w0 * v2) * c2_1;
         const double new_m2 = m2 + v2 * c1_1 + (w0 * v1 - w1 * v0) * c2_1;
-        /* one test for all; where only their sum overflows, x - x is zero for a number, else NaN */
+        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

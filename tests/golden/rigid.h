@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 enum {
-    RIGID_OK = 0, /* the step was made */
-    RIGID_NOT_FINITE = 2, /* the new state would hold an infinity or a NaN */
+    RIGID_OK = 0, /* success */
+    RIGID_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
     RIGID_BAD_STEP = 3 /* h is infinite or a NaN */
 };
 
@@ -18,8 +18,8 @@ enum {
 int rigid_step(double state[3], double h);
 
 /*
- * Make steps of size h until all are made or one fails; the state is then the last good one and
- * *completed how many were made. A trajectory receives the initial state and every stride-th one after
+ * Make up to steps steps of size h, until one fails; the state is then the last good one and *completed
+ * the number of completed steps. A trajectory receives the initial state and every stride-th one after
  * it: steps/stride + 1 rows of 3. trajectory and completed may be NULL.
  */
 int rigid_run(double state[3], double h, size_t steps, double *trajectory, size_t stride,

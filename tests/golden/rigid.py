@@ -23,9 +23,9 @@ BAD_STEP = 3
 
 
 class StepFailed(ArithmeticError):
-    """A step that could not be made.
+    """A step failed.
 
-    status: NOT_FINITE or BAD_STEP; step: how many steps were made before it;
+    status: NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
     state: the last good state, as a tuple.
     """
 
@@ -101,7 +101,7 @@ def _stumpff_12_far(z):
     """Return, for z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2."""
     if z <= 1.0:
         return _stumpff_series_1(z), _stumpff_series_2(z)
-    # the answer is no number where the angle is so large that it has no correct digit
+    # NaN if the angle is so large that no digit of the result is correct
     half = 0.5 * sqrt(z if z <= 4398046511104.0 else float("nan"))
     ratio = sin(half) / half
     return ratio * cos(half), 0.5 * (ratio * ratio)
@@ -155,7 +155,7 @@ def _run(state, h, steps, trajectory, stride, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state."""
+    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 3:
         raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
@@ -163,7 +163,7 @@ def _numbers(state):
 
 
 def _failure(status, step, state, h):
-    """Return the error of a step that could not be made."""
+    """Return the error of a failed step."""
     reason = "the new state is not finite"
     if status == BAD_STEP:
         reason = f"the step size h = {h} is not finite"
@@ -173,16 +173,16 @@ def _failure(status, step, state, h):
 def step(state, h):
     """Return the state after one step of size h as a list; the given state is unchanged.
 
-    A step that cannot be made raises StepFailed.
+    If the step fails, StepFailed is raised.
     """
     return run(state, h, 1)
 
 
 def run(state, h, steps, *, stride=0):
-    """Return the state after that many steps of size h, as a list.
+    """Return the state after ``steps`` steps of size h, as a list.
 
     With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. A step that cannot be made raises StepFailed, which holds the last good state.
+    after it. If a step fails, StepFailed is raised, with the last good state.
     """
     state = _numbers(state)
     h = float(h)

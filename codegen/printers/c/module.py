@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.angle_depth import chain
-from codegen.ir.kernel import CHORD, NEWTON, Kernel
+from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.kernel.operations import costs
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.printers.c.terms import literal
@@ -123,7 +123,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers_held(unit) // 64) * 64
-    inverting = NEWTON in interface.solvers or CHORD in interface.solvers
+    inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     return f"at most {rounded + frames} bytes; functions of the mathematical library add to this"

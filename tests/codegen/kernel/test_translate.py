@@ -7,7 +7,7 @@ import pytest
 from codegen.ir.domain import FloatDomain, SeriesDomain
 from codegen.ir.expr import evaluate, walk
 from codegen.ir.interpret import interpret
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Let, Loop, Start
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Let, Loop, Start
 from codegen.ir.program import Solve
 from codegen.kernel.assignments import INLINE
 from codegen.kernel.outlined_functions import WithFunctions
@@ -119,7 +119,7 @@ class TestAKernelMeansItsProgram:
         assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-13
 
 
-@pytest.fixture(params=[FIXED_POINT, NEWTON, CHORD])
+@pytest.fixture(params=[FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON])
 def kernel(request):
     view, program = lowered("vcg", "triple_jump", hamiltonian_scene("SO(3)"))
     program, _ = optimise(program, view)

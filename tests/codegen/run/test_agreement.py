@@ -11,7 +11,7 @@ from codegen import scenes
 from codegen.emitter import compile_method, emit_compiled, start_of
 from codegen.ir.angle_depth import chain
 from codegen.ir.domain import PreciseDomain
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.loader import Statistics, load
 from codegen.run import stopping
 from codegen.run.execute import Machine
@@ -31,14 +31,14 @@ SOLVED = {
     "body frame": ("dipole", "vcg:midpoint", "auto", "body"),
     "substeps": ("dipole", "vcg:triple_jump", "auto", "space"),
     "substeps by fixed points": ("dipole", "vcg:triple_jump", FIXED_POINT, "space"),
-    "substeps by chords": ("dipole", "vcg:triple_jump", CHORD, "space"),
+    "substeps by simplified Newton": ("dipole", "vcg:triple_jump", SIMPLIFIED_NEWTON, "space"),
     "several blocks": ("heavy_top", "vcg:alexander2", NEWTON, "space"),
-    "several blocks by chords": ("heavy_top", "vcg:alexander2", CHORD, "space"),
+    "several blocks by simplified Newton": ("heavy_top", "vcg:alexander2", SIMPLIFIED_NEWTON, "space"),
     "fixed point": ("heavy_top", "vcg:midpoint", FIXED_POINT, "space"),
     "exact matrix": ("heavy_top", "vcg:midpoint", NEWTON, "space"),
-    "chord": ("heavy_top", "vcg:midpoint", CHORD, "space"),
+    "simplified Newton": ("heavy_top", "vcg:midpoint", SIMPLIFIED_NEWTON, "space"),
     "matrix in arrays": ("linear_oscillator", "rk:gauss2", NEWTON, "space"),
-    "chord in arrays": ("linear_oscillator", "rk:gauss2", CHORD, "space"),
+    "simplified Newton in arrays": ("linear_oscillator", "rk:gauss2", SIMPLIFIED_NEWTON, "space"),
     "unknowns in arrays": ("linear_oscillator", "rk:gauss3", FIXED_POINT, "space"),
     "continuation": ("stiff_driven_spin", "ambient:gauss3", NEWTON, "space"),
 }

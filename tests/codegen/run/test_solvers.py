@@ -12,7 +12,7 @@ import pytest
 from codegen.emitter import compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
-from codegen.ir.kernel import CHORD, FIXED_POINT, NEWTON, Newton, Start
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Newton, Start
 from codegen.loader import Statistics, Status, StepFailed, load
 from codegen.lower import problem_for
 from codegen.printers import TARGETS
@@ -31,7 +31,7 @@ IMPLICIT = {
     "slgi": ("dipole", "slgi:midpoint"),
     "discrete_gradient": ("dipole", "discrete_gradient:midpoint"),
 }
-SOLVERS = (NEWTON, CHORD, FIXED_POINT)
+SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
 
 
 @cache
@@ -59,7 +59,7 @@ def stepped(made, state, h):
 @pytest.mark.parametrize(
     ("solver", "target"),
     [
-        pytest.param(s, t, marks=() if t == "c" or s == CHORD else pytest.mark.slow)
+        pytest.param(s, t, marks=() if t == "c" or s == SIMPLIFIED_NEWTON else pytest.mark.slow)
         for s in SOLVERS
         for t in sorted(TARGETS)
     ],
@@ -162,7 +162,7 @@ def test_a_part_of_a_step_is_not_taken_for_the_step(monkeypatch):
 
 
 @pytest.mark.parametrize("target", sorted(TARGETS))
-@pytest.mark.parametrize("solver", [NEWTON, CHORD])
+@pytest.mark.parametrize("solver", [NEWTON, SIMPLIFIED_NEWTON])
 def test_a_step_that_cannot_be_solved_says_so_and_leaves_the_state(solver, target):
     integrator, state = loaded("stiff_driven_spin", "rkmk(0):gauss1", solver, target)
     with pytest.raises(StepFailed) as failure:
@@ -251,9 +251,9 @@ def test_sweeps_fall_with_the_step_faster_the_better_the_matrix():
             statistics = Statistics()
             integrator.step(list(state), h, statistics=statistics)
             counts[solver, h] = statistics.sweeps[0]
-    assert counts[NEWTON, 1 / 64] < counts[CHORD, 1 / 64] < counts[FIXED_POINT, 1 / 64]
-    assert counts[CHORD, 1 / 1024] <= 5
-    assert counts[FIXED_POINT, 1 / 1024] > counts[CHORD, 1 / 1024]
+    assert counts[NEWTON, 1 / 64] < counts[SIMPLIFIED_NEWTON, 1 / 64] < counts[FIXED_POINT, 1 / 64]
+    assert counts[SIMPLIFIED_NEWTON, 1 / 1024] <= 5
+    assert counts[FIXED_POINT, 1 / 1024] > counts[SIMPLIFIED_NEWTON, 1 / 1024]
 
 
 def test_many_unknowns_are_left_to_a_fixed_point_and_moved_together():
