@@ -213,7 +213,7 @@ def built(compiled: Compiled, folder: Path) -> Side:
     folder.mkdir()
     compile_files({**artifact.files, "driver.c": driver}, folder, folder / "program", FLAGS, find_compiler())
     side = Side(compiled, folder / "program")
-    candidate = Candidate(compiled.kernel, compiled.view, start_of(compiled.scene))
+    candidate = Candidate(compiled.kernel, compiled.problem, start_of(compiled.scene))
     if candidate.usual.converged:
         side.predicted, side.robust = candidate.step(), candidate.robust
     seconds, made, *counts = output(side.program, 1)
@@ -302,8 +302,8 @@ HEAD = f"""
 {STEPS} steps of the usage example's size from the initial state.
 
 - *fixed point*, *Newton*, *simplified Newton*: nanoseconds a step, predicted by
-  `codegen/run/step_cost.py` from a trial of 20 steps, and measured (median of CPU time). A prediction is missing where the trial does not converge, a
-  measurement where a step fails.
+  `codegen/run/step_cost.py` from a trial of 20 steps, and measured (median of CPU time). A prediction is
+  missing where the trial does not converge, a measurement where a step fails.
 - *chosen*: by `--solver auto`; *(robust)* where the fastest solver was passed over because it does not
   converge in a step of 8 h within {SWEEPS} sweeps, and the chosen one does.
 - *ratio*: the time with the chosen solver over the time with the fastest; asked is at most {ASKED}.

@@ -1,8 +1,8 @@
 """How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
 
 Newton's method keeps an exact matrix as long as it contracts; simplified Newton computes one, to first order
-in h, in each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of H.
-Marthinsen's thesis (*Lie group integrators*) too, because momenta are computed within a sweep; were they
+in h, in each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of
+H. Marthinsen's thesis (*Lie group integrators*) too, because momenta are computed within a sweep; were they
 unknowns beside the velocities, two sweeps would gain one.
 
 The solver of least predicted time is chosen. A trial (:mod:`codegen.run.trial`) counts the sweeps and
