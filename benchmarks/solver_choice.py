@@ -3,9 +3,9 @@
     python benchmarks/solver_choice.py [--rounds N] [--only SCENE ...] [--fit]
 
 For each scene of the gallery and each implicit method that applies, C is emitted with a fixed point, Newton's
-method and simplified Newton (also with ``--solver auto`` if it mixes them). The programs make the same steps,
-those of the usage example, from the initial state; they run in turn, in rounds of changing order, and CPU
-time is taken inside the process. Figures are medians over the rounds. ``--fit`` prints the weights of
+method and simplified Newton (and as ``--solver auto`` makes it, where it mixes them). The programs make the
+same steps, those of the usage example, from the initial state; they run in turn, in rounds of changing order,
+and CPU time is taken inside the process. Figures are medians over the rounds. ``--fit`` prints the weights of
 ``codegen/run/step_cost.py`` that fit these figures best; it needs scipy. Nothing is written when only some
 scenes are run.
 """
@@ -213,7 +213,7 @@ def built(compiled: Compiled, folder: Path) -> Side:
     folder.mkdir()
     compile_files({**artifact.files, "driver.c": driver}, folder, folder / "program", FLAGS, find_compiler())
     side = Side(compiled, folder / "program")
-    candidate = Candidate(compiled.kernel, compiled.view, start_of(compiled.scene))
+    candidate = Candidate(compiled.kernel, compiled.problem, start_of(compiled.scene))
     if candidate.usual.converged:
         side.predicted, side.robust = candidate.step(), candidate.robust
     seconds, made, *counts = output(side.program, 1)
@@ -301,9 +301,9 @@ HEAD = f"""
 `solver_choice.py` times emitted C of the implicit methods on the scenes of the gallery, with each solver:
 {STEPS} steps of the usage example's size from the initial state.
 
-- *fixed point*, *Newton*, *simplified Newton*: nanoseconds a step, predicted by `codegen/run/step_cost.py`
-  from a trial of 20 steps, and measured (median of CPU time). A prediction is missing where the trial does
-  not converge, a measurement where a step fails.
+- *fixed point*, *Newton*, *simplified Newton*: nanoseconds a step, predicted by
+  `codegen/run/step_cost.py` from a trial of 20 steps, and measured (median of CPU time). A prediction is
+  missing where the trial does not converge, a measurement where a step fails.
 - *chosen*: by `--solver auto`; *(robust)* where the fastest solver was passed over because it does not
   converge in a step of 8 h within {SWEEPS} sweeps, and the chosen one does.
 - *ratio*: the time with the chosen solver over the time with the fastest; asked is at most {ASKED}.

@@ -1,8 +1,8 @@
 """How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
 
-Newton's method keeps an exact matrix as long as it contracts; simplified Newton computes one, to first order in h, in
-each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of H.
-Marthinsen's thesis (*Lie group integrators*) too, because momenta are computed within a sweep; were they
+Newton's method keeps an exact matrix as long as it contracts; simplified Newton computes one, to first order
+in h, in each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of
+H. Marthinsen's thesis (*Lie group integrators*) too, because momenta are computed within a sweep; were they
 unknowns beside the velocities, two sweeps would gain one.
 
 The solver of least predicted time is chosen. A trial (:mod:`codegen.run.trial`) counts the sweeps and
@@ -239,8 +239,8 @@ class _Selection:
     def consider(self, solver: str) -> None:
         """Build and try the kernel of a solver, unless it cannot be the best.
 
-        Of many unknowns, simplified Newton need not be tried once Newton's method converges, robust or not: it inverts
-        a matrix in each step.
+        Of many unknowns, simplified Newton need not be tried once Newton's method converges, robust or not:
+        it inverts a matrix in each step.
         """
         least = self.least(solver)
         if any(self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged):
@@ -266,9 +266,9 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return what a step costs at least with a matrix, in nanoseconds: one sweep of each block.
 
-        A sweep costs one sweep of the fixed point and one product with the inverse. Simplified Newton inverts a
-        matrix in each step, Newton's method one in all steps of the trial. Formulas invert small matrices; the
-        number of their operations is not known in advance, so they count as free.
+        A sweep costs one sweep of the fixed point and one product with the inverse. Simplified Newton inverts
+        a matrix in each step, Newton's method one in all steps of the trial. Formulas invert small matrices;
+        the number of their operations is not known in advance, so they count as free.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)

@@ -143,9 +143,9 @@ def test_a_stopping_rule_that_is_broken_in_its_one_place_is_broken_everywhere(mo
 
     def at_once(self):
         small = stopping.CHANGE <= 1.0 * stopping.SCALE
-        return [stopping.Assign(stopping.flag(name), small) for name in ("still", "settled")]
+        return [stopping.Assign(stopping.flag(name), small) for name in ("still", "converged")]
 
-    monkeypatch.setattr(stopping.Stopping, "settled", at_once)
+    monkeypatch.setattr(stopping.Stopping, "converged", at_once)
     after = [executed(made)[1], *(emitted(made, target)[1] for target in ("c", "python"))]
     assert before.sweeps[0] > STEPS
     assert [counts.sweeps for counts in after] == [[STEPS]] * 3

@@ -257,11 +257,11 @@ def test_sweeps_fall_with_the_step_faster_the_better_the_matrix():
 
 
 def test_many_unknowns_are_left_to_a_fixed_point_and_moved_together():
-    """Twenty-seven unknowns: the fixed point is the fastest. Both targets update them in loops."""
+    """Twenty-seven unknowns: Newton's method would cost more; both targets compare and move them in loops."""
     made = compile_method("dipole", "slgi:cg5")
     (choice,) = made.solvers
     assert (choice.solver, choice.unknowns) == ("fixed-point", 27)
-    assert ": not tried: would take at least " in choice.compared[-1]
+    assert choice.reason == "3.35 sweeps a step, measured over the first 20 steps of h = 0.005"
     modules = [load(emit_compiled(made, target, prefix=f"many_{target}_")) for target in ("c", "python")]
     newton = compile_method("dipole", "slgi:cg5", solver="newton")
     modules.append(load(emit_compiled(newton, "c", prefix="many_newton_")))
