@@ -1,7 +1,7 @@
-"""Words: products of functions of one ad, as dexp, dexp^{-1} and exp applied one after the other.
+"""Words: products of the functions dexp, dexp^{-1} and exp of one ad, applied one after the other.
 
-The factors of a word are functions phi(s t) of one variable t, which is ad_x, or ad*_x on the dual. They
-commute, so a word is their product in any order.
+The factors of a word are functions phi(s t) of one variable t. The variable t is ad_x, or ad*_x on the dual.
+The factors commute, so a word is their product in any order.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# Ordered, because simplified words are sorted: equal products must become equal tuples.
+# Factors are ordered, because simplified words are sorted: equal products must become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
     """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv cut off after t^order."""
@@ -44,7 +44,7 @@ UNIT = Fraction(1)
 def simplified(word: Word) -> Word:
     """Return a word with its exponentials joined and without factors that cancel.
 
-    exp(-s t) dexp(s t) = dexp(-s t).
+    The rule exp(-s t) dexp(s t) = dexp(-s t) is applied, too.
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
@@ -59,16 +59,17 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # A copy is iterated, because the rule enters keys. It applies once at most: then no exponential is left.
+    # The loop runs over a copy, because the rule adds keys. The rule applies at most once: no exponential is
+    # left then.
     for (function, scale, order), n in list(powers.items()):
-        # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function in place of two.
+        # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
         if function == "dexp" and n > 0 and rate == -scale:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    # Sorted, so that the order in which a word was collected does not show in the operation.
+    # Factors are sorted, so that the operation does not depend on the order in which the word was collected.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
-        # Higher powers are repeated factors: what evaluates a word knows phi and 1/phi only.
+        # Higher powers become repeated factors, because the evaluation of a word supports only phi and 1/phi.
         factors += [Factor(function, scale, order, 1 if n > 0 else -1)] * abs(n)
     return tuple(factors)

@@ -1,8 +1,9 @@
 """Constants collected: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
-Exact. Each expression becomes a linear combination of expressions that are no combinations. Numbers move out
-of products and powers, and into numerators: 3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which is ready two or
-three products earlier. Expanded sums may share less, so the result is kept where it has fewer operations.
+The rewriting is exact. Each expression becomes a linear combination of atoms: expressions that are not
+linear combinations themselves. Numbers move out of products and powers, and into numerators:
+3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which has two or three fewer products in a row. Expanded sums may
+share fewer subexpressions, so the result is used only if it has fewer operations.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
-"""A combination: coefficients and expressions by their number, the constant with the expression one."""
+"""A linear combination: a coefficient and an expression by the expression's number; a constant has expression
+1."""
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
@@ -32,13 +34,14 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # A number in front of a kept node still joins other numbers, so what is kept is the node without it.
+    # The number in front of a kept node may still join other numbers, so only the node without its number is
+    # kept.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
             # A kept node is entered as an atom: one times itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # Taken before whole() adds to the sums: nodes inside kept ones cost the same in both forms.
+    # Recorded before whole() adds to the sums: nodes inside kept nodes cost the same in both forms.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # Expanding can destroy sharing. A tie keeps the given form, which earlier passes have chosen.
@@ -61,14 +64,16 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers of inverse roots to rewrite: of the root only odd powers from the third on are read.
+    """Return the powers of an inverse root that are rewritten, where only odd powers from the third on are
+    read.
 
-    Each maps to the number of the inverse root and the exponent. Numeric factors do not count. Parts of
-    ``kept`` expressions are left out.
+    The result maps a power's node number to the number of the inverse root and the exponent. Numeric factors
+    do
+    not count. Parts of ``kept`` expressions are left out.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and its reader; a root is read from outside.
+    # Pairs of a node and its reader; a root is read from outside, so its reader is None.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
@@ -80,9 +85,9 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # Only powers that leave their chain of products count: y^2 inside y^3 is an intermediate value.
+    # Only powers that another operation reads count: y^2 inside y^3 is an intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y itself is read, y is computed in any case, and its powers share that one division.
+    # If y itself is read, y is computed in any case, and all powers of y share the division in y.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -94,7 +99,7 @@ def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
 
 
 def _is_inverse(node: Expr) -> bool:
-    # Interning makes the test by identity exact.
+    # Equal expressions are interned as one object, so the test by identity is exact.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -110,30 +115,32 @@ class _Gathering:
         # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # Each node once: the combination of a shared node serves all its readers.
+                # Each node is expanded once: all readers of a shared node use the same combination.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the expression of a node's combination; an inverse gets its first reader's numerator."""
+        """Return the expression of a node's combination; the first reader of an inverse determines its
+        numerator."""
         if node.id not in self.written:
-            # Written at the first reading and then reused, so sharing survives.
+            # The expression is formed at the first reading and then reused, so sharing survives.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return c 1/y as d (e/y), where e is the size of c for the first reader."""
+        """Return c 1/y as d (e/y), where e is |c| of the first reader."""
         if not _is_inverse(atom):
             return c, atom
-        # A numerator other than 1 costs nothing, and it absorbs the first reader's product. Later readers
-        # share the division and multiply by the ratio, which is often 1.
+        # A numerator other than 1 costs nothing, and it replaces the first reader's product. Later readers
+        # share the division and multiply by the ratio of the coefficients, which is often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
-        # Irrational constants are atoms: constants of two fields do not join, and a ball is rounded once.
+        # Irrational constants are atoms: constants of two fields cannot be added, and a ball is rounded only
+        # once.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -145,17 +152,18 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # A term that cancels must leave: a combination of
-            # one term is a multiple, which products can absorb.
+            # A term that cancels must be removed: a combination of one term is a multiple, and a product can
+            # absorb the factor of a multiple.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
-        # A number distributes over a sum. Two sums are not multiplied out: that grows exponentially.
+        # A number is multiplied into a sum. Two sums are not multiplied out, because the number of terms
+        # would grow exponentially.
         if node.op == "mul":
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
-            # (c x)(d y) = (c d)(x y): both numbers leave the product and join the reader's.
+            # (c x)(d y) = (c d)(x y): both numbers leave the product and join the number in front of it.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}
@@ -165,27 +173,31 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # Not Space's own methods: they would simplify again, and may turn the atom into a combination.
+        # Space's own methods are not used: they would simplify again, and might turn the atom into a
+        # combination.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
-        """Return a power of an inverse root as the inverse of a root times what is under it."""
+        """Return a power of the inverse of a root sqrt x as the inverse of a power of x, perhaps times sqrt
+        x."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
-        # The numeric factors inside y^n are collected, so that the power itself is free of numbers.
+        # The numeric factors inside y^n are collected, so that the power itself contains no numbers.
         c = Number.rational(1)
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()
             c = c * factor
         root = inverse.args[1]
-        # y^(2m+1) = 1/(x^m sqrt x): x^m runs beside the root, and the division is the last operation.
+        # y^(2m+1) = 1/(x^m sqrt x): x^m can be computed in parallel with the root, and the division comes
+        # last.
         under = root.space.pow(root.args[0], exponent // 2)
         atom = root.space.one / (under * root if exponent % 2 else under)
         return {atom.id: (c, atom)}
 
     def _content(self, node: Expr) -> tuple[Number, Expr]:
-        """Return c and x with the node equal to c x, where it is a multiple of one expression."""
+        """Return c and x with the node equal to c x; c is 1 unless the node is a multiple of one
+        expression."""
         total = self.sums[node.id]
         if len(total) != 1:  # sums are often read more than once
             return Number.rational(1), self._spell(node)
@@ -203,8 +215,8 @@ def _size(c: Number) -> Number:
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
     """Return a combination as an expression: terms with coefficients c or -c are added first."""
-    # Grouped by the size of the coefficient: one product for 3/2 a - 3/2 b. Dictionaries keep the order of
-    # first use, so the result depends on the input alone.
+    # Terms are grouped by |c|, so 3/2 a - 3/2 b takes one product. Dictionaries keep the order of first use,
+    # so the result depends on the input alone.
     groups: dict[object, list[tuple[bool, Expr]]] = {}
     sizes: dict[object, Number] = {}
     key: object
@@ -218,6 +230,7 @@ def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
         for minus, atom in terms[1:]:
             part = part + atom if minus == first else part - atom
         part = space.const(sizes[key]) * part
-        # The sign of a group's first term becomes a subtraction, so no coefficient is stored with both signs.
+        # A negative sign of a group's first term becomes a subtraction, so no coefficient is stored with both
+        # signs.
         result = result - part if first else result + part
     return result

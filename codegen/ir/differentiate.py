@@ -1,4 +1,5 @@
-"""Reverse-mode differentiation of expressions: a gradient costs a small multiple of the function."""
+"""Reverse-mode differentiation of expressions: a gradient costs a small multiple of the cost of the
+function."""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ from codegen.ir.number import Number
 
 
 class NotDifferentiable(ValueError):
-    """A function whose derivative has no expression here."""
+    """A function whose derivative cannot be written with the available functions."""
 
 
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
@@ -20,13 +21,13 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     >>> gradient(x * x * x, ["x", "y"])[1]
     0
     """
-    # The adjoint of a node is the derivative of root by the node; that of root itself is 1.
+    # The adjoint of a node is the derivative of root by the node, so the adjoint of root is 1.
     space = root.space
     bars: dict[int, Expr] = {root.id: space.one}
-    # In this order all users of a node have added to its adjoint before the node passes it on.
+    # In this order a node passes its adjoint on only after all users of the node have added to the adjoint.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
-        # Contributions may cancel exactly; passing on a zero would only create nodes.
+        # Contributions may cancel exactly, and a zero that is passed on would only create nodes.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -37,7 +38,8 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr) -> list[Expr]:
     """Return the derivatives of a node by its arguments, in order.
 
-    The derivatives of ``quotient`` hold where its divisor is not zero. :class:`NotDifferentiable` for
+    The derivatives of ``quotient`` hold where its divisor is not zero. :class:`NotDifferentiable` is raised
+    for
     ``signed_stumpff1`` and the slopes.
     """
     space, args = node.space, node.args
@@ -49,7 +51,7 @@ def partials(node: Expr) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            inverse = space.one / args[1]  # one division serves both, and slopes of the same quotient
+            inverse = space.one / args[1]  # both derivatives share this division
             return [inverse, -(node * inverse)]
         case "neg":
             return [-space.one]
@@ -63,32 +65,34 @@ def partials(node: Expr) -> list[Expr]:
 
 
 def _derivatives(node: Expr) -> list[Expr]:
-    """Return the derivatives of a function by its arguments; c_k' = (k c_{k+2} - c_{k+1})/2 for Stumpff's."""
+    """Return the derivatives of a function by its arguments; c_k' = (k c_{k+2} - c_{k+1})/2 for Stumpff
+    functions."""
     space, x = node.space, node.args[0]
     half = space.const(Number.rational(1, 2))
     match node.payload:
         case "sqrt":
-            # 1/(2 sqrt x) with the root that is computed already.
+            # The derivative 1/(2 sqrt x) uses the root that is computed already.
             return [half * (space.one / node)]
         case "sin":
             return [space.call("cos", x)]
         case "cos":
             return [-space.call("sin", x)]
         case "exp":
-            # exp is its own derivative: no second call.
+            # exp is its own derivative, so no second call is needed.
             return [node]
         case "log":
             return [space.one / x]
-        # k = 0: the term in c_2 is absent, c_0' = -c_1/2. This holds for z of either sign.
+        # For k = 0 the term in c_2 is absent: c_0' = -c_1/2. The rule holds for z of either sign.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
-        # The rule would need c_4 and c_5, which have no evaluation of their own; the slopes combine them.
+        # The rule would need c_4 and c_5, which have no evaluation of their own; the slope functions combine
+        # them.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "quotient":
-            # 1/b must be guarded too, or the derivative would be infinite where the function is 0.
+            # 1/b must be guarded like a/b, or the derivative would be infinite where the function is 0.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:

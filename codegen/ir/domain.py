@@ -1,8 +1,9 @@
 """Domains: the scalars that a program, a group or a scene is evaluated over.
 
-One implementation of every group operation serves all of them: floats, mpmath numbers, truncated power
-series in h, and expressions (whose evaluation is code generation). A domain supplies what operators on its
-scalars cannot: constants, named functions, the step h, and when a fixed-point iteration has converged.
+Every group operation is implemented once, for all domains: floats, mpmath numbers, truncated power series in
+h, and expressions. Evaluation over expressions is code generation. A domain supplies what the operators of
+its scalars cannot: constants, named functions, the step h, and the test whether a fixed-point iteration has
+converged.
 """
 
 from __future__ import annotations
@@ -19,15 +20,16 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """A fixed-point iteration that reached its limit, or left the numbers, in the interpreter."""
+    """A fixed-point iteration of the interpreter that reached its limit, or left the finite numbers."""
 
 
 # The scalars are float, mpf, series and Expr: they share operators but no base class.
 Scalar: TypeAlias = Any
-"""A number of one domain: the domain decides its type when a program runs."""
+"""A number of one domain: the domain determines the type when a program runs."""
 
 Value: TypeAlias = Any
-"""A scalar for the kind Real, a flat tuple of scalars of one domain for every other kind."""
+"""A value of a variable: a scalar for the kind Real, a flat tuple of scalars of one domain for all other
+kinds."""
 
 Values: TypeAlias = tuple[Value, ...]
 """The arguments or the results of an operation."""
@@ -52,18 +54,17 @@ class Domain(Protocol):
 
 
 class Differenced(Domain, Protocol):
-    """A domain with difference quotients, in which Newton's method needs no derivatives."""
+    """A domain with difference quotients, with which Newton's method needs no derivatives."""
 
     def increment(self, x: Scalar) -> Scalar:
         """Return the step of a difference quotient at x."""
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0, for k = 0, 1 also z < 0.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
 
-    The error is a few units in the last place of the oscillation's amplitude there. Beyond 2^52, where half
-    of an angle's digits are turns, it is not a number, as in emitted code.
-
+    The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
+    result is not a number, as in emitted code, because half of the digits of the angle are full turns there.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -74,7 +75,7 @@ def stumpff(k: int, z: float) -> float:
         return math.cosh(root) if k == 0 else math.sinh(root) / root
     if k == 0:
         return math.cos(math.sqrt(z))
-    # c_3 needs the longer series: sqrt z - sin sqrt z cancels while the angle is below about 2.
+    # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
     if z < (0.5 if k < 3 else 4.0):
         # Horner's rule from the smallest term; for z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
@@ -93,13 +94,13 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 2, 3 and z >= 0: its series up to 1, (c_{k-1} - k c_k)/(2 z) beyond.
+    """Return c_k'(z) for k = 2, 3 and z >= 0: by its series for z up to 1, else as (c_{k-1} - k c_k)/(2 z).
 
     >>> slope(2, 0.0) == -1 / 24, slope(3, 0.0) == -1 / 120
     (True, True)
     """
     if z > 1:
-        # Both terms tend to 1/(k-1)! as z tends to 0 and would cancel below.
+        # Both terms of the closed form tend to 1/(k-1)! as z tends to 0, so they would cancel for small z.
         return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
     total = 0.0
     for j in range(12, 0, -1):
@@ -110,7 +111,7 @@ def slope(k: int, z: float) -> float:
 class FloatDomain:
     """IEEE double precision.
 
-    A fixed-point iteration that takes more sweeps than ``patience`` is left to Newton's method.
+    A fixed-point iteration stops after ``patience`` sweeps, and Newton's method solves the block instead.
     """
 
     patience = 40
@@ -143,20 +144,23 @@ class FloatDomain:
         # Comparisons with a NaN are false, so without this test the iteration would go on to its limit.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration left the finite numbers")
-        # Relative to the largest unknown: small ones are no more accurate than the sums that they enter.
+        # The test is relative to the largest unknown: small unknowns are no more accurate than the sums that
+        # contain them.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # With the rate change/before, the remaining error is about change^2/before: below half a unit in the
-        # last place. The first test keeps a rate that was measured once from being trusted too far.
+        # With the rate change/before, the remaining error is about change^2/before, which must be below half
+        # a unit in the last place. The first condition limits how far a rate that was measured once is
+        # trusted.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
-        # Changes that no longer fall are rounding errors if they are small, and divergence if they are not.
+        # Changes that no longer decrease are rounding errors if they are small, and a sign of divergence if
+        # they are not.
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
         """Return the step of a difference quotient at x."""
-        # The root of the rounding unit balances the rounding
-        # and the truncation error of a forward difference.
+        # The square root of the rounding unit balances the rounding and the truncation error of a forward
+        # difference.
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
@@ -173,7 +177,7 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # A fixed point that gains less than a third of a digit a sweep is left to Newton's method.
+        # Newton's method replaces a fixed-point iteration that gains less than a third of a digit a sweep.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -181,7 +185,7 @@ class PreciseDomain:
         if value.is_rational:
             fraction = value.fraction()
             return self.rational(fraction.numerator, fraction.denominator)
-        # Five guard digits, so that this is one rounding in effect.
+        # Five guard digits make the result as accurate as a single rounding.
         return self.context.mpf(value.ring.approximate(value.element, self.digits + 5))
 
     def rational(self, p: int, q: int = 1) -> Scalar:
@@ -198,14 +202,14 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # Above 1 the closed forms lose at most three bits: c_3 does, since 1 - sin 1 = 0.16.
+            # Above 1 the closed forms lose at most three bits. The worst case is c_3, since 1 - sin 1 = 0.16.
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
             return closed[k] if k < 3 else (root - sine) / (root * z)
         total, j = self.context.mpf(0), 0
         term = self.context.mpf(1) / math.factorial(k)
-        # Ten bits below the precision, so that the omitted terms do not show in the sum.
+        # The limit is ten bits below the precision, so that the omitted terms do not change the sum.
         while abs(term) > self.context.eps / 1024:
             total += term
             j += 1
@@ -213,7 +217,7 @@ class PreciseDomain:
         return total
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return c_k'(z) by its series up to 1, by c_{k-1} and c_k beyond."""
+        """Return c_k'(z): by its series for z up to 1, else by c_{k-1} and c_k."""
         if z > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
@@ -225,10 +229,12 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether the changes stopped falling within 2^12 units of the precision, and the last one."""
+        """Return whether the changes stopped decreasing within 2^12 units of the precision, and the last
+        change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # Being small is not enough: the next sweep may still gain digits. Changes must have stopped falling.
+        # A small change is not enough, because the next sweep may still gain digits: changes must have
+        # stopped decreasing.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -257,20 +263,21 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Evaluate an entire function at a series without constant term, exactly; others are refused.
+        """Evaluate an entire function exactly at a series without constant term; other functions are refused.
 
-        A quotient's last coefficients, as many as the valuation of the divisor, are unknown and set to zero.
+        The last coefficients of a quotient are unknown and set to zero, as many as the valuation of the
+        divisor.
         """
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
         starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
-        # sin, cos and exp of a non-zero algebraic number are transcendental: no base field has them.
+        # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
         if function.startswith("slope"):
             k = int(function[-1])
-            # c_k' = (k c_{k+2} - c_{k+1})/2: the series below serve any k.
+            # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
         if "stumpff" in function:
@@ -279,12 +286,13 @@ class SeriesDomain:
         if function not in starts:
             raise ArithmeticError(f"{function} has no exact series")
         k, step, first = starts[function]
-        # The signs alternate in _sum: right for sin and cos, and undone by -z for exp.
+        # The signs alternate in _sum. This is right for sin and cos; for exp the argument -z removes the
+        # alternation.
         return self._sum(k, step, first, z * z if step == 2 else -z)
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return a/b where the valuation of a is at least that of b; 0 where b vanishes."""
-        # The quotient of two series that both vanish at h = 0 has a limit there.
+        # The quotient of two series that both vanish at h = 0 has a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero
@@ -299,10 +307,11 @@ class SeriesDomain:
         total, term, j = first, first, 0
         while True:
             j += 1
-            # The ratio of neighbouring factorials, so that no factorial is divided by another.
+            # The divisor is the ratio of neighbouring factorials, so that no large factorials are formed and
+            # divided.
             divisor = math.prod(range(step * (j - 1) + k + 1, step * j + k + 1))
             term = -(term * z) * self.ring.rational(1, divisor)
-            # z has no constant term, so each term gains a power of h and one is beyond the truncation.
+            # z has no constant term, so each term gains a power of h until a term is beyond the truncation.
             if self.ring.is_zero(term):
                 return total
             total = total + term
@@ -314,12 +323,13 @@ class SeriesDomain:
 
 
 class ExprDomain:
-    """Expressions of one space; ``h`` is a symbol. Blocks are not iterated here but become loops."""
+    """Expressions of one space; ``h`` is a symbol. Blocks become loops of emitted code and are not
+    iterated."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # By node number: hash-consing makes equal times one node.
+        # The samples are keyed by node number: equal times are one node, because expressions are hash-consed.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -335,8 +345,9 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return symbols for run-time inputs at a time, the same ones for the same time."""
-        # Stages at one time must read one sample, or the inputs would be evaluated twice there.
+        """Return symbols for run-time inputs at a time; equal times get equal symbols."""
+        # Stages at the same time must read the same sample, or the inputs would be evaluated twice at that
+        # time.
         if t.id not in self.samples:
             k = len(self.samples) + 1
             self.samples[t.id] = t, {name: self.space.sym(f"{name}_at{k}") for name in names}

@@ -1,8 +1,8 @@
 """Scalar expressions: immutable, hash-consed within a :class:`Space`, ordered by creation.
 
-A space interns every node, so equal expressions are identical objects and sharing is free. Node numbers
-grow with creation and a space belongs to one build, hence operand order and emitted text depend on nothing
-but the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are never flattened,
+A space interns every node, so equal expressions are identical objects and are stored once. Node numbers grow
+with creation and a space belongs to one build, hence operand order and emitted text depend on nothing but
+the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are never flattened,
 because flattening would destroy sharing.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
@@ -36,10 +36,10 @@ FUNCTIONS = (
     # c_0 and c_1 for z of either sign: cosh and sinh where z < 0
     "signed_stumpff0",
     "signed_stumpff1",
-    # derivatives of stumpff2 and stumpff3: (2 c_4 - c_3)/2 and (3 c_5 - c_4)/2
+    # derivatives of stumpff2 and stumpff3: c_2' = (2 c_4 - c_3)/2 and c_3' = (3 c_5 - c_4)/2
     "slope2",
     "slope3",
-    # a/b, and 0 where b = 0: a removable singularity whose limit is 0
+    # a/b, and 0 where b = 0, for removable singularities with the limit 0
     "quotient",
 )
 
@@ -47,7 +47,7 @@ FUNCTIONS = (
 class Expr:
     """One node; only its :class:`Space` creates it."""
 
-    # Neither == nor hash is defined: within one space equal expressions are one object.
+    # Neither == nor hash is defined: within one space equal expressions are the same object.
     __slots__ = ("args", "id", "op", "payload", "space")
 
     def __init__(self, space: Space, id: int, op: str, args: tuple[Expr, ...], payload: Payload) -> None:
@@ -109,8 +109,8 @@ class Space:
         self.one = self.const(Number.rational(1))
 
     def _make(self, op: str, args: tuple[Expr, ...] = (), payload: Payload = None) -> Expr:
-        # Arguments exist before their user, so its number is
-        # larger than theirs: numbers are a topological order.
+        # Arguments are created before the nodes that use them, so they have smaller numbers: numbers are a
+        # topological order.
         key = (op, tuple(a.id for a in args), payload)
         node = self._table.get(key)
         if node is None:
@@ -158,11 +158,11 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
-        # x + x is exact as 2 x, and shares the product with other multiples of x.
+        # x + x equals 2 x exactly, and the product 2 x is shared with other sums that contain it.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
-        # Addition commutes in floating point, so one order of
-        # operands serves; it does not associate, so no more.
+        # Addition commutes in floating point, so one order of operands is enough. It is not associative, so
+        # sums of three terms keep their order.
         return self._make("add", (a, b) if a.id < b.id else (b, a))
 
     def sub(self, a: Expr, b: Expr) -> Expr:
@@ -178,7 +178,7 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # Signs move outwards, where the reader's sum absorbs them: -x - b = -(x + b) shares x + b.
+            # Signs move outwards, where a surrounding sum absorbs them: -x - b = -(x + b) shares x + b.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -186,7 +186,7 @@ class Space:
         """Return a b; a constant factor comes first."""
         if b.op == "const":
             a, b = b, a
-        # As in exact arithmetic: x is taken to be finite.
+        # 0 x = 0, as in exact arithmetic: x is assumed to be finite.
         if a is self.zero or b is self.zero:
             return self.zero
         if a.op == "const":
@@ -196,18 +196,18 @@ class Space:
                 return self.neg(b)
             if b.op == "const" and _joinable(a, b):
                 return self.const(a.payload * b.payload)
-            # c (d x) = (c d) x: the product of constants is exact here and is rounded once, by a printer.
+            # c (d x) = (c d) x: the product of constants is exact, and a printer rounds it once.
             if b.op == "mul" and b.args[0].op == "const" and _joinable(a, b.args[0]):
                 return self.mul(self.const(a.payload * b.args[0].payload), b.args[1])
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # A constant takes the sign. Otherwise it moves
-            # outwards, so that x y and x (-y) share one product.
+            # A constant absorbs the sign. Otherwise the sign moves outwards, so that x y and x (-y) share one
+            # product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
-        # The factors are ordered for interning. A constant stays first: other passes look for it there.
+        # The factors are ordered for interning. A constant stays first, because other passes expect it there.
         if a.op != "const" and b.id < a.id:
             a, b = b, a
         return self._make("mul", (a, b))
@@ -221,7 +221,7 @@ class Space:
         if b.op == "const":
             # The reciprocal is exact, and a product is several times faster than a division.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
-        # As in any field of rational functions: the divisor is taken to be non-zero.
+        # As in a field of rational functions, the divisor is assumed to be non-zero.
         if a is b:
             return self.one
         if a.op == "neg":
@@ -239,7 +239,7 @@ class Space:
         if n == 1:
             return a
         if a.op == "const":
-            # An exact power; n is a small integer from a formula.
+            # The power of a constant is exact, and n is a small integer from a formula.
             value = a.payload
             for _ in range(n - 1):
                 value = value * a.payload
@@ -247,7 +247,7 @@ class Space:
         if a.op == "neg":
             power = self.pow(a.args[0], n)
             return self.neg(power) if n % 2 else power
-        # (sqrt x)^(2m) = x^m where the root is real; elsewhere the step fails in both forms.
+        # (sqrt x)^(2m) = x^m where the root is real. Where it is not, the step fails in both forms.
         if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
             return self.pow(a.args[0], n // 2)
         return self._make("pow", (a,), n)
@@ -255,22 +255,23 @@ class Space:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return function(args) for a function of :data:`FUNCTIONS`."""
         if function not in FUNCTIONS:
-            # An unknown name would fail in a printer only, far from its cause.
+            # An unknown name would otherwise fail in a printer, far from the cause.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Whether two constants can be folded: balls are not, so that a printer rounds each only once."""
-    # Rational numbers embed in every ring; two other rings have no common one.
+    """Whether two constants can be folded: balls are not folded, so that a printer rounds each only once."""
+    # Rational numbers embed in every ring. Two different rings have no common ring.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
-    """Yield every node below the roots once, arguments before users; nodes where stop holds are leaves."""
-    # An explicit stack: long steps nest deeper than Python may recurse.
+    """Yield every node below the roots once, arguments before users; nodes for which stop holds are
+    leaves."""
+    # An explicit stack is used, because long steps nest deeper than Python's limit of recursion.
     seen: set[int] = set()
     waiting: list[Expr | None] = []
     for root in roots:
@@ -279,7 +280,7 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
             node = waiting.pop()
             if node is None:  # a marker: all arguments of the node below it were yielded
                 user = waiting.pop()
-                # A marker lies directly above its node on the stack.
+                # The node lies directly below its marker on the stack.
                 assert user is not None
                 yield user
             elif node.id not in seen:
@@ -288,17 +289,17 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     yield node
                     continue
                 waiting += (node, None)
-                # Reversed, because the stack returns the last entry
-                # first: operands are visited from left to right.
+                # Operands are pushed in reverse, because the stack returns the last entry first: they are
+                # visited from left to right.
                 waiting += [a for a in node.args[::-1] if a.id not in seen]
 
 
 def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
-    """Evaluate roots in a domain (see :mod:`codegen.ir.domain`), symbols taking the given values.
+    """Evaluate roots in a domain (see :mod:`codegen.ir.domain`); ``values`` are the values of the symbols.
 
-    With an expression domain this is substitution.
+    With an expression domain the evaluation is substitution.
     """
-    # Read twice below: an iterator would be empty the second time.
+    # The roots are read twice below, and an iterator would be empty the second time.
     roots = list(roots)
     result: dict[int, Scalar] = {}
     for node in walk(roots):
@@ -328,9 +329,9 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
 
 def power(x: Scalar, n: int) -> Scalar:
-    """Return x**n, n >= 1, by squaring, left to right: printers write the same products."""
+    """Return x**n, n >= 1, by squaring from the leading bit; printers write the same products."""
     result = x
-    # The prefix 0b and the leading bit, which is x itself, are skipped.
+    # The prefix 0b and the leading bit are skipped: the leading bit gives x itself.
     for bit in bin(n)[3:]:
         result = result * result
         if bit == "1":

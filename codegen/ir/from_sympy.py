@@ -1,6 +1,6 @@
-"""Reading sympy: a scene's formulas become expressions, and no other part of the compiler uses sympy.
+"""Reading sympy: a scene's formulas become expressions, and no other part of the compiler reads formulas.
 
-The order of sympy's arguments is taken by ``sort_key``, so that the result does not depend on hashing.
+The arguments of a sympy formula are sorted by ``sort_key``, so that the result does not depend on hashing.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # sympy's trees share subexpressions; without the table
-        # a nested formula would be read exponentially often.
+        # sympy's trees share subexpressions. Without the table a nested formula could be read exponentially
+        # often.
         if e not in self.known:
             self.known[e] = self._read(e)
         return self.known[e]
@@ -56,11 +56,10 @@ class _Reader:
 
         if isinstance(e, sympy.Symbol):
             return self.space.sym(e.name)
-        # Before Float: a rational number stays exact, a float is refused.
+        # Rational is tested before Float: a rational number stays exact, a float is refused.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
-        # Sums are read as binary operations in sorted order:
-        # rounding, too, then depends on the formula alone.
+        # Sums are read as binary operations in sorted order, so rounding, too, depends on the formula alone.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -76,7 +75,8 @@ class _Reader:
         raise SceneError(f"{type(e).__name__} in {e}", where=self.where, expected=allowed)
 
     def _product(self, e: sympy.Mul) -> Expr:
-        """Return a product; factors with negative powers are one divisor, so that it has one division."""
+        """Return a product; factors with negative powers form one divisor, so that the product has one
+        division."""
         import sympy
 
         above, below = [], []
@@ -86,7 +86,7 @@ class _Reader:
                 below.append(self._power(self.node(a.base), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # Numerator and divisor are separate products: x/(y z) has one division, x y^-1 z^-1 has two.
+        # Numerator and divisor are separate products: x/(y z) has one division, but x y^-1 z^-1 has two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -110,7 +110,7 @@ def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
-    # From the first node and not from 0 or 1: no node is created that simplification removes.
+    # The sum starts at the first node and not at 0 or 1, so no node is created that simplification removes.
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

@@ -1,4 +1,4 @@
-"""The interpreter: a step program evaluated over any domain; the oracle for everything emitted."""
+"""The interpreter: it evaluates a step program over any domain; emitted code is tested against it."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TO_SPACE = TO_BODY.opposite()
 
 
 def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
-    """Return the scalars of a value; every value but a Real is a flat tuple already, matrices row by row."""
+    """Return the scalars of a value: every value but a Real is a flat tuple already, matrices row by row."""
     return (value,) if kind is Kind.REAL else tuple(value)
 
 
@@ -42,11 +42,14 @@ def interpret(
 
     ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
     (group elements row by row). Blocks are solved by fixed-point iteration until the domain reports
-    convergence; a slow or failing one by Newton's method with difference quotients, if the domain has them
-    and ``newton`` is true. :class:`NotConverged` names a block that takes more than ``limit`` sweeps.
-    Iterations start at ``solutions``, which receives the new ones. ``near`` starts Newton's method at once:
-    it has a list of numbers for each block, in the order of solution, and receives the solutions.
-    A domain's method ``computed`` receives the name and the value of each result, and returns a new value.
+    convergence. If an iteration is slow or fails, Newton's method with difference quotients solves the block,
+    provided that the domain has them and ``newton`` is true. :class:`NotConverged` names a block that takes
+    more than ``limit`` sweeps.
+
+    Iterations start at ``solutions``, and the new solutions are stored there. With ``near``, Newton's method
+    is used at once. ``near`` has a list of numbers for each block, in the order of solution; each list is
+    replaced by the block's solution. If the domain has a method ``computed``, it receives the name and the
+    value of each result and returns a new value.
     """
     if program.frame == BODY:
         # The statements are the same in both frames; only the state that they read and return is converted.
@@ -71,10 +74,11 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # near is a queue: each block takes the first entry and appends its solution.
+            # near is a queue: each block removes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
-            # Fixed points first: where they contract they are sharp, and need no difference quotients.
+            # Fixed-point iteration comes first: where it contracts it is accurate to rounding, and needs no
+            # difference quotients.
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
                 _iterate(statement, env, domain, run, min(limit, patience), expected)
@@ -89,7 +93,7 @@ def interpret(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    # The operation of programs and not a formula of its own: all groups have it.
+    # Ad*_q is the operation of programs and not a separate formula, because all groups have the operation.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -99,11 +103,11 @@ def outward(
 ) -> tuple[Scalar, ...]:
     """Return the momentum in space after a step whose momentum was in the body frame; ``ends`` are both ends.
 
-    It is mu plus the change between the ends: a q that is not quite orthogonal by rounding then rotates the
-    change alone, and not mu.
+    The result is mu plus the change of the momentum between the ends. If q is not quite orthogonal by
+    rounding, it then rotates only the change, and not mu.
     """
-    # Both ends are converted alike, so that roundings of a q
-    # that is not quite orthogonal cancel in the difference.
+    # Both ends are converted by the same operation, so that the rounding errors of a q that is not quite
+    # orthogonal cancel in the difference.
     before, after = (TO_SPACE.evaluate(problem, domain, (x["q"], x["mu"]))[0] for x in ends)
     return tuple(mu + (b - a) for mu, a, b in zip(state["mu"], before, after, strict=True))
 
@@ -120,11 +124,12 @@ def _composed(
     """Return the new state after all substeps."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # A shallow copy: only h differs, and the caller's domain keeps its own.
+        # A shallow copy is enough: only h differs, and the caller's domain keeps its own h.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
-            # From the beginning of the whole step, so that the times of substeps do not add up roundings.
+            # Times are computed from the beginning of the whole step, so that rounding errors of the substeps
+            # do not add up.
             state["t"] = inputs["t"] + domain.number(step.offset) * domain.h
         state |= interpret(substep, problem, shorter, state, limit=limit, newton=newton, near=near)
     return {name: state[name] for name, _ in program.outputs}
@@ -139,7 +144,7 @@ def _iterate(
     expected: Mapping[Var, Value],
 ) -> None:
     for unknown, start in zip(block.unknowns, block.starts, strict=True):
-        # Passes remove unknowns: an expected value is used if its unknown still exists.
+        # Passes may remove unknowns, so an expected value is used only if its unknown still exists.
         env[unknown] = expected.get(unknown, env[start])
     size: Scalar = None
     for _ in range(limit):
@@ -147,7 +152,8 @@ def _iterate(
             run(assign)
         old = [x for u in block.unknowns for x in flatten(u.kind, env[u])]
         new = [x for v in block.images for x in flatten(v.kind, env[v])]
-        # The test is before the update: on return the body's values belong to the unknowns that were read.
+        # The test precedes the update, so that on return the body's values were computed from the returned
+        # unknowns.
         done, size = domain.settled(old, new, size)
         if done:
             return
@@ -157,7 +163,7 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # Domains that wrap another one answer through __getattr__, which isinstance does not see.
+    # A domain that wraps another one forwards attributes by __getattr__, which isinstance does not see.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -172,8 +178,8 @@ def _correct(
 ) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
-    It begins at ``near``, by default at the block's starts, and returns the unknowns. A domain's method
-    ``rounded`` rounds the images.
+    It begins at ``near``, by default at the block's starts, and returns the unknowns. If the domain has a
+    method ``rounded``, it rounds the right-hand sides g(u), called images.
     """
     kinds = [u.kind for u in block.unknowns]
     # All unknowns of a block form one vector, because their equations depend on one another.
@@ -191,7 +197,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # sharp: the corrections have converged, and one more was made.
+    # sharp is true once the corrections have converged; one more correction follows.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -200,10 +206,11 @@ def _correct(
         for j, u in enumerate(now):
             step = domain.increment(u)
             moved = images([*now[:j], u + step, *now[j + 1 :]])
-            # Column j of 1 - g'(u), the derivative of u - g(u); the correction is its inverse times g(u) - u.
+            # This is column j of 1 - g'(u), the derivative of u - g(u). The correction is the inverse matrix
+            # times g(u) - u.
             slopes = [(a - b) / step for a, b in zip(moved, values, strict=True)]
             columns.append([(i == j) - x for i, x in enumerate(slopes)])
-        # (1 - g') d = g(u) - u.
+        # The correction d solves (1 - g') d = g(u) - u.
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:  # each correction squares the error
@@ -211,7 +218,7 @@ def _correct(
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The last run of the body was at a moved point: run it once more at the solution.
+            # The last run of the body was at a displaced point, so the body runs once more at the solution.
             images(now)
             if sharp:
                 return now
@@ -224,7 +231,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # Partial pivoting: the matrix is near the identity only where h is small.
+        # Partial pivoting is needed: the matrix is near the identity only where h is small.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
@@ -236,7 +243,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     solution: list[Scalar] = []
     for k in reversed(range(n)):
         total = rows[k][n]
-        # The solution is collected from the last unknown to the first.
+        # Back substitution goes from the last unknown to the first.
         for x, y in zip(rows[k][k + 1 : n], reversed(solution), strict=True):
             total = total - x * y
         solution.append(total / rows[k][k])

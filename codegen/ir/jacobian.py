@@ -1,10 +1,11 @@
 """Jacobians of expressions by elimination of vertices: exact, and cheaper than one column after another.
 
-The expressions form a graph whose edges carry partial derivatives. Taking a vertex out multiplies each edge
-into it with each edge out of it; when only the variables and the results are left, the edges between them are
-the Jacobian. In which order vertices go decides how much is multiplied: the one on the fewest paths comes
-next (Markowitz's rule; Griewank and Walther, Evaluating Derivatives, ch. 10). Forward and reverse
-differentiation are two of these orders, seldom the best.
+The expressions form a graph whose edges are labelled with partial derivatives. The elimination of a vertex
+multiplies the label of each incoming edge by the label of each outgoing edge. When only the variables and the
+results are left, the labels of the edges between them are the Jacobian. The order of elimination determines
+the number of products. The next vertex is always the one on the fewest paths (Markowitz's rule; Griewank and
+Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two possible orders, and
+seldom the best.
 """
 
 from __future__ import annotations
@@ -19,14 +20,15 @@ from codegen.ir.expr import Expr, walk
 def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr, ...], ...]:
     """Return d roots[i] / d symbols[j], a row for each root, in the roots' space.
 
-    :class:`codegen.ir.differentiate.NotDifferentiable` where a function has no derivative.
+    :class:`codegen.ir.differentiate.NotDifferentiable` is raised where a function has no derivative.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y = s.sym("x"), s.sym("y")
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
-    # Columns are found by number, since a variable that no root reads has no vertex.
+    # Columns are found by the number of the variable's node, because a variable that no root reads has no
+    # vertex.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
@@ -34,16 +36,17 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     matrix = [[space.zero] * len(symbols) for _ in roots]
     for i in range(len(roots)):
         for source, factor in graph.before[-1 - i].items():
-            # Only variables are left before a result: all inner vertices are gone.
+            # All inner vertices are eliminated, so the edges into a result come from variables.
             matrix[i][columns[source]] = factor
     return tuple(tuple(row) for row in matrix)
 
 
 class _Graph:
-    """The linearised expressions: ``before[v][u]`` and ``after[u][v]`` are the edge from u to v.
+    """The linearised expressions: ``before[v][u]`` and ``after[u][v]`` both hold the label of the edge from u
+    to v.
 
-    Vertices are the ids of nodes that depend on a variable; results are -1, -2, ... so that a node may be a
-    result and an argument of another node.
+    Vertices are the ids of nodes that depend on a variable. Results are the vertices -1, -2, ..., so that a
+    node may be both a result and an argument of another node.
     """
 
     def __init__(self, roots: Sequence[Expr], columns: dict[int, int]) -> None:
@@ -51,10 +54,10 @@ class _Graph:
         self.after: dict[int, dict[int, Expr]] = {u: {} for u in columns}
         self.inner: list[int] = []
         for node in walk(roots):
-            # A variable is a source: it keeps its edges and is never taken out.
+            # A variable is a source: it keeps its edges and is never eliminated.
             if node.id in columns:
                 continue
-            # Nodes that depend on no variable never enter the graph: their derivatives are zero.
+            # Nodes that depend on no variable never enter the graph, because their derivatives are zero.
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}
@@ -62,17 +65,18 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
-            # A result that is a variable or an inner node is joined to it by an edge with the derivative 1.
+            # An edge with the derivative 1 joins a variable or an inner node to the result that it is.
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
-        # u depends on no variable.
+        # A vertex u without entry depends on no variable.
         if u not in self.after:
             return
         old = self.before[v].get(u)
-        # Parallel edges are one: path contributions to a derivative add up.
+        # Parallel edges are merged: the contributions of all paths to a derivative are added.
         total = factor if old is None else old + factor
-        # An edge that cancels must go, or the costs below would count paths that carry nothing.
+        # An edge whose label cancels must be removed, or the costs below would count paths that contribute
+        # nothing.
         if total.is_zero:
             self.before[v].pop(u, None)
             self.after[u].pop(v, None)
@@ -80,16 +84,17 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return how many paths lead through v."""
+        """Return the number of paths of two edges through v."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
-        """Take out every inner vertex, the cheapest first, among equals the one nearest to the results."""
-        # Minus the number: among equal costs the youngest
-        # vertex is the first, which is nearest to the results.
+        """Eliminate every inner vertex, the cheapest first; among equal costs the vertex nearest to the
+        results."""
+        # The queue holds the negative number: among equal costs the youngest vertex is the first, which is
+        # nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue; the first that is valid counts.
+        # A vertex may have several entries in the queue, of which the first valid entry counts.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)
@@ -97,20 +102,20 @@ class _Graph:
             if v in gone:
                 continue
             now = self._cost(v)
-            # Entries may be out of date. A cost that has grown is entered again; one that has fallen was
-            # entered by the elimination that lowered it.
+            # Entries may be out of date. A vertex whose cost has grown is entered again. A vertex whose cost
+            # has fallen was entered again by the elimination that lowered the cost.
             if now > cost:
                 heapq.heappush(queue, (now, negative))
                 continue
             gone[v] = True
             neighbours = self._take_out(v)
             for u in neighbours:
-                # Variables have no incoming and results no outgoing edges: neither may be taken out.
+                # Variables have no incoming edges and results no outgoing edges; neither may be eliminated.
                 if u in self.before and u in self.after:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # The vertex leaves both tables first: products below must not find edges to it.
+        # The vertex is removed from both tables first: the products below must not find edges to the vertex.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]

@@ -1,9 +1,10 @@
 """Kernels: a step as scalar assignments and loops that solve equations, ready for a printer.
 
-A kernel is single assignment. A :class:`Loop` repeats its body with the unknowns replaced by their images, or
-corrected by Newton's method, until they converge. Body values may be read afterwards: they have the values
-of the last sweep. A :class:`Start` says where the unknowns of all loops begin, unless solutions of earlier
-steps are known. A kernel never branches on data apart from that: it selects.
+A kernel is single assignment. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u) are called
+images. The loop repeats its body until the unknowns converge: it replaces the unknowns by their images, or
+corrects them by Newton's method. Values of the body may be read after the loop, and are those of the last
+sweep. A :class:`Start` gives the first values of the unknowns of all loops, unless solutions of earlier steps
+are known. A kernel has no other branches on data: it uses selections.
 """
 
 from __future__ import annotations
@@ -23,16 +24,16 @@ ELAPSED = "elapsed.h"
 """The total duration of the steps whose flows are deferred."""
 
 LONGEST = 256
-"""The most steps for which a flow is deferred: its angles stay moderate."""
+"""The largest number of steps for which a flow is deferred; the bound keeps the flow's angles moderate."""
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
-"""The methods that a block may be solved by."""
+"""The methods that may solve a block."""
 
 SLOWEST = 2.0**-12
-"""The smallest rate of convergence that is assumed: a rate measured near rounding is not reliable."""
+"""The smallest rate of convergence that a loop assumes: a rate measured near rounding is not reliable."""
 
 UNIT = 2.0**-53
-"""Half a unit in the last place of one."""
+"""Half a unit in the last place of the number 1."""
 
 LOST = 2.0**-47
 """A change below this fraction of the largest number in a block of the state is lost in rounding."""
@@ -46,7 +47,8 @@ VARIED = "the variation of "
 
 @dataclass(frozen=True)
 class Let:
-    """name = value; symbols in value are inputs, unknowns of an enclosing loop, or earlier names."""
+    """name = value; symbols in ``value`` are inputs, unknowns of an enclosing loop, or names assigned
+    before."""
 
     name: str
     value: Expr
@@ -56,13 +58,13 @@ class Let:
 class Newton:
     """The matrix of Newton's method for u = g(u): ``matrix`` is 1 - g'(u), ``body`` computes its entries.
 
-    It is kept from sweep to sweep and from step to step (:mod:`codegen.run.sweeps`); a matrix to ``leading``
-    order in h is computed and inverted in each step instead. Entries that are ``inverted`` are those of the
-    inverse already.
+    The matrix is kept from sweep to sweep and from step to step (:mod:`codegen.run.sweeps`). A matrix to
+    ``leading`` order in h is computed and inverted in each step instead. If ``inverted`` is true, the entries
+    are those of the inverse matrix.
 
     If the loop's images are ``residuals``, which vanish at the solution, the matrix is minus their derivative
-    to first order in h, and serves ``period`` steps. ``changes`` names the last change of the unknowns, by
-    which values that are read after the loop may be corrected.
+    to first order in h, and the inverse is used for ``period`` steps. ``changes`` names the last change of
+    the unknowns; values that are read after the loop may be corrected by it.
     """
 
     body: tuple[Let, ...]
@@ -76,11 +78,12 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps that an inverse for residuals serves; 0: as long as it contracts.
+        """The number of steps for which an inverse for residuals is used; 0 means: as long as it contracts.
 
-        An inverse costs a multiple of n^3, a sweep one of n; the older the inverse, the more sweeps.
+        The inverse costs a multiple of n^3, a sweep a multiple of n. The older the inverse, the more sweeps a
+        step takes.
         """
-        # With n = len(matrix), n/2 steps share the cost of order n^3, so a step pays one of order n^2.
+        # With n = len(matrix), n/2 steps share the cost of order n^3, so each step pays a cost of order n^2.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -88,15 +91,16 @@ class Newton:
 class Loop:
     """Solve unknowns = images over body until the largest change is at rounding level.
 
-    ``label`` names the block in messages and statistics ("stage 2"); ``starts`` are evaluated before the
-    loop, and empty where a :class:`Start` gives them. Without ``newton`` the change of the unknowns is images
-    - unknowns, and the unknowns keep the values that the last body was computed from; with it the change is
-    that times the inverse of ``newton.matrix``, and the last change is made too.
+    ``label`` names the block in messages and statistics ("stage 2"). ``starts`` are evaluated before the
+    loop, and are empty where a :class:`Start` gives the first values. Without ``newton`` the change of the
+    unknowns is images - unknowns, and the last change is not applied: the body's last values belong to the
+    final unknowns. With ``newton`` the change is the inverse of ``newton.matrix`` times images - unknowns,
+    and the last change is applied too.
 
-    ``tolerance``, ``close`` and ``limit`` are numbers of the stopping rule (:mod:`codegen.run.stopping`): the
-    largest change, in units of the largest unknown, at which an iteration may stand still; the largest after
-    which a contraction is trusted to finish; the most sweeps. ``read_anew`` says that only the unknowns are
-    read after the loop, so that the last change may be larger.
+    The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
+    in units of the largest unknown, at which an iteration may stagnate. ``close`` is the largest change after
+    which a contraction is trusted to finish. ``limit`` is the largest number of sweeps. ``read_anew`` says
+    that only the unknowns are read after the loop, so the last change may be larger.
     """
 
     label: str
@@ -104,7 +108,7 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # 512 roundings: changes at rounding level grow with the number of terms in a sweep.
+    # 512 rounding units: changes at rounding level grow with the number of terms in a sweep.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -112,7 +116,7 @@ class Loop:
 
     @property
     def solver(self) -> str:
-        """The name of the method."""
+        """The name of the method that solves the block."""
         if self.newton is None:
             return FIXED_POINT
         return SIMPLIFIED_NEWTON if self.newton.leading else NEWTON
@@ -121,11 +125,12 @@ class Loop:
     def close(self) -> float:
         """The largest change after which a contraction is trusted to finish.
 
-        Values that are read after the loop were computed before the last change. Simplified Newton contracts
-        by (h L)^2 while these values change by h L, so a rate that ends the loop bounds their error too.
+        Values of the body that are read after the loop were computed before the last change. Simplified
+        Newton contracts by (h L)^2, while the values of the body change by only h L times the last change. So
+        a rate that ends the loop also bounds the error of the values.
         """
-        # Values after the loop are recomputed from the last
-        # unknowns: their error is the rate times the last change.
+        # If values after the loop are recomputed from the last unknowns, their error is the rate times the
+        # last change.
         if self.read_anew and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -136,15 +141,17 @@ class Loop:
 class Start:
     """unknowns = values over body, unless solutions of earlier steps are known.
 
-    The unknowns then begin at the polynomial through the last solutions, continued by a step: with u1,
-    u2, ... (latest first) at u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most ``depth`` solutions are
-    kept; the degree grows while their differences fall. The first change of the loops is the error of this
-    guess: if it exceeds ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next.
-    The unknowns are those of all loops of the kernel, in order.
+    Otherwise the unknowns begin at the polynomial through the last solutions, extrapolated by one step. With
+    the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most
+    ``depth`` solutions are kept. The degree grows while the differences of the solutions decrease. The first
+    change of the loops is the error of the extrapolation. If it exceeds ``ROUGH`` times the change of the
+    unknowns in the step, only u1 is kept for the next step. The unknowns are those of all loops of the
+    kernel, in order.
 
-    If the loops do not converge, earlier solutions are dropped; then the step is halved until they do. The
-    solution of each step is the start of a longer one (continuation in h), until the whole step is solved.
-    It fails after ``TRIES`` steps, or when even a step longer by the fraction ``SHORTEST`` does not converge.
+    If the loops do not converge, earlier solutions are dropped; then the step is halved until the loops
+    converge. The solution of each step is the start of a longer step (continuation in h), until the whole
+    step is solved. The search fails after ``TRIES`` steps, or when even a step longer by the fraction
+    ``SHORTEST`` does not converge.
     """
 
     unknowns: tuple[str, ...]
@@ -152,10 +159,11 @@ class Start:
     values: tuple[Expr, ...]
     depth: int = 16
 
-    # A guess that misses by half of the change is hardly better than u1, the guess of degree 0.
+    # A start whose error is half of the change is hardly better than u1, the extrapolation of degree 0.
     ROUGH: ClassVar[float] = 0.5
-    # A limit that is hardly ever reached: before the first success each try halves the step, so 100 of them
-    # reach 2^-100 h. After it, each failure takes the root of the factor: nine in a row end the search.
+    # The limit is hardly ever reached. Before the first success each try halves the step, so 100 tries reach
+    # 2^-100 h. After the first success each failure replaces the factor by its square root: nine failures in
+    # a row end the search.
     TRIES: ClassVar[int] = 100
     # The largest factor is 4, and 4^(1/2^9) < 1 + 2^-8: the ninth failure in a row is the last.
     SHORTEST: ClassVar[float] = 2.0**-8
@@ -163,7 +171,8 @@ class Start:
 
 @dataclass(frozen=True)
 class Field:
-    """A named block of scalars in the state, input or output: its names in order, and its meaning."""
+    """A named block of scalars in the state, input or output: the names of its scalars in order, and its
+    meaning."""
 
     name: str
     symbols: tuple[str, ...]
@@ -175,8 +184,8 @@ class Deferred:
     """Flows deferred across steps.
 
     A step is ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with :data:`ELAPSED` = h.
-    Steps one after the other are ``begin`` once, the kernel as often, with LEAD = ``later`` h in all but the
-    last, and ``finish`` once, with ELAPSED as long as all of them.
+    Several steps in a row are ``begin`` once, the kernel once for each step, and ``finish`` once. In them
+    LEAD = ``later`` h in all steps but the last, and ELAPSED is the length of all steps together.
     """
 
     begin: Kernel | None
@@ -192,12 +201,12 @@ class Deferred:
 
 @dataclass(frozen=True)
 class Carried:
-    """The momentum m that a run carries from step to step in place of the state's mu.
+    """The momentum m in the body frame, which a run keeps from step to step in place of the state's mu.
 
-    m = ``inward``(q, mu) and mu = ``outward``(q, m), which are the numbers from ``first`` on. A step is
-    ``inward``, the kernel on (q, m), and mu + outward(q', m') - outward(q, m) with the new q', m'. Steps one
-    after the other are ``inward`` once, the kernel for each step, and such an end once. A q that is not quite
-    orthogonal by rounding then rotates only the change of the momentum.
+    m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum is the part of the state from the number
+    ``first`` on. A step is ``inward``, the kernel on (q, m), and an end mu + outward(q', m') - outward(q, m)
+    with the new q', m'. Several steps in a row are ``inward`` once, the kernel once for each step, and the
+    end once. If q is not quite orthogonal by rounding, it then rotates only the change of the momentum.
     """
 
     inward: Kernel
@@ -207,7 +216,7 @@ class Carried:
 
 @dataclass(frozen=True)
 class Sample:
-    """Run-time inputs at one time of the step: a symbol for each, in the order of ``Kernel.inputs``."""
+    """Run-time inputs at one time of the step: a symbol for each input, in the order of ``Kernel.inputs``."""
 
     time: Expr
     symbols: tuple[str, ...]
@@ -215,8 +224,10 @@ class Sample:
 
 @dataclass(frozen=True)
 class Estimate:
-    """The new state less one of lower order, component by component; both differ from the flow by O(h^order)
-    or less in one step."""
+    """The new state minus an embedded solution of lower order, component by component.
+
+    Both solutions differ from the flow by O(h^order) or less in one step.
+    """
 
     errors: tuple[Expr, ...]
     order: int
@@ -226,7 +237,8 @@ class Estimate:
 class Function:
     """A function that a kernel calls in several places: ``outputs`` over ``body``, of ``inputs`` alone.
 
-    Its k-th result is the expression that calls ``NAME.k``; ``about`` writes it in operations of a program.
+    Its k-th result is the expression that calls ``NAME.k``. ``about`` describes the function by operations of
+    a program.
     """
 
     name: str
@@ -240,11 +252,12 @@ class Function:
 class Kernel:
     """One step: state fields, scalar inputs (h, t, run-time parameters), body, new state in field order.
 
-    ``inputs`` names functions of time that the caller supplies, ``samples`` are the times they are read at.
-    ``vary`` carries a variation along: its state is this one's and then the variation, its outputs are the
-    variation of the new state. With ``substeps`` this is one of the parts of a step, all alike: h and t are
-    those of the part. ``outlined`` are functions that its expressions call. With ``carried`` the state's
-    momentum is another for the kernel.
+    ``inputs`` names functions of time that the caller supplies, ``samples`` are the times at which they are
+    read. ``vary`` is the kernel of the variational equation: its state is the state of this kernel followed
+    by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats this
+    kernel for each of its parts, and h and t are those of the part. ``outlined`` are functions that the
+    expressions of the kernel call. With ``carried`` the kernel reads and returns the momentum m of
+    :class:`Carried` in place of mu.
     """
 
     name: str
@@ -269,11 +282,11 @@ class Kernel:
     @property
     def start(self) -> Start | None:
         """The common start of all loops, None if each has its own."""
-        # A kernel has one Start at most: warm starts extrapolate the unknowns of all loops as one vector.
+        # A kernel has at most one Start: warm starts extrapolate the unknowns of all loops as one vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
-        """Yield every assignment, those in loops included."""
+        """Yield every assignment, including those inside loops."""
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement
@@ -290,7 +303,7 @@ class Kernel:
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
-            # A Start has values, a Loop has starts and images; only a Loop may have a matrix.
+            # A Start has values, a Loop has starts and images, and only a Loop may have a matrix.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue
@@ -307,7 +320,7 @@ class Kernel:
         return tuple(sorted({n.payload for n in walk(self.expressions()) if n.op == "call"}))
 
     def used_scalars(self) -> tuple[str, ...]:
-        """Return the ``scalars`` that an expression reads, deferred flows included, in order."""
+        """Return the ``scalars`` that an expression of the kernel or of a deferred flow reads, in order."""
         read = {n.payload for n in walk(self.expressions()) if n.op == "sym"}
         if self.deferred is not None:
             # A parameter that only a deferred flow reads is still an argument of the step.

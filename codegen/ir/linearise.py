@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in h, for simplified Newton iterations.
 
-Every expression is carried as v_0 + v_1 h with its derivatives by the unknowns, truncated alike, so
-higher powers of h are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is
-taken at h = 0. An iteration with this Jacobian gains two powers of h a sweep.
+Every expression is expanded as v_0 + v_1 h, together with its derivatives by the unknowns. Higher powers of h
+are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is evaluated at h = 0. An
+iteration with this Jacobian gains two powers of h a sweep.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ Pair = tuple[Expr, Expr]
 
 
 class NotLinearised(ArithmeticError):
-    """A function whose expansion in h is not known: one with a pole or a branch point at h = 0."""
+    """A function with a pole or a branch point at h = 0, or without a rule for its expansion in h."""
 
 
 @dataclass(frozen=True)
 class _Dual:
-    """A value and its derivatives by unknowns, where they are not zero."""
+    """A value v_0 + v_1 h and its derivatives by those unknowns for which they are not zero."""
 
     value: Pair
     slopes: dict[int, Pair]
@@ -49,19 +49,20 @@ class FirstOrder:
         self.duals: dict[int, _Dual] = {}
 
     def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
-        """Return the derivatives of roots, all of one space, a row a root.
+        """Return the derivatives of roots, all of one space, a row for each root.
 
-        :class:`NotLinearised` where a root has no expansion at h = 0 that the rules here find.
+        :class:`NotLinearised` is raised for a root whose expansion at h = 0 the rules of this module do not
+        find.
         """
-        # There is no space to take the symbol h from.
+        # Without roots there is no space that has the symbol h.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
-        # Expansions are kept between calls, whose roots may share expressions.
+        # Expansions are kept between calls, because the roots of several calls may share expressions.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
-        # The two coefficients are joined at the end only: h is a symbol again in the result.
+        # The two coefficients are joined only at the end: in the result h is a symbol again.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
@@ -77,9 +78,9 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             return _Dual((node, zero), {})
         case "sym":
             if node.payload == STEP:
-                # h = 0 + 1 h.
+                # The symbol h is 0 + 1 h.
                 return _Dual((zero, one), {})
-            # Unknowns have no part of order h of their own: the expansion is at fixed unknowns.
+            # Unknowns have no term of order h: the expansion is at fixed unknowns.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -91,7 +92,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "mul":
             return _product(space, args[0], args[1])
         case "div":
-            # a/b = a (1/b): one rule less, and the inverse of a shared divisor is one node.
+            # a/b = a (1/b) needs no rule of its own, and the inverse of a shared divisor is one node.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
             result = args[0]
@@ -148,14 +149,14 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     low, high = a.value
     if function.startswith("stumpff"):
         k = int(function[7:])
-        # c_k is expanded at 0 only: there all derivatives are rational, and angles vanish with h.
+        # c_k is expanded at 0 only: its derivatives are rational there, and the angles vanish with h.
         if not low.is_zero:
             raise NotLinearised("a rotation angle does not vanish at h = 0")
         # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so the second derivative is twice the last coefficient.
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
-        # The derivatives of a root are infinite there.
+        # The derivatives of a root are infinite at 0.
         if low.is_zero:
             raise NotLinearised("a root at its branch point")
         at = space.call("sqrt", low)

@@ -1,9 +1,10 @@
 """Normal forms: expressions as polynomials in their symbols and irrational parts, reduced by relations.
 
-Formulas that agree only where coordinates satisfy a group's laws differ as expressions. Expanding what is
-polynomial in them, with the arguments of roots and divisors brought to normal form first, and replacing the
-leading product of each law, brings many of them together: |g y|^2 becomes |y|^2 where g^T g = 1. The result
-equals the given expression wherever the laws hold; it is not canonical, and need not be shorter.
+Formulas that agree only where coordinates satisfy a group's laws differ as expressions. The normal form of an
+expression brings the arguments of roots and the divisors to normal form first. It then expands the expression
+as a polynomial, and replaces the leading product of each law. Many such formulas become equal in this way: |g
+y|^2 becomes |y|^2 where g^T g = 1. The result equals the given expression wherever the laws hold. It is not
+canonical, and need not be shorter.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Monomial = tuple[tuple[int, int], ...]
-"""Pairs (node, exponent), sorted; nodes by their number in the space."""
+"""Pairs (node, exponent), sorted; a node is given by its number in the space."""
 
 Polynomial = dict[Monomial, Number]
 
@@ -42,13 +43,14 @@ class NormalForms:
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
         self.space = space
-        # Monomials hold numbers of nodes, which sort and hash faster than nodes; this table leads back.
+        # Monomials contain numbers of nodes, which sort and hash faster than nodes. This table gives the
+        # nodes.
         self.atoms: dict[int, Expr] = {}
-        # An expression that is not expanded is a variable from the beginning.
+        # An expression that is not expanded is entered as a variable.
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
-            # Monomials are sorted by node number, and so are the pairs that they are searched for.
+            # Monomials are sorted by node number, so the pairs that are searched for in them are sorted, too.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:
@@ -56,7 +58,8 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # Right sides stay unreduced: _reduced applies the rules to what they bring in.
+            # Right sides stay unreduced, because _reduced applies the rules to the terms of a right side,
+            # too.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
@@ -64,7 +67,7 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # Too long is no failure: the caller compares or emits the expression as it is.
+            # An expression that is too long is no failure: the caller compares or emits it as it is.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -92,15 +95,16 @@ class NormalForms:
                 case "pow":
                     value = args[0]
                     for _ in range(node.payload - 1):
-                        # Reduced after each factor: the intermediate polynomials stay short.
+                        # The value is reduced after each factor, so that the intermediate polynomials stay
+                        # short.
                         value = self._reduced(self._times(value, args[0]))
                 case "div":
-                    # 1/d is a variable: after this, equal divisors are
-                    # equal variables, and quotients are polynomials.
+                    # 1/d is a variable. As d is in normal form, equal divisors are equal variables, and
+                    # quotients are polynomials.
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
-                    # The normal form of the argument makes functions of equal arguments equal variables.
+                    # The argument is in normal form, so a function of equal arguments is the same variable.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value
@@ -108,15 +112,16 @@ class NormalForms:
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
         """Return a polynomial as an expression, the most frequent factor taken out first."""
-        # A copy: polynomials are kept for later expressions.
+        # The terms are copied, because the polynomial may be needed for later expressions.
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
             for atom, _ in monomial:
                 count[atom] = count.get(atom, 0) + 1
-        # Horner's rule in several variables. max returns the first of equals: the oldest node.
+        # This is Horner's rule in several variables. Among equal counts max returns the first one: the oldest
+        # node.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
-        # A factor of one term saves no product.
+        # Taking out a factor that occurs in one term only saves no product.
         if best < 0 or count[best] < 2:
             return self._sum(terms)
         inside: Polynomial = {}
@@ -152,7 +157,7 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # A limit on the work alone: like terms join, so a long product may still have few.
+        # This limits only the work: like terms are added, so a long product may still have few terms.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
@@ -162,7 +167,8 @@ class NormalForms:
                 for atom, k in n:
                     powers[atom] = powers.get(atom, 0) + k
                 total = _add(total, tuple(sorted(powers.items())), x * y)
-        # Stops an expansion before it fills the memory: products of sums grow exponentially with their depth.
+        # This stops an expansion before it fills the memory: the length of nested products of sums grows
+        # exponentially.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
@@ -170,20 +176,21 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Return a polynomial without the left side of any relation."""
         done: Polynomial = {}
-        # popitem takes the latest entry: the order is that of insertion, and so does not depend on hashes.
+        # popitem removes the latest entry. The order is that of insertion, so it does not depend on hashes.
         waiting = dict(polynomial)
-        # Each step replaces one leading product. It ends if the rules do, which the class requires of them.
+        # Each pass of the loop replaces one leading product. The loop ends if the replacements terminate,
+        # which the class requires of its relations.
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The left side may be a square, i = j: then the exponent must be 2.
+                # The left side may be a square, i = j: then the exponent must be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # The right side may hold other leading products: it waits to be reduced again.
+                    # The right side may contain other leading products, so its terms wait to be reduced, too.
                     break
             else:
                 done = _add(done, monomial, c)
@@ -195,7 +202,7 @@ class NormalForms:
 def _add(polynomial: Polynomial, monomial: Monomial, c: Number) -> Polynomial:
     old = polynomial.get(monomial)
     value = c if old is None else old + c
-    # Zero coefficients must not stay: equal polynomials are equal dictionaries.
+    # Terms with coefficient zero are removed, so that equal polynomials are equal dictionaries.
     if value.is_zero:
         polynomial.pop(monomial, None)
     else:

@@ -1,9 +1,9 @@
 """Exact numbers in programs: an element together with its ring, hashable, rounded once by a printer.
 
-Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed; a
-:class:`Number` is how programs carry them. Two numbers are equal when their rings give equal keys, so that
-equal coefficients of a ball tableau (the same name in the file) are seen as equal although balls never
-prove equality: their difference is 0 and their quotient 1, and a factor 1 widens no ball.
+Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed. Programs
+represent them as a :class:`Number`. Two numbers are equal when their rings give equal keys. Balls alone never
+prove equality, but coefficients of a ball tableau with the same name in the file have equal keys. The
+difference of equal numbers is exactly 0 and their quotient exactly 1, and a product by 1 widens no ball.
 """
 
 from __future__ import annotations
@@ -17,13 +17,14 @@ from functools import cached_property
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 
-# Lengths are limited: Fraction("1e999999999") would build an integer of a billion digits.
+# The lengths of texts and exponents are limited: Fraction("1e999999999") would build an integer of a billion
+# digits.
 _TYPED = re.compile(r"[+-]?(\d{1,99}/\d{1,99}|(\d{1,99}\.?\d{0,99}|\.\d{1,99})([eE][+-]?\d{1,3})?)", re.ASCII)
 _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
 
 def is_normal(value: Fraction) -> bool:
-    """Whether a double holds this number to its full precision: neither too large for it nor denormal.
+    """Whether a double represents this number to its full precision: it is neither too large nor denormal.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
@@ -41,7 +42,7 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """The key: equal numbers have equal keys."""
+        """The key that decides equality: equal numbers have equal keys."""
         # Keys make equality decidable for balls, too: equal names in a file give equal keys.
         return tuple(self.ring.key(self.element))
 
@@ -82,7 +83,8 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """Whether this number is provably zero."""
-        # is_zero answers None where it is undecided, and undecided is not zero.
+        # The ring's is_zero answers None where the question is undecided; such a number does not count as
+        # zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -103,7 +105,7 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number embeds in any ring; only two other rings have no common one.
+        # A rational number embeds in any ring. Two rings other than QQ have no common ring.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -113,7 +115,7 @@ class Number:
         raise TypeError(message)
 
     def __add__(self, other: Number) -> Number:
-        # Arithmetic of balls would return a ball around 0, which no simplification recognises.
+        # For balls the sum would be a ball around 0, which no simplification recognises.
         if self == -other:
             return Number.rational(0)
         ring, x, y = self._join(other)
@@ -126,7 +128,7 @@ class Number:
         return Number(ring, x - y)
 
     def __mul__(self, other: Number) -> Number:
-        # A product would widen a ball, and change its key, for nothing.
+        # A product by 1 would widen a ball and change its key without need.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)
@@ -148,7 +150,7 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # 40 digits: far more than a double's 17, so the last rounding decides.
+        # 40 digits are far more than the 17 of a double, so only the last rounding affects the result.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:

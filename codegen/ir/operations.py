@@ -1,8 +1,8 @@
-"""The operations of step programs: one small class each.
+"""The operations of step programs: one small class for each operation.
 
-An operation knows how it is printed, which kinds of arguments it takes and which kinds of values it returns,
-and how it is evaluated in a problem over any domain. ``dual`` operations act on the dual of the Lie algebra.
-Conventions: [x, y] = AB - BA, ad*_x and Ad*_g are the plain duals of ad_x and Ad_g.
+A class defines how the operation is printed, which kinds its arguments and results have, and how it is
+evaluated in a problem over any domain. ``dual`` operations act on the dual of the Lie algebra. Conventions:
+[x, y] = AB - BA, ad*_x and Ad*_g are the plain duals of ad_x and Ad_g.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from codegen.ir.values import Coefficient, Kind
 
 Kinds = tuple[Kind, ...]
 
-# One-tuples, so that signatures are sums: G + A is (Group, Alg).
+# These are one-tuples, so that signatures are sums: G + A is (Group, Alg).
 A, D, G, P, R = (Kind.ALG,), (Kind.DUAL,), (Kind.GROUP,), (Kind.POINT,), (Kind.REAL,)
 NONE: Kinds = ()
 LINEAR = (Kind.ALG, Kind.DUAL)
@@ -39,7 +39,7 @@ class Problem(Protocol):
         """Return the state after the exact flow of a part for the time tau."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Return the product of a word's functions of ad_x, of ad*_x where ``dual``, applied to v."""
+        """Return the product of a word's functions of ad_x, or of ad*_x where ``dual``, applied to v."""
 
     def dimension(self) -> int:
         """Return the dimension of the Lie algebra."""
@@ -50,23 +50,25 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results, where no parameter changes them."""
-    # Passes may then move factors and sums through the operation, as in ad_x(c v + w) = c ad_x v + ad_x w.
+    """The kinds of the arguments and of the results of an operation whose parameters do not change them."""
+    # Passes may move factors and sums through a linear operation, as in ad_x(c v + w) = c ad_x v + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """Whether the result is linear in the last argument."""
     # A method's cost is counted in evaluations of the scene and in exponentials.
     evaluates_scene: ClassVar[bool] = False
-    """Whether it counts as one evaluation of the field or of the derivatives of the Hamiltonian."""
+    """Whether the operation counts as one evaluation of the field or of the derivatives of the
+    Hamiltonian."""
     exponentials: ClassVar[int] = 0
-    """The number of exponentials or flows that it computes."""
+    """The number of exponentials or flows that the operation computes."""
 
     noun: ClassVar[str] = ""
-    """Its name in reports, with ``{s}`` for the plural; '' for an operation that costs nothing."""
+    """The noun for the operation in reports, with ``{s}`` for the plural; '' if the operation costs
+    nothing."""
 
     @property
     @abstractmethod
     def name(self) -> str:
-        """The name that is printed, and by which programs count their operations."""
+        """The printed name, by which programs also count their operations."""
 
     def signature(self) -> tuple[Kinds, Kinds]:
         """Return the kinds of the arguments and of the results."""
@@ -102,42 +104,45 @@ class Zero(Operation):
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Whether an assignment of these kinds is well-formed."""
-        # Groups and manifolds have no zero.
+        # A group and a manifold have no zero.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        # Scalars of the domain: sums with a plain 0 would have another type.
+        # The zeros are scalars of the domain: with a plain 0, sums would have another type.
         return ((domain.rational(0),) * problem.dimension(),)
 
 
 @dataclass(frozen=True)
 class Linear(Operation):
-    """A linear combination; it has one coefficient an argument."""
+    """A linear combination with one coefficient for each argument."""
 
     coefficients: tuple[Coefficient, ...]
     name = "lin"
     noun = "sum{s}"
 
     def signature(self) -> tuple[Kinds, Kinds]:
-        """Return the kinds of a combination in the algebra; those in the dual are accepted too."""
+        """Return the kinds of a combination in the algebra; :meth:`accepts` also admits the other vector
+        spaces."""
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Whether there is at least one term, and all are of the kind of the result."""
-        # An empty sum is Zero, which knows its kind; here the arguments determine it.
+        # An empty sum is a Zero, which stores its kind. The kind of a combination is determined by its
+        # arguments.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
     def applied(self, args: Sequence[str]) -> str:
         """Return the text of the operation applied to arguments."""
-        # The verifier prints wrong programs too: coefficients and arguments may differ in number.
+        # The verifier also prints ill-formed programs, in which coefficients and arguments may differ in
+        # number.
         terms = zip_longest([f"({c.text()})" for c in self.coefficients], args)
         return " + ".join(f"{c or '?'} {a or '?'}" for c, a in terms)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the sum; terms with equal coefficients are added before they are scaled."""
-        # Emitted code inherits this order of operations: one product for each distinct coefficient.
+        # Emitted code uses the same order of operations: one product for each distinct coefficient.
         groups: dict[Coefficient, list[Value]] = {}
         for c, x in zip(self.coefficients, args, strict=True):
             groups.setdefault(c, []).append(x)
@@ -148,7 +153,7 @@ class Linear(Operation):
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # A product by 1 is left out: over power series it is a full multiplication.
+                # A product by 1 is omitted, because over power series it would be a full multiplication.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -243,7 +248,7 @@ class ActExp(OfGroup):
 
 @dataclass(frozen=True)
 class Adjoint(OfGroup):
-    """Ad_g x, or Ad*_g mu; of g^-1 in place of g where ``inverse``."""
+    """Ad_g x, or Ad*_g mu; where ``inverse``, g^-1 replaces g."""
 
     dual: bool = False
     inverse: bool = False
@@ -266,9 +271,9 @@ class Adjoint(OfGroup):
         return G + own, own
 
     def opposite(self) -> Adjoint:
-        """Return the operation that undoes this one."""
-        # Ad_g Ad_{g^-1} = 1, and the same for the plain duals, in which
-        # the order of a product is reversed: Ad*_{gk} = Ad*_k Ad*_g.
+        """Return the inverse operation, with the same g."""
+        # Ad_g Ad_{g^-1} = 1. The plain duals are inverse to each other, too, although they reverse the order
+        # of products: Ad*_{gk} = Ad*_k Ad*_g.
         return Adjoint(self.dual, not self.inverse)
 
 
@@ -313,7 +318,7 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The operation as a function of ad."""
-        # As a word it can be joined with neighbouring functions of the same ad.
+        # As a word the operation can be joined with neighbouring functions of the same ad.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -327,7 +332,7 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        # The order is an argument, because the number of brackets is the method's and not the group's.
+        # The order is an argument, because the number of brackets depends on the method and not on the group.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
@@ -335,7 +340,7 @@ class InverseDexp(Operation):
 class InverseDexpSlope(Operation):
     """P*_(order)(x, y) mu: <P* mu, z> = <mu, derivative of dexpinv_x y by x along z>.
 
-    It belongs to the dexp^{-1} of :class:`InverseDexp` with the same order.
+    Here dexpinv is the dexp^{-1} of :class:`InverseDexp` with the same order.
     """
 
     order: int
@@ -393,8 +398,9 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Whether an assignment of these kinds is well-formed; the empty word is no operation."""
-        # An empty word is the identity: the pass that empties one removes the assignment.
+        """Whether an assignment of these kinds is well-formed; the empty word is not allowed."""
+        # An empty word is the identity. The pass that simplifies a word to the empty one removes the
+        # assignment.
         return bool(self.word) and super().accepts(arguments, results)
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:

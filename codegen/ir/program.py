@@ -1,11 +1,12 @@
 """Step programs: one step of a method on a scene, in Lie group terms, before any coordinates.
 
 A value has one of five kinds (:class:`codegen.ir.values.Kind`). Each variable is assigned once. Equations
-that depend on one another form a :class:`Solve` block: its unknowns, the body computed from them, and the
-images that must equal them. A method is lowered to *one* block with all its stages; the passes find the
-order in which stages can be solved one after the other.
+that depend on one another form a :class:`Solve` block u = g(u). A block has unknowns u, a body that computes
+values from the unknowns, and the values g(u) of the body that must equal the unknowns, called images. A
+method is lowered to *one* block with all its stages; the passes find the order in which stages can be solved
+one after the other.
 
-There are no branches on data, no loops other than blocks, and no second group in a program.
+A program has no branches on data, no loops other than blocks, and only one group.
 """
 
 from __future__ import annotations
@@ -43,14 +44,15 @@ class Assign:
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
         """The terms of a linear combination; () for any other operation."""
-        # Other operations have no terms, so callers may loop over terms without asking for the operation.
+        # For other operations the result is empty, so callers may loop over terms without testing the
+        # operation.
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
     @property
     def is_multiple(self) -> bool:
-        """Whether this is one coefficient times one value."""
+        """Whether the operation is a combination of one term: one coefficient times one value."""
         return isinstance(self.operation, Linear) and len(self.args) == 1
 
     @classmethod
@@ -69,9 +71,10 @@ class Assign:
 class Solve:
     """Find unknowns = images, where the body computes the images from the unknowns.
 
-    Values of the body may be used after the block; they are those at the solution. ``starts`` are
-    values of the same kinds, known before the block. ``residuals``, where there are any, are values that
-    vanish together exactly where unknowns and images agree: one an unknown, of the same size.
+    Values of the body may be used after the block, and are those at the solution. ``starts`` are the first
+    values of the unknowns; they have the same kinds and are known before the block. ``residuals`` may be
+    empty. Otherwise there is one residual for each unknown, of the same size, and the residuals vanish
+    together exactly where unknowns and images agree.
     """
 
     label: str
@@ -79,7 +82,8 @@ class Solve:
     starts: tuple[Var, ...]
     body: tuple[Assign, ...]
     images: tuple[Var, ...]
-    # Scaled as the unknowns: a stopping rule compares residuals and unknowns without knowing the equations.
+    # Residuals are scaled like the unknowns, so that a stopping rule can compare them without knowing the
+    # equations.
     residuals: tuple[Var, ...] = ()
 
 
@@ -87,11 +91,12 @@ Statement = Assign | Solve
 
 
 EMBEDDED = "embedded"
-"""The output of a program that is a second new state y, of lower order, for an estimate of the error."""
+"""The name of a second new state y, of lower order, in the output of a program; it gives an error
+estimate."""
 
 
 SPACE, BODY = "space", "body"
-"""The frame of the momentum that a program's statements read and return."""
+"""The frame of the momentum that the statements of a program read and return."""
 
 
 @dataclass(frozen=True)
@@ -104,11 +109,11 @@ class Substep:
 
 @dataclass(frozen=True)
 class Program:
-    """One step: inputs, statements, and the new state, named as the inputs that it replaces.
+    """One step: inputs, statements, and the new state. An output has the name of the input that it replaces.
 
-    With ``substeps`` a step executes the statements once for each of them, in order. In the ``frame``
-    :data:`BODY` the statements read m = Ad*_q mu in place of mu and return the new m'. A step then computes m
-    first, and mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m last, where q' is the new q.
+    With ``substeps`` a step executes the statements once for each substep, in order. In the ``frame``
+    :data:`BODY` the statements read m = Ad*_q mu in place of mu, and return the new m'. A step then computes
+    m first, and mu + Ad*_{q'^-1} m' - Ad*_{q^-1} m last, where q' is the new q.
     """
 
     name: str
@@ -119,7 +124,7 @@ class Program:
     frame: str = SPACE
 
     def assigns(self) -> Iterator[Assign]:
-        """Yield every assignment in order, those inside blocks included."""
+        """Yield every assignment in order, including those inside blocks."""
         for statement in self.body:
             if isinstance(statement, Assign):
                 yield statement
@@ -127,10 +132,11 @@ class Program:
                 yield from statement.body
 
     def counts(self) -> dict[str, int]:
-        """Return how often each operation occurs, sorted by name; of a block, in one sweep."""
+        """Return the number of occurrences of each operation, sorted by name; a block counts as one sweep."""
         total: dict[str, int] = {}
         for assign in self.assigns():
-            # The number of sweeps is not known to a program, so a block counts once.
+            # The number of sweeps is not known before a program runs, so the operations of a block count
+            # once.
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
@@ -163,8 +169,8 @@ class Builder:
     body: list[Assign] = field(default_factory=list)
 
     def fresh(self, name: str, kind: Kind) -> Var:
-        """Return a variable called name, or name with a number where that is taken."""
-        # A name that people recognise, made unique: programs are read in --explain and in headers.
+        """Return a variable called name; a number is appended if the name is taken."""
+        # The given name stays recognisable, because people read programs in --explain and in headers.
         candidate, n = name, 1
         while candidate in self.taken:
             n += 1
@@ -196,7 +202,7 @@ class Builder:
         return self.add(Act(), target, g, y)
 
     def adjoint(self, target: str, g: Var, v: Var, *, inverse: bool = False) -> Var:
-        """Append target = Ad_g v, or Ad*_g v for v in the dual; of g^-1 where ``inverse``."""
+        """Append target = Ad_g v, or Ad*_g v for v in the dual; where ``inverse``, g^-1 replaces g."""
         return self.add(Adjoint(v.kind is Kind.DUAL, inverse), target, g, v)
 
     def bracket(self, target: str, x: Var, v: Var) -> Var:
@@ -204,7 +210,7 @@ class Builder:
         return self.add(Bracket(v.kind is Kind.DUAL), target, x, v)
 
     def dexpinv(self, target: str, x: Var, v: Var, order: int) -> Var:
-        """Append target = dexp^{-1}_{(order),x} v, or its dual for v in the dual."""
+        """Append target = dexp^{-1}_{(order),x} v; for v in the dual, the dual operator is applied."""
         return self.add(InverseDexp(order, v.kind is Kind.DUAL), target, x, v)
 
     def dual_dexp(self, target: str, x: Var, mu: Var) -> Var:
@@ -218,7 +224,8 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
         var = self.fresh(target, kind)
-        # A zero of the tableau leaves no argument: passes read from arguments which stages depend on which.
+        # Terms with coefficient zero are omitted, because passes infer from the arguments which stages depend
+        # on which.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))

@@ -12,18 +12,18 @@ from codegen.ir.values import Coefficient
 
 @dataclass(frozen=True)
 class OfScene(OfGroup):
-    """An operation that evaluates the scene's formulas, at a time where ``timed``: the last argument."""
+    """An operation that evaluates the scene's formulas; where ``timed``, the last argument is the time."""
 
     timed: bool = False
 
     @property
     def function(self) -> str:
         """The name of the function of the scene."""
-        # The two forms have different signatures, so emitted code needs two names.
+        # The operation has different signatures with and without time, so emitted code needs two names.
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return the kinds of the arguments with that of the time."""
+        """Return the kinds of the arguments, followed by the kind of the time where ``timed``."""
         return arguments + R if self.timed else arguments
 
 
@@ -66,7 +66,8 @@ class BodyVelocity(OfScene):
 
 @dataclass(frozen=True)
 class BodyForce(OfScene):
-    """N(q, P), the force in the body frame; with :class:`BodyVelocity` it is one evaluation of the scene."""
+    """N(q, P), the force in the body frame; :class:`BodyVelocity` and it count as one evaluation of the
+    scene."""
 
     name = "force"
     evaluates_scene = True
@@ -128,13 +129,13 @@ class Bivector(OfGroup):
 class FlowOf(Operation):
     """The exact flow of a part of the Hamiltonian for a fixed duration.
 
-    ``timed`` is for a part that depends on t: the time is the last argument, and constant during the flow.
+    With ``timed`` the part depends on t: the last argument is the time, which is constant during the flow.
     """
 
     part: str
     duration: Coefficient
     timed: bool = False
-    # A flow costs about what an exponential does: an angle, its sine and cosine, and a product.
+    # A flow costs about as much as an exponential: an angle, its sine and cosine, and a product.
     exponentials = 1
     name = "flow"
     noun = "flow{s}"
@@ -158,7 +159,7 @@ class FlowOf(Operation):
 
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The exact flow of a part for a duration that is a value: the last argument."""
+    """The exact flow of a part for a duration that is computed at run time; it is the last argument."""
 
     part: str
     timed: bool = False
@@ -176,10 +177,10 @@ class FlowFor(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        # The duration is the last argument, so that state and time have the same places as in FlowOf.
+        # The duration is the last argument, so that state and time have the same positions as in FlowOf.
         return problem.flow(domain, self.part, args[-1], args[:-1])
 
 
-# A fixed duration is part of the operation, so two flows for the same time are equal operations and can be
-# recognised as such; only a duration that is computed at run time is an argument.
+# A fixed duration is part of the operation, so two flows of one part for the same duration are equal
+# operations, and passes can recognise them. Only a duration that is computed at run time is an argument.
 FLOWS = (FlowOf, FlowFor)

@@ -1,4 +1,4 @@
-"""Forward differentiation along one direction: a tangent costs a small multiple of the value."""
+"""Forward differentiation along one direction: a tangent costs a small multiple of the cost of the value."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from codegen.ir.expr import Expr, walk
 
 
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
-    """Return the derivatives of roots where symbols change at the rates ``seeds``, all others are constant.
+    """Return the derivatives of roots where symbols change at the rates ``seeds`` and all others are
+    constant.
 
-    :class:`codegen.ir.differentiate.NotDifferentiable` where a function has no derivative.
+    :class:`codegen.ir.differentiate.NotDifferentiable` is raised where a function has no derivative.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y, dx = s.sym("x"), s.sym("y"), s.sym("dx")
@@ -26,17 +27,18 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 known[node.id] = seeds[node.payload]
             continue
         moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
-        # A node that no seeded symbol reaches has no tangent: absence in the table is an exact zero.
+        # A node that depends on no seeded symbol is not in the table: its tangent is exactly zero.
         if not moving:
             continue
-        # After the test above: functions without a derivative are allowed where nothing moves.
+        # The derivatives are formed after the test above: functions without a derivative are allowed where
+        # all arguments are constant.
         slopes = partials(node)
         total = node.space.zero
-        # The chain rule along one direction: one product for
-        # each moving argument, whatever the number of seeds.
+        # The chain rule along one direction takes one product for each argument that is not constant,
+        # whatever the number of seeds.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # Terms may cancel: a zero is not entered, so that the users of the node skip it too.
+        # Terms may cancel. A zero is not entered in the table, so that the users of the node skip it, too.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

@@ -1,4 +1,4 @@
-"""Values of step programs: their kinds, their names, and the coefficients that they are multiplied by."""
+"""Values of step programs: their kinds, their names, and the coefficients in linear combinations of them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# A dual is a kind of its own: Ad and Ad* differ, and a pairing needs one of each.
+# The dual is a separate kind: Ad and Ad* differ, and a pairing needs an element of each space.
 class Kind(StrEnum):
     """The type of a value: ``Alg`` is the Lie algebra, ``Dual`` its dual, ``Point`` the manifold acted on."""
 
@@ -42,7 +42,7 @@ class Coefficient:
 
     @property
     def is_one(self) -> bool:
-        """Whether this is the constant 1, free of h."""
+        """Whether this is provably the constant 1, without a power of h."""
         return self.power == 0 and self.value.is_one
 
     def text(self) -> str:
@@ -53,7 +53,7 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the coefficient in a domain."""
         value = domain.number(self.value)
-        # h^p c is one scalar: terms with equal coefficients share it before any vector is scaled.
+        # h^p c is one scalar, and terms with equal coefficients share it before any vector is scaled.
         for _ in range(self.power):
             value = domain.h * value
         return value

@@ -7,7 +7,8 @@ from codegen.ir.values import Var
 
 
 class IllFormed(AssertionError):
-    """A program that breaks a rule of :mod:`codegen.ir.program`: the compiler's fault, not the user's."""
+    """A program that breaks a rule of :mod:`codegen.ir.program`: an error of the compiler, not of the
+    user."""
 
 
 def verify(program: Program) -> Program:
@@ -17,7 +18,7 @@ def verify(program: Program) -> Program:
 
 
 class _Verifier:
-    """One reading of a program from top to bottom."""
+    """The check of one program, statement by statement in order of execution."""
 
     def __init__(self, program: Program) -> None:
         self.program = program
@@ -25,8 +26,8 @@ class _Verifier:
         self.names: set[str] = set()
 
     def run(self) -> None:
-        """Raise for the first rule that is broken."""
-        # Inputs, body, outputs: the order of reading is the order of execution.
+        """Raise :class:`IllFormed` for the first rule that is broken."""
+        # Inputs, body and outputs are read in this order, which is the order of execution.
         for var in self.program.inputs:
             self.define(var, "the inputs")
         for statement in self.program.body:
@@ -37,13 +38,14 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # The embedded solution is a second y: it replaces no input of its own name.
+            # The embedded solution is a second y, and replaces no input called by its own name.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
     def define(self, var: Var, at: str | Assign) -> None:
-        """Take note of a definition; a name is defined once."""
-        # Names and not variables: the same name with two kinds would be one identifier in emitted code.
+        """Record a definition, and raise for a name that is defined already."""
+        # The test is by name and not by variable: one name with two kinds would be one identifier in emitted
+        # code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
         self.names.add(var.name)
@@ -83,7 +85,7 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text of a place; it is computed for errors only, because long numbers make it slow."""
+    """Return the text of a place; it is formed only for errors, because long numbers make it slow."""
     return at.text() if isinstance(at, Assign) else at
 
 
