@@ -1,8 +1,7 @@
 """The passes: one file each, pure functions over programs, run in a fixed order and verified after each.
 
 ``optimise`` runs them on a scene. After every pass it checks types and single assignment. It also interprets
-the new
-program at sample points, where the results must agree with those of the lowered program to rounding.
+the new program at sample points, where the results must agree with those of the lowered program to rounding.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Vanishing brackets of an abelian group, and dexp^{-1} truncated at order 0.
 
 Exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad and P
-are zero. On any
-group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0 is zero.
+are zero. On any group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0 is zero.
 """
 
 from __future__ import annotations

@@ -1,10 +1,9 @@
 """Blocks: each is split into the strongly connected components of its dependency graph, solved in order.
 
 Exact. An edge leads from each assignment to those that read its values. An unknown is represented by its
-image, the
-right-hand side of the unknown's fixed-point equation. A component without a cycle becomes plain assignments;
-a component with a cycle becomes a block with its own unknowns. Explicit methods therefore need no solver, and
-a composition tableau is solved stage by stage.
+image, the right-hand side of the unknown's fixed-point equation. A component without a cycle becomes plain
+assignments; a component with a cycle becomes a block with its own unknowns. Explicit methods therefore need
+no solver, and a composition tableau is solved stage by stage.
 """
 
 from __future__ import annotations

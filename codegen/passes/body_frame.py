@@ -1,13 +1,12 @@
 """The body frame: values relative to the body at the start of the step, the field relative to the stage.
 
 Exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the algebra to
-Ad_{q^-1} x, and a
-mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a program commute with this
-transformation, so they do not change. The field alone is replaced, by that of
-:mod:`codegen.scene.body_frame`:
-xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. Then the equations of a block read only
-those numbers of q that the body's field reads. The program reads and returns the momentum of the body
-(:data:`codegen.ir.program.BODY`), so consecutive steps need no transformation between them.
+Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a program
+commute with this transformation, so they do not change. The field alone is replaced, by that of
+:mod:`codegen.scene.body_frame`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. Then the equations
+of a block read only those numbers of q that the body's field reads. The program reads and returns the
+momentum of the body (:data:`codegen.ir.program.BODY`), so consecutive steps need no transformation between
+them.
 
 A program with other operations, or of a scene without a body frame, is not changed.
 """

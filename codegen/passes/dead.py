@@ -1,8 +1,7 @@
 """Dead code: values on which neither the new state nor an equation needed for it depends.
 
 Exact. An unknown that nothing reads is removed from its block together with its equation. A block without
-unknowns that
-anything reads is removed.
+unknowns that anything reads is removed.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """Linear maps taken out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2) where no term has other uses.
 
 Exact. L is a coadjoint operation, dexp* or another linear map, with the same group argument in all terms. The
-pass repeats until
-nothing changes, so that nested maps are taken out one after the other.
+pass repeats until nothing changes, so that nested maps are taken out one after the other.
 """
 
 from __future__ import annotations

@@ -1,9 +1,8 @@
 """Exact flows of one part are joined into one if they commute with all flows between them.
 
 Exact. Two flows commute if their order does not matter. Whether two flows commute is tested with 40 digits at
-points of the
-scene, for two different durations. Example: gravity does not depend on the spin of a symmetric top about its
-axis, so a step needs the flow of this spin only once.
+points of the scene, for two different durations. Example: gravity does not depend on the spin of a symmetric
+top about its axis, so a step needs the flow of this spin only once.
 """
 
 from __future__ import annotations

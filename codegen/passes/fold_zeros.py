@@ -1,9 +1,9 @@
 """Simplification: zero coefficients, coefficients of equal values, terms that cancel, identities.
 
 Exact. In a sum, terms with coefficient zero are removed, and coefficients of the same value are added. A sum
-that is a single
-value with coefficient one becomes that value. The exponential of zero is the identity. A product or action of
-the identity is the other factor. A linear operation on zero gives zero, and dexp at zero is the identity map.
+that is a single value with coefficient one becomes that value. The exponential of zero is the identity. A
+product or action of the identity is the other factor. A linear operation on zero gives zero, and dexp at zero
+is the identity map.
 """
 
 from __future__ import annotations

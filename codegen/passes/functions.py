@@ -1,9 +1,9 @@
 """Functions of one ad: dexp, dexp^{-1} and exp applied one after the other are combined into one function.
 
 Exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with multiples of one x
-is therefore a
-product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this product: on SO(3)
-it is 1 + b ad_x + c ad_x^2. An exp(x) that is read by one adjoint operation only need not be computed.
+is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this
+product: on SO(3) it is 1 + b ad_x + c ad_x^2. An exp(x) that is read by one adjoint operation only need not
+be computed.
 """
 
 from __future__ import annotations

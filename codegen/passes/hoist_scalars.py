@@ -1,8 +1,8 @@
 """Numbers taken out of linear maps, L(c x) = c L(x), and sums nested in sums expanded into one sum.
 
 Exact. The map is applied to the value x, which other operations share. The number c joins the coefficients of
-the sum that
-reads L(c x). Terms that several sums contain in the same proportion are added once for all these sums.
+the sum that reads L(c x). Terms that several sums contain in the same proportion are added once for all these
+sums.
 """
 
 from __future__ import annotations
