@@ -1,8 +1,9 @@
-"""The frame of the momentum: in space or in the body, for a kernel and for the run around it.
+"""The frame of the momentum, space or body, in a kernel and in the run that calls the kernel.
 
-A program computes in one of the two frames, and emitted code takes and returns momenta in one of them. If
-only the program's momentum is in the body, a run transforms the momentum once at its beginning and once at
-its end (:class:`codegen.ir.kernel.Carried`); a ``whole`` kernel transforms it in each step.
+A program computes in one of the two frames, and emitted code takes and returns momenta in one of them. If the
+program computes in the body and the emitted code uses space, a run transforms the momentum once at its
+beginning and once at its end (:class:`codegen.ir.kernel.Carried`). A ``whole`` kernel transforms the momentum
+in each step instead.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ State = tuple[Expr, ...]
 
 @dataclass(frozen=True)
 class Frames:
-    """A program's frame and that of its kernel."""
+    """The frame in which a program computes, and the frame of the momenta in emitted code."""
 
     scene: Problem
     program: Program
@@ -31,8 +32,8 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """Whether program and emitted code use the same frame."""
-        # Both in space, or both in the body: no momentum has to be turned.
+        """Whether the program and the emitted code use the same frame."""
+        # If both use space, or both the body, the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
@@ -42,19 +43,20 @@ class Frames:
         return int(group.size)
 
     def begin(self, domain: ExprDomain, state: State) -> State:
-        """Return the program's initial state for the kernel's state."""
+        """Return the program's initial state, computed from the kernel's state."""
         if self._alike:
             return state
         q, mu = state[: self._size], state[self._size :]
         if self.scene.body_group is not None:
-            # The state holds the momentum of the body and the program computes in space: Ad*_{q^-1} turns it.
+            # The state contains the momentum of the body, and the program computes in space: apply
+            # Ad*_{q^-1}.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
-        # Otherwise the run has turned the momentum before its first step, and the kernel takes it as it is.
+        # Unless the kernel is whole, the run has transformed the momentum before the first step.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
-        """Return the kernel's new state for the program's; ``start`` is ``begin`` of ``state``."""
-        # A program without an embedded solution has an empty second state.
+        """Return the kernel's new state, computed from the program's; ``start`` is ``begin`` of ``state``."""
+        # Without an embedded solution the second state is empty.
         if self._alike or not new:
             return new
         q = new[: self._size]
@@ -62,13 +64,13 @@ class Frames:
             return (*q, *self.scene.body_group.Adt(domain, q, new[self._size :]))
         if not self.whole:
             return new
-        # Only the increment is turned back: a q that rounding has made not quite orthogonal would
-        # otherwise scale the whole momentum in each step.
+        # Only the increment of the momentum is transformed back. Rounding makes q not quite orthogonal;
+        # transforming the whole momentum by this q would scale it in each step.
         named = ({"q": x[: self._size], "mu": x[self._size :]} for x in (state, start, new))
         return (*q, *outward(self.scene, domain, *named))
 
     def fields(self) -> tuple[Field, ...]:
-        """Return the fields of the state that emitted code takes."""
+        """Return the fields of the state in emitted code."""
         group, symbols = self.scene.body_group, self.scene.symbols
         if group is None:
             return tuple(Field(b.name, b.symbols, _meaning(b.kind, self.scene)) for b in self.scene.state)
@@ -79,8 +81,8 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return the transformations of the momentum in a run, None if there are none."""
-        # With momenta of the body in the state, or in a whole step, there is nothing for the run to carry.
+        """Return the transformations of the momentum by a run, None if a run needs none."""
+        # A run transforms nothing if the state contains momenta of the body, or if each step transforms them.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None
         state = tuple(domain.space.sym(s) for s in self.scene.symbols)

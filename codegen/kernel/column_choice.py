@@ -1,7 +1,8 @@
-"""The choice among variants of a group: each is compiled, and the one with the shortest step is kept.
+"""The choice among variants of a group: a kernel is compiled for each, and that with the shortest step is
+kept.
 
-A column of a rotation matrix is the cross product of the other two. The columns that the scene reads decide
-which column is computed in this way, or whether all three are rotated.
+A column of a rotation matrix is the cross product of the other two columns. Which columns the scene reads
+decides which column is best computed as a cross product, or whether all three are rotated.
 """
 
 from __future__ import annotations
@@ -33,40 +34,41 @@ Chosen with ``benchmarks/emitted.py``. With 16 all emitted files stay the same, 
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
-    """Return the kernel of a program in the variant of the group with the shortest step.
+    """Return a program's kernel, compiled for the variant of the group that gives the shortest step.
 
     Only explicit programs of flows, and fields on T*G, have variants of the group.
     """
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # Without flows columns do not matter; only the order of constant factors is tried.
+    # Without flows all variants give the same columns; only the order of constant factors is tried.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
-    # The core is what runs in every step, so it alone decides.
+    # The core is the part that runs in every step, so only the core is compared.
     core = program if parted is None else parted.core
-    # Compiled and measured, not predicted: the common subexpressions of a scene decide.
+    # Compiled and compared, not predicted: the common subexpressions of the scene decide which is shortest.
     candidates: list[tuple[Kernel, Problem, int]] = []
-    # Each variant is compiled twice: reordering alone, and with the critical path shortened.
+    # Each variant is compiled twice: with reordering alone, and with the critical path shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
             candidates.append((to_kernel(core, problem, chains=chains), problem, chains))
-    # By identity: two candidates may have equal kernels.
+    # Compared by identity, because two candidates may have equal kernels.
     best = _shortest([kernel for kernel, _, _ in candidates])
     kernel, problem, chains = next(candidate for candidate in candidates if candidate[0] is best)
     return kernel if parted is None else with_deferred(kernel, parted, problem, chains)
 
 
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
-    """Return the kernel with the shortest step, among those with outlined functions if there are any."""
-    # A step so long that it calls functions is limited by the instruction cache, not by latency.
+    """Return the kernel with the shortest step; if some kernels have outlined functions, only these count."""
+    # The time of a step that is long enough for outlining is limited by the instruction cache, not by
+    # latency.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
-    """Return the time of a step in additions, and its number of operations, which breaks ties."""
+    """Return an estimate of a step's time in additions, and the step's number of operations for ties."""
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
     # The sum of a latency bound and a throughput bound: a simple model of the time of a step.

@@ -1,10 +1,11 @@
 """Shorten the critical path after each function call.
 
-A processor executes several products at a time, but a step of flows is one chain of dependent operations:
-from an angle through its sine and cosine, the rotated attitude and the kicked momentum to the next angle. The
-values c of functions come last on that chain. An expression that is linear in them,
-k (m - g (d + c_1 v + c_2 w)), becomes k (m - g d) - c_1 (k g v) - c_2 (k g w): three operations follow c, not
-six. This is exact and costs a few more products, so only the longest chain is rewritten.
+A processor executes several products at a time, but a step of flows is one chain of dependent operations. The
+chain leads from an angle through its sine and cosine, the rotated attitude and the kicked momentum to the
+next angle. Values c of functions are computed late in this chain. An expression that is linear in such
+values, k (m - g (d + c_1 v + c_2 w)), is rewritten as k (m - g d) - c_1 (k g v) - c_2 (k g w). Three
+operations then follow c instead of six. The rewriting is exact, but adds a few products, so only the longest
+chain is rewritten.
 """
 
 from __future__ import annotations
@@ -29,17 +30,18 @@ ATOMS = frozenset({"call", "div"})
 SLACK = 1
 """How much shorter than the longest chain a chain may be and still be rewritten, in units of an addition.
 
-Otherwise a chain of nearly the same length stays, and becomes the critical path. The value hardly matters:
-with 0, 2 or 4 all emitted files stay the same; without a limit the splittings of fast_heavy_top change. To
-repeat, edit it and type ``orderconds regenerate --check``."""
+If a chain of nearly the longest length is not rewritten, it becomes the critical path. The value hardly
+matters: with 0, 2 or 4 all emitted files stay the same; without a limit the splittings of fast_heavy_top
+change. To repeat this, edit the value and type ``orderconds regenerate --check``.
+"""
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
 """A sum over late values (None: no such factor), each multiplied by sign, steps and constants, the rest."""
 
 
 def chain(kernel: Kernel) -> int:
-    """Return the length of the critical path: the time of a step without any limit on parallel operations."""
-    # Symbols of assignments take the time of their values; inputs are ready at time 0.
+    """Return the length of the critical path: the time of a step with unlimited parallel operations."""
+    # The symbol of an assignment is ready when the assigned value is; inputs are ready at time 0.
     ready: dict[int, int] = {}
     for let in kernel.lets():
         ready[let.value.space.sym(let.name).id] = _measured(let.value, ready)
@@ -47,18 +49,19 @@ def chain(kernel: Kernel) -> int:
 
 
 def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
-    """Return assignments by the time at which they are ready, in units of the latency of a function.
+    """Return assignments sorted by the time at which they are ready, in units of the latency of a function.
 
-    A processor looks some hundred instructions ahead, so operations that can run beside the longest chain
-    must be near it in the text. A finer order would separate operations that read the same values, and there
-    are few registers.
+    A processor looks some hundred instructions ahead, so operations that can run in parallel with the longest
+    chain must be near it in the text. A finer order would separate operations that read the same values and
+    would need more registers than there are.
     """
     ready: dict[int, int] = {}
     times = []
     for let in lets:
         times.append(_measured(let.value, ready))
         ready[let.value.space.sym(let.name).id] = times[-1]
-    # Ties keep the old order, and no definition is ready after its readers: the order stays valid.
+    # Equal times keep the old order. No value is ready before the values that it reads, so definitions stay
+    # before uses.
     return tuple(lets[k] for k in sorted(range(len(lets)), key=lambda k: (times[k] // TIMES["call"], k)))
 
 
@@ -72,15 +75,16 @@ def _measured(root: Expr, ready: dict[int, int]) -> int:
 def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -> tuple[Expr, ...]:
     """Return the roots with their longest chains shortened.
 
-    ``invariant`` names the symbols that do not change from step to step: products of them cost nothing.
-    Without ``spread`` these are multiplied first, and nothing is spread over late values.
+    ``invariant`` names the symbols that do not change from step to step: products of these symbols cost
+    nothing. With ``spread`` false, such products are formed first, but no factor is distributed over late
+    values.
     """
     return _Chains(tuple(roots), invariant, spread).rewritten()
 
 
 @dataclass
 class _Chains:
-    """One set of roots: the time at which each value is ready, and the longest chain after it."""
+    """Expressions, with the time at which each value is ready and the longest chain of its readers."""
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]
@@ -94,23 +98,24 @@ class _Chains:
     sums: dict[tuple[int, int, int], Sum] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        # Arguments before users: one pass forward for times, one backward for what follows.
+        # Arguments come before users: a forward pass finds the times, a backward pass the chains that follow.
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
-        # Users before arguments: the longest chain that follows each node.
+        # Backward, users come before arguments: find the longest chain that follows each node.
         for node in reversed(self.nodes):
-            # Users come first, so the chain after a node is final when its arguments are reached.
+            # All users have been visited, so the chain that follows this node is final.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
             for arg in node.args:
                 self.follow[arg.id] = max(self.follow.get(arg.id, 0), after)
         self.longest = max(self.ready[r.id] for r in self.roots)
 
     def _measure(self, node: Expr) -> None:
-        # The level counts slow operations on the way: values of the highest level are late in a sum.
+        # The level is the number of slow operations in sequence; in a sum the values of the highest level are
+        # late.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
-        # Fixed within a run: a compiler's loop hoists products of these out of the steps.
+        # Constant in a run: a compiler moves products of such values out of the loop over the steps.
         own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
@@ -119,14 +124,16 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # Without simplification: a node that is not rewritten keeps its operation and its rounding.
+            # Without simplification, so that a node that is not rewritten keeps its operation and its
+            # rounding.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
             self.new[node.id] = plain
-            # Only sums and products are linear; a call or quotient of late values is itself late.
+            # Only sums and products are linear in late values; a call or quotient of late values is a new
+            # late value.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # A sum over late values has more products, so it is taken only if it is ready earlier.
+                # The sum over late values has more products, so it is used only if it is ready earlier.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -136,7 +143,8 @@ class _Chains:
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # Slack of the chain through this argument: with much slack nothing is gained.
+                # The chain through this argument is much shorter than the longest: shortening it gains
+                # nothing.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]
@@ -145,14 +153,14 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # The linear expression ends here: above this node the late values are no longer linear.
+                # The linear expression ends at this argument: the node is not linear in the late values.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)
 
     def _sum(self, node: Expr, level: int) -> Sum:
-        """Return an expression as a sum over the late values of a level; expand shared nodes once."""
-        # The rewritten node belongs to the key: the same node expands otherwise after a rewriting below it.
+        """Return an expression as a sum over the late values of a level; expand each shared node once."""
+        # The rewritten node is part of the key, because rewriting a node's arguments changes its expansion.
         key = node.id, level, self.new[node.id].id
         if key not in self.sums:
             self.sums[key] = self._expanded(node, level)
@@ -177,16 +185,16 @@ class _Chains:
             if self.level[b.id] < self.level[a.id]:
                 a, b = b, a
             if self.level[a.id] < level:
-                # Fixed factors are kept apart, so that they meet other fixed ones and leave the step.
+                # Fixed factors are collected separately: their product is the same in every step.
                 factor = self.new[a.id]
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Not linear in anything later: the node is a late value of its own.
+        # Not linear in other late values: the node is a late value itself.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
-        """Return the sum of two factors of one late value."""
+        """Return the sum of the two factors by which a late value is multiplied."""
         x, y = self._product(*a[1:]), self._product(*b[1:])
         return a[0], x.space.one, self._known(x + y if a[0] == b[0] else x - y)
 
@@ -203,14 +211,16 @@ class _Chains:
             # As in Huffman coding: adding the two earliest terms first gives the earliest sum.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
-            # A sign costs nothing in a subtraction; only a sum of two negative terms ends with a negation.
+            # A subtraction includes the sign at no cost; only a sum of two negative terms needs a negation at
+            # the end.
             both = x + y if p == q else x - y if p > 0 else y - x
             terms = [(p if p == q else 1, self._known(both)), *others]
         sign, value = terms[0]
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return a product with its steps and constants multiplied first: they are the same in every step."""
+        """Return a product with its fixed factors multiplied first, because they are the same in every
+        step."""
         if node.op != "mul":
             return node
         # c1 (c2 x) = (c1 c2) x, for a fixed c1 on either side.

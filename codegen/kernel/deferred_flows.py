@@ -1,8 +1,8 @@
 """Flows deferred across steps: the leading flow of a step, and flows that commute with all others.
 
-Where a step of a splitting ends with the flow that the next step begins with, the two are joined; the leading
-flow is applied once before the first step. A part that commutes with every other one is applied once for all
-steps. Both are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
+If a step of a splitting ends with the flow that the next step begins with, these two flows are joined. The
+leading flow is then applied once before the first step. A part that commutes with every other part is applied
+once for all steps. Both are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """A program in three: ``core`` reads :data:`LEAD`, ``finish`` :data:`ELAPSED`; empty ones are None."""
+    """A program split into three: ``core`` reads :data:`LEAD`, ``finish`` :data:`ELAPSED`; None: no flows."""
 
     begin: Program | None
     core: Program
@@ -34,31 +34,31 @@ class Parted:
 
 
 def part(program: Program, scene: Problem) -> Parted | None:
-    """Return a splitting's program in parts, or None where no flow can be deferred."""
+    """Return a splitting's program split into three, or None if no flow can be deferred."""
     letters = word(program)
     if letters is None:
         return None
-    # Sampled, not derived: the bracket of two formulas that commute need not simplify to zero.
+    # Commuting is tested at sample points: the bracket of two commuting formulas need not simplify to zero.
     commute = commuting(scene)
-    # A flow for another time than h, or of a part with time, depends on its place in the step.
+    # If a flow has a duration other than h, or a stage time, its place in the step matters.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # A free part commutes with all others, so without it their order is unchanged.
+    # A free part commutes with all other parts, so removing it does not affect the order of the others.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # A step of nothing but free flows would have an empty core.
+    # If all flows of a step were free, the core would be empty.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # One pair of numbers for all: ``_joined`` keeps only flows with the same durations.
+    # One pair of durations for all, because ``_joined`` keeps only flows with the same durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
     inner: list[Timed] = [(x, lead if j in tails else None) for j, x in enumerate(kept) if j not in heads]
-    # Free flows add up over a run: exp(h X)^n = exp(n h X).
+    # The free flows of all steps are joined: exp(h X)^n = exp(n h X).
     outer: list[Timed] = [(letter, elapsed) for letter in spun]
-    # A new program is built by hand, so it is verified like the result of a pass.
+    # The new programs are verified like the result of a pass.
     return Parted(
         verify(_program(program, first)) if first else None,
         verify(_program(program, inner, *([lead] if joined else []))),
@@ -78,41 +78,42 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Whether a flow lasts h: each part of a consistent splitting does, also where balls cannot prove it."""
-    # In doubles: a ball around one rounds to one, but cannot be proved equal to it.
+    """Whether a flow has duration h, as each part of a consistent splitting does, proved or not."""
+    # Compared in doubles: the ball of a sum that equals one rounds to one, but cannot prove the equality.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable of its duration if that is not one of the program."""
+"""A flow, and the variable of its duration if the duration is not that of the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Places of a flow at the beginning and of one at the end; durations of the latter alone and joined."""
+"""Index of a flow at the beginning, index of a flow at the end, the latter's duration alone and joined."""
 
 
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the flows at the end of a step that join a flow of the same part at the next beginning."""
-    # The end of a step is the beginning of the next: flows at the times t + h and t join there.
+    """Return the flows at the end of a step that join a flow of the same part at the next step's
+    beginning."""
+    # The end of a step is the beginning of the next step: flows at the times t + h and t can be joined.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # i < j: a flow cannot join with itself.
+            # i < j, because a flow cannot be joined with itself.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:
                 pairs.append((i, j, tail.duration.value, head.duration.value + tail.duration.value))
-    # One leading time serves all deferred flows, so their durations must be the same.
+    # All deferred flows share one leading duration, so only pairs with the same durations are kept.
     return [pair for pair in pairs if pair[2:] == pairs[0][2:]]
 
 
 def _run(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> int:
-    """Return the number of letters at the beginning with different parts that commute pairwise."""
+    """Return the largest n such that the first n letters have different parts that commute pairwise."""
     n = 0
-    # Flows in this run commute, so each of them can be moved to the very beginning of the step.
+    # The first n flows commute, so each of them can be moved to the very beginning of the step.
     while n < len(letters) and all(
         x.part != letters[n].part and commute(x.part, letters[n].part) for x in letters[:n]
     ):
@@ -127,7 +128,8 @@ def _last_time(program: Program) -> tuple[Var, ...]:
 
 def _program(old: Program, letters: Sequence[Timed], *more: Var) -> Program:
     """Return the program of some flows; a flow with a variable lasts for the value of the variable."""
-    # All stage times are kept; the kernel assigns only what its outputs read.
+    # All stage times are copied; the kernel assigns only those that its outputs read.
+
     body = [a for a in old.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in old.inputs if v.kind is not Kind.REAL)
     for number, (letter, duration) in enumerate(letters):

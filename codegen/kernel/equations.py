@@ -1,7 +1,8 @@
-"""Blocks of equations on their way to loops: images, starting values, and the matrix of Newton's method.
+"""Blocks of equations before they become loops: images, starting values, and the matrix of Newton's method.
 
-Newton's matrix 1 - g' is differentiated from the expressions of the images g. After the loop the unknowns
-replace their images. Later values are recomputed from the unknowns if that costs less than half a sweep.
+The image of an unknown u is the right-hand side g(u) of its equation u = g(u). Newton's matrix 1 - g' is
+differentiated from the expressions of the images. After the loop, later statements read the unknowns in place
+of the images. Other later values are recomputed from the unknowns if that costs less than half a sweep.
 """
 
 from __future__ import annotations
@@ -62,10 +63,12 @@ class Block:
 def compared(
     block: Solve, entered: Block, env: dict[Var, Any], name: Callable[[str], str], program: Program
 ) -> Block | None:
-    """Return the block with residuals as images, and minus their derivative to first order in h as matrix.
+    """Return the block with residuals in place of images, and with a first-order matrix of Newton's method.
 
-    None without residuals or such a derivative. A body value that is read later is corrected by its own
-    first-order derivative times the last change, if that takes less than half of its operations.
+    The matrix is minus the derivative of the residuals, to first order in h. The result is None if the block
+    has no residuals or they have no such derivative. A body value that is read later is corrected: its
+    first-order derivative times the last change of the unknowns is added, if that takes less than half of the
+    operations of the value.
     """
     residuals = tuple(x for v in block.residuals for x in flatten(v.kind, env[v]))
     if not residuals:
@@ -85,13 +88,13 @@ def compared(
     normal, linear = NormalForms(space, whole=free), FirstOrder(entered.unknowns)
     try:
         rows = linear.jacobian(residuals)
-    # A pole or branch point at h = 0: the caller takes the exact matrix.
+    # A residual may have a pole or branch point at h = 0: the caller then uses the exact matrix.
     except NotLinearised:
         return None
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # Elements and points are no vectors: adding a derivative would leave the manifold.
+        # Group elements and points are not vectors: adding a derivative would leave the manifold.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -108,7 +111,7 @@ def compared(
         if 2 * _operations(moved) < _operations(env[var]):
             kept += [(s.payload, x) for s, x in zip(symbols, env[var], strict=True)]
             env[var] = tuple(moved)
-    # Newton's step for r(u) = 0 is -r'^{-1} r; with the sign in the matrix the loop adds the change.
+    # Newton's step for r(u) = 0 is -r'^{-1} r; the matrix includes the sign, so the loop adds the change.
     matrix = tuple(tuple(-normal(x) for x in row) for row in rows)
     inverted = len(matrix) <= newton.SMALL
     return replace(
@@ -123,14 +126,14 @@ def compared(
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
     """Return the variables that a program reads after a block."""
-    # A program without this block and those before: what it reads, it reads after the block.
+    # The statements after this block: what they or the outputs read is read after the block.
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
 
 def _independent(values: Sequence[Expr], unknowns: Sequence[str]) -> list[Expr]:
-    """Return the values that depend neither on unknowns nor on h: they are constant in an expansion."""
-    # Neither h nor an unknown below: its expansion in h is the value itself.
+    """Return the values that depend neither on unknowns nor on h: they are constant in an expansion in h."""
+    # A value that contains neither h nor an unknown is its own expansion in h.
     moving = {*unknowns, "h"}
     depends: dict[int, bool] = {}
     for node in walk(values):
@@ -147,7 +150,7 @@ def with_matrix(block: Block, solver: str) -> Block:
     """Return the block with the matrix of Newton's method, exact or to first order."""
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
-    # The first-order matrix contracts by O(h^2) a sweep: more sweeps, each of them far shorter.
+    # With the first-order matrix the error shrinks by O(h^2) a sweep: more sweeps, but each is far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     inverted = len(rows) <= newton.SMALL
@@ -157,25 +160,25 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
-    """Return the number of operations of a matrix that the images do not share."""
+    """Return the number of operations of a matrix that do not also occur in the images."""
     # The images are computed anyway, so common subexpressions with them are free.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
 
 class Solved:
-    """Rewrites expressions that follow a block: there its images equal its unknowns."""
+    """Rewrites expressions that are read after a block, where the block's images equal its unknowns."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space
         self.known: dict[int, Expr] = {}
         for name, image in zip(block.unknowns, block.images, strict=True):
-            # An image that is a symbol or number needs no shorter name.
+            # An image that is a symbol or a number is not replaced: reading the unknown would save nothing.
             if image.args:
                 self.known[image.id] = self.space.sym(name)
 
     def value(self, value: Any) -> Any:
-        """Return the value of a variable, rewritten."""
+        """Return the value of a variable with images replaced by unknowns."""
         return tuple(map(self._one, value)) if isinstance(value, tuple) else self._one(value)
 
     def _one(self, root: Expr) -> Expr:
@@ -183,7 +186,7 @@ class Solved:
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)
                 same = all(a is b for a, b in zip(args, node.args, strict=True))
-                # The old node where nothing changed: hash-consing then keeps its sharing.
+                # If no argument changed, the old node is kept, which preserves the sharing of equal nodes.
                 self.known[node.id] = node if same else self._rebuilt(node, args)
         return self.known[root.id]
 

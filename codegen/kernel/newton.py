@@ -1,8 +1,8 @@
 """Matrices of Newton's method for u = g(u): 1 - g' exactly, or to first order in h.
 
-The first order suffices for short steps: a correction then leaves O(h^2) of the error before it. This matrix
-contains derivatives at h = 0 only, so it is cheap enough to compute in every step. Inverses of small matrices
-are written out by cofactors.
+The first order suffices for short steps: one correction then reduces the error by a factor of O(h^2). The
+first-order matrix contains derivatives at h = 0 only, so it is cheap enough to compute in every step.
+Inverses of small matrices are written out by cofactors.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ AT_ZERO = {
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
-    """Return 1 - g' for the images g, a row for each."""
+    """Return 1 - g' for the images g, by rows."""
     space = images[0].space
-    # In the space of the images: derivatives share their subexpressions.
+    # Computed in the expression space of the images, so that the derivatives share their subexpressions.
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
     return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
@@ -44,11 +44,11 @@ def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' without terms of second and higher order in h.
 
-    ZeroDivisionError if g has no value at h = 0.
+    Raises ZeroDivisionError if g has no value at h = 0.
     """
     space = images[0].space
     h = space.sym("h")
-    # g = g(0) + h g'(0) + O(h^2); the derivatives by the unknowns follow from these two terms.
+    # g = g(0) + h g'(0) + O(h^2): these two terms are differentiated by the unknowns.
     slopes = [row[0] for row in jacobian(images, ["h"])]
     values = _at_zero(space, [*images, *slopes])
     n = len(images)
@@ -56,11 +56,11 @@ def leading_matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
 
 
 class _AtZero(ExprDomain):
-    """Expressions where functions of zero are constants."""
+    """Expressions in which calls of functions at zero are constants."""
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a constant where the argument is zero, else a call."""
-        # The closed forms of Stumpff functions are 0/0 at zero: take the constants of their series.
+        # The closed forms of Stumpff functions are 0/0 at zero: use the first coefficients of their series.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]
             if value is None:
@@ -71,7 +71,7 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
-    # Evaluation, not substitution: what h = 0 makes constant folds on the way.
+    # Evaluation, not substitution: expressions that become constant at h = 0 are simplified.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # Sorted, so that node numbers do not depend on hashes.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
@@ -83,11 +83,11 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no pivots, so no branches on data. An error here only slows the iteration down.
+    # Cofactors need no pivots, so no branches on data. An inaccurate inverse only slows the iteration down.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
-    # One division, n^2 products: a division costs several products.
+    # One division and n^2 products, because a division costs several products.
     factor = space.one / determinant
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 
@@ -96,7 +96,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # Cyclic indices give a 3 x 3 cofactor its sign; for n = 2 the sign is written out.
+    # For n = 3, cyclic indices include the sign of a cofactor; for n = 2 the sign is written out.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

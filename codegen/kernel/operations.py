@@ -26,11 +26,11 @@ START = "start"
 def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     """Return the number of each operation: ``add`` (and subtract), ``mul``, ``div``, and calls.
 
-    The key ``step`` counts operations once a step, ``start`` the additional ones of a first step. Further
-    keys count one sweep of each block, and the entries of its Newton matrix without the inversion. Changes of
-    sign, comparisons, extrapolation and the stopping rule are not counted.
+    The key ``step`` counts operations of each step, ``start`` the additional operations of a first step.
+    Further keys count one sweep of each block, and the entries of the block's Newton matrix without the
+    inversion. Changes of sign, comparisons, extrapolation and the stopping rule are not counted.
     """
-    # The count of a function is added at each of its calls, so totals compare with unoutlined steps.
+    # The operations of a function count at each of its calls, so totals are comparable with unoutlined steps.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -44,7 +44,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # A kept inverse times the residual: n^2 products and n (n - 1) additions.
+                    # A stored inverse times the residual: n^2 products and n (n - 1) additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -53,14 +53,14 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
             case _:
                 total[STEP] = _plus(total[STEP], count([statement], ()))
     for key in (STEP, START):
-        # A step executes its substeps one after the other; sweeps and matrices are counted per substep.
+        # A step executes its substeps one after the other; sweeps and matrices are counted for one substep.
         if key in total:
             total[key] = {name: n * arrangement.repeated for name, n in total[key].items()}
     return total
 
 
 def matrix_of(label: str) -> str:
-    """Return the key for the cost of a block's matrix."""
+    """Return the key under which the operations of a block's matrix are counted."""
     return f"matrix of {label}"
 
 
@@ -85,14 +85,14 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 
 def costs(kernel: Kernel) -> list[str]:
-    """Format the costs of a step, of each sweep of its blocks, and of the ends of a run."""
+    """Format the costs of a step, of each block's sweep, and of the beginning and end of a run."""
     lines = sentences(operations(arrange(kernel)))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(made))[STEP] for made in turned)
         # mu + (after - before): two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
-        # A run turns the momentum forth and back at its beginning, and back once more at its end.
+        # A run transforms the momentum forth and back at its beginning, and back once more at its end.
         spelled = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
         first, last = (line.removesuffix(" a step") for line in spelled)
         lines.append(f"{first} where a run begins, {last} where it ends")
@@ -113,26 +113,26 @@ def _counted(
             roots += statement.arguments
         elif isinstance(statement, SharedCall):
             total = _plus(total, {statement.function: 1})
-            # The call counts once, however many orders it returns.
+            # A call that returns several orders counts as one call.
             roots.append(statement.argument)
         else:
             roots.append(statement.value)
     for root in roots:
         total = _plus(total, _spelled(root))
-    # Arithmetic first, calls after it in alphabetical order.
+    # Arithmetic operations first, then calls in alphabetical order.
     first = ("add", "mul", "div")
     return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
 
 
 def _spelled(root: Expr) -> dict[str, int]:
-    """Count the operations in the text of one expression, where shared nodes repeat."""
+    """Count the operations in the text of one expression, where a shared node is repeated for each reader."""
     found: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:
             case "const" | "sym" | "neg":
                 own = {}
             case "pow":
-                # x^n as printed: n factors, n - 1 products.
+                # x^n is printed as a product of n factors, with n - 1 multiplications.
                 own = {"mul": node.payload - 1}
             case "call":
                 own = {node.payload: 1}
@@ -141,7 +141,7 @@ def _spelled(root: Expr) -> dict[str, int]:
             case op:
                 own = {op: 1}
         for arg in node.args:
-            # Added per reader, not per node: printed text repeats a part that has no name.
+            # Added for each reader, because the printed text repeats a subexpression without a name.
             own = _plus(own, found[arg.id])
         found[node.id] = own
     return found[root.id]

@@ -1,7 +1,7 @@
 """Outlined functions: trees of operations that the expressions of a kernel call.
 
-A function takes the inputs of a tree. It also takes the coefficients of its sums, unless they are the same
-constants in every call. It computes the results that are read.
+The arguments of a function are the inputs of a tree, and the coefficients of the tree's sums unless a
+coefficient is the same constant in every call. The function computes only those results that are read.
 """
 
 from __future__ import annotations
@@ -27,21 +27,21 @@ class _Inputs:
         self.symbols: list[Expr] = []
 
     def take(self, words: Sequence[str]) -> Values:
-        """Return the next inputs, named after their function and these words."""
+        """Return the next inputs, named after the function and these words."""
         first = len(self.symbols)
-        # A constant argument is put into the function, where it folds with other constants.
+        # A constant argument is replaced by its value, which may be combined with other constants.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
 
     def text_of(self, x: Expr, c: Coefficient) -> str:
         """Format the coefficient of a term: its symbol, or its value."""
-        # Header text is for people: the name of the argument without that of its function.
+        # The header shows the name of the argument without the name of its function.
         value = x.payload.removeprefix(f"{self.name}.") if x.op == "sym" else c.value.text()
         return (f"({value})" if " " in value else value) + " h" * c.power
 
     def read(self, outputs: Sequence[Expr]) -> list[int]:
-        """Return the places of those symbols that the outputs read."""
+        """Return the positions of the inputs that the outputs read."""
         needed = {n.payload for n in walk(outputs) if n.op == "sym"}
         return [p for p, s in enumerate(self.symbols) if s.op == "sym" and s.payload in needed]
 
@@ -49,14 +49,15 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int]]:
-    """Return the function of a tree's shape, and the places of the tree inputs that it takes.
+    """Return the function of a tree's shape, and the positions of the tree inputs that are its arguments.
 
-    ``read`` are the results that it computes. ``fixed`` are the inputs
-    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`) with the same constant in every call.
+    ``read`` are the indices of the results that the function computes. ``fixed`` has, for each input
+    (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
+    None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # Executed again on symbols, not copied from the step: the step's expressions are simplified per operand.
+    # Executed again on symbols, because the expressions of the step are simplified for their operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -65,7 +66,7 @@ def function(
         values.append(own[0] if v.kind is Kind.REAL else own)
     coefficients = [c for i in tree.members for c in distinct(trees.executions[i].assign)]
     numbers = inputs.take([f"c{k + 1}" for k in range(len(coefficients))])
-    # A function without powers of h does not take h.
+    # h is an argument only if a coefficient has a power of h.
     (step,) = inputs.take(["h"]) if any(c.power for c in coefficients) else (domain.h,)
     results: list[Value] = []
     texts: list[str] = []
@@ -75,7 +76,7 @@ def function(
         args = tuple(values[p] if p >= 0 else results[-p - 1] for p in places)
         names = [words[p] if p >= 0 else texts[-p - 1] for p in places]
         if assign.terms:
-            # Equal coefficients of one sum are one argument, as :meth:`Trees.key` counts them.
+            # Equal coefficients in one sum are a single argument, as in :meth:`Trees.key`.
             own_terms = distinct(assign)
             symbol = dict(zip(own_terms, numbers[first:], strict=False))
             first += len(own_terms)
@@ -91,10 +92,10 @@ def function(
             results += own
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
-    # The last results are those of the root, the only ones that are read outside the tree.
+    # The last results are the root's, and only the root's results are read outside the tree.
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
-    # Results that are not read may have been the only readers of an argument.
+    # An argument may be read by unused results only; such arguments are dropped.
     taken = inputs.read(outputs)
     return Function(name, tuple(inputs.symbols[p].payload for p in taken), (), outputs, texts[-1]), taken
 
@@ -109,12 +110,12 @@ def _words(kinds: Sequence[Kind]) -> list[str]:
 
 
 def calls(kernel: Kernel) -> dict[str, int]:
-    """Return the number of places in which a kernel calls each of its functions, in order."""
+    """Return the number of places where a kernel calls each of its functions, in order."""
     places = {function.name: dict[tuple[int, ...], None]() for function in kernel.outlined}
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # A call has several results, each an expression of its own: one place is one tuple of arguments.
+            # A call has several results, each with its own expression; equal arguments mean the same call.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
@@ -136,7 +137,7 @@ class WithFunctions:
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # Through this domain: functions may call functions.
+            # Evaluated in this domain, because functions may call functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value
@@ -163,7 +164,8 @@ def rewritten(
     """Return the roots with nodes replaced by results of calls, whose arguments are rewritten as well."""
     new: dict[int, Expr] = {}
     for root in roots:
-        # An explicit stack: arguments of replaced nodes are visited as well, and recursion would be too deep.
+        # Arguments of replaced nodes are rewritten as well. An explicit stack, because recursion would be too
+        # deep.
         waiting = [root]
         while waiting:
             node = waiting[-1]
@@ -171,7 +173,7 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # A replaced node depends on the arguments of its call; its old operands may be dead.
+            # A replaced node depends on the arguments of its call; its old operands may be unused.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

@@ -1,12 +1,12 @@
 """Outlining: computations that a step repeats become one function with several calls.
 
 Operations of a program are joined into trees (:mod:`codegen.kernel.repeated_trees`). Trees of one shape
-differ in their operands and in the coefficients of their sums; these are the arguments of one function
+differ only in their operands and in the coefficients of their sums. Both become arguments of one function
 (:mod:`codegen.kernel.outlined_functions`). The function computes only the results that are read, and has only
-the arguments that these depend on. Calls do not share common subexpressions, such as the sine and cosine of
-one angle, so only long steps are outlined.
+the arguments on which these results depend. Calls do not share common subexpressions, such as the sine and
+cosine of one angle, so only long steps are outlined.
 
-The rewriting is exact. It is verified: the old and the new expressions are evaluated at one point.
+The rewriting is exact. To verify it, the old and the new expressions are evaluated at one point.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ Shape = tuple[Key, tuple[int, ...]]
 
 @dataclass
 class Outline:
-    """Collects the executed assignments of a program, and replaces expressions by calls."""
+    """Records the executed assignments of a program, and replaces expressions by calls of functions."""
 
     program: Program
     scene: Problem
@@ -62,11 +62,11 @@ class Outline:
         self.trees = Trees(self.program, self.domain)
 
     def run(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> list[Expr] | None:
-        """Return the roots with calls of ``outlined``; None without repetitions.
+        """Return the roots with calls of the functions in ``outlined``; None if nothing is repeated.
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # A call must run before or in the loop that its operands belong to, so levels come first.
+        # First, because a call must come before or in the loop to which its operands belong.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -74,17 +74,19 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # Counted in the result, not in the choice: only calls that remain cost and save lines.
+            # Calls are counted in the rewritten roots, because simplification may remove some of the chosen
+            # calls.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
-                # All results of a call share their arguments; counting the first result counts the calls.
+                # All results of a call share their arguments; counting result 0 counts each call once.
                 if node.op == "call" and node.payload.endswith(".0"):
                     calls[node.payload[:-2]] = calls.get(node.payload[:-2], 0) + 1
-            # Simplification may remove calls; a function that is left with one call is dissolved.
+            # If simplification leaves a function with a single call, the function is dropped in the next
+            # round.
             if all(calls.get(name, 0) > 1 for name in shapes):
                 self._verify(roots, rewritten_roots)
                 return rewritten_roots
-            # Fewer functions in each round, so the loop ends.
+            # Each round has fewer functions, so the loop ends.
             kept = [key for name, key in shapes.items() if calls.get(name, 0) > 1]
             trees = [tree for key in kept for tree in chosen[key]]
 
@@ -92,7 +94,7 @@ class Outline:
         self, roots: Sequence[Expr], chosen: Mapping[Shape, list[Tree]]
     ) -> tuple[list[Expr], dict[str, Shape]]:
         """Create the functions; return the roots with their calls, and the shape of each function."""
-        # A new round numbers its functions again.
+        # Each round numbers its functions from 1.
         self.outlined.clear()
         calls: dict[int, tuple[str, int, list[Expr]]] = {}
         shapes: dict[str, Shape] = {}
@@ -100,23 +102,24 @@ class Outline:
             name = f"piece_{1 + len(self.outlined)}"
             shapes[name] = key
             inputs = [self.trees.inputs(tree) for tree in trees]
-            # An input that is the same constant in every call is no argument.
+            # An input that is the same constant in every call becomes part of the function.
             fixed = [
                 x if x.op == "const" and all(x is y for y in others) else None
                 for x, *others in zip(*inputs, strict=True)
             ]
-            # The first tree is the pattern: all trees of a key differ in operands and coefficients only.
+            # The first tree is the pattern: trees with the same key differ only in operands and coefficients.
             outlined, places = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # Two trees may have one result, for hash-consing shares it; the first call computes it.
+                    # Two trees may share a result, because equal expressions are one node; the first call
+                    # computes it.
                     calls.setdefault(results[out].id, (name, k, [flat[p] for p in places]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
-        # Operands may lie outside the roots, for simplification can remove them there.
+        # Operands may lie outside the roots: simplification can remove their readers.
         results = [x for m in self.trees.executions for value in (*m.results, *m.args) for x in value]
         self._level: dict[int, int] = {}
         for node in walk([*roots, *results]):
@@ -124,12 +127,13 @@ class Outline:
             self._level[node.id] = max([own, *(self._level[a.id] for a in node.args)])
 
     def _chosen(self, roots: Sequence[Expr], trees: list[Tree]) -> dict[Shape, list[Tree]]:
-        """Return the trees to outline, by shape and the results that are read."""
-        # Without one tree other results of the rest are read, so groups form again until all remain.
+        """Return the trees to outline, grouped by shape and by the results that are read."""
+        # Removing a tree changes which results of the other trees are read, so repeat until no tree is
+        # removed.
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # In the order of execution, so that functions are numbered in the order of their first call.
+            # In the order of execution, so that functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -140,11 +144,11 @@ class Outline:
             trees = [trees[t] for t in sorted(left)]
 
     def _read(self, roots: Sequence[Expr], trees: Sequence[Tree]) -> dict[int, set[int]]:
-        """Return the numbers of the results that are read, for each tree, if all trees are called."""
+        """Return, for each tree, the indices of the results that are read if all trees are called."""
         ends: dict[int, tuple[int, int]] = {}
         for t, tree in enumerate(trees):
             for k, x in enumerate(self.trees.results(tree)):
-                # A symbol, a number and their negatives cost nothing, so no call computes them.
+                # Symbols, numbers and their negatives cost nothing, so no call has to compute them.
                 if x.args and not (x.op == "neg" and not x.args[0].args):
                     ends.setdefault(x.id, (t, k))
         read: dict[int, set[int]] = {}
@@ -161,31 +165,32 @@ class Outline:
                     t, k = ends[node.id]
                     read.setdefault(t, set()).add(k)
                 seen.add(node.id)
-            # A called tree reads its operands, and these may be results of further trees.
+            # The call of a tree reads the tree's operands, which may be results of other trees.
             fresh = sorted(set(read) - entered)
             entered |= set(fresh)
             waiting = [x for t in fresh for x in self.trees.inputs(trees[t])]
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Whether the results of a tree that are read depend on the same blocks as its inputs.
+        """Whether the read results of a tree depend on the same blocks as the tree's inputs.
 
-        They must also have been created after the inputs: an older node is the result of something else.
+        The results must also be newer than the inputs: an older node is the result of another operation.
         """
         results, inputs = self.trees.results(tree), self.trees.inputs(tree)
-        # A result of an earlier block than its inputs would wait for values it does not need, inside a loop.
+        # A result that depends on fewer blocks than the inputs would wait, inside a loop, for values it does
+        # not need.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # Node numbers grow with time, so an older node cannot have been computed from the inputs.
+        # Node numbers increase, so a node older than an input cannot have been computed from that input.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
     def _verify(self, before: Sequence[Expr], after: Sequence[Expr]) -> None:
         """Raise :class:`codegen.ir.verify.IllFormed` if the calls give different values."""
-        # Sorted names and fixed sines: the same point in every run.
+        # Sorted names and fixed sines give the same point in every run.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 9):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # Roots of negative numbers or overflow at one point say nothing; try shorter steps.
+            # Roots of negative numbers or overflow at one point prove nothing; try shorter steps.
             values |= {x: 0.5**attempt for x in names if x == "h"}  # long steps overflow
             try:
                 old = evaluate(before, FloatDomain(0.1), values)

@@ -1,7 +1,7 @@
 """The passes: one file each, pure functions over programs, run in a fixed order and verified after each.
 
-``optimise`` runs them on a scene. After every pass it checks types and single assignment, and interprets the
-program at sample points, where it must agree with the lowered program to rounding.
+``optimise`` runs them on a scene. After every pass it checks types and single assignment. It also interprets
+the new program at sample points, where the results must agree with those of the lowered program to rounding.
 """
 
 from __future__ import annotations
@@ -54,11 +54,14 @@ def optimise(
 
 
 class Optimiser:
-    """The passes on one program, and the reference that each result is compared with.
+    """Runs the passes on one program and compares each result with a reference.
 
-    ``composed`` is the same step as a composition of shorter ones (:mod:`codegen.lower.substeps`), if it is
-    one. It is compared as a whole and then replaces the step; the passes rewrite and compare one substep. A
-    pass that breaks the program raises :class:`codegen.ir.verify.IllFormed`: a fault of this compiler.
+    ``composed``, if given, is the same step as a composition of shorter steps
+    (:mod:`codegen.lower.substeps`).
+    The whole composition is compared with ``program`` and then replaces it. The passes rewrite and compare
+    only
+    one of its substeps. A pass that changes the meaning of the program raises
+    :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -74,16 +77,16 @@ class Optimiser:
             self._run(each)
 
     def plain(self) -> tuple[Program, tuple[PassReport, ...]]:
-        """Return the program after the passes that serve every scene."""
+        """Return the program after the passes that apply to every scene."""
         return self.program, tuple(self.reports)
 
     def framed(self) -> tuple[Program, tuple[PassReport, ...]]:
         """Return the program in the body frame with smaller equations, if the scene has a body frame.
 
-        It need not be cheaper: the caller counts the operations of both programs.
+        The new program may need more operations: the caller counts the operations of both programs.
         """
         plain, reports = self.program, list(self.reports)
-        # The reference stays: interpreting a program in the body frame includes both turns of the momentum.
+        # No new reference: the interpreter turns the momentum into the body frame and back.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
@@ -93,10 +96,12 @@ class Optimiser:
 
     def _run(self, each: Pass) -> None:
         old, new = self.program, verify(each.run(self.program))
-        # Many passes leave a program alone; a comparison would interpret it at several points for nothing.
+        # Many passes do not change a program; the comparison, which interprets it at several points, is
+        # skipped.
         if new == old:
             return
-        # Compared with the lowered program, not with the pass before: small deviations cannot accumulate.
+        # Each result is compared with the lowered program, not with the previous result: else small
+        # deviations could accumulate.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
             raise IllFormed(f"the pass {each.name} changed the meaning of {old.name}: {account}")
@@ -110,36 +115,37 @@ def _part(program: Program) -> Program:
 
 
 def plain_passes(scene: Problem) -> list[Pass]:
-    """Return the passes that serve every scene, in order."""
+    """Return the passes that apply to every scene, in order."""
     abelian_group = scene.group.abelian
     joined = "flows of one part are joined across flows that commute"
     vanish = "the group is abelian" if abelian_group else "dexpinv is cut off before its first bracket"
     return [
-        # First of all: it makes the zeros that the next pass removes from sums.
+        # First: this pass creates the zeros that the next pass removes from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # Stages with equal rows have one image only after value numbering.
+        # After value numbering, which gives stages with equal rows the same image variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
-        # Two stages that became one leave several terms in one value, which may cancel.
+        # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # A joined flow leaves the stage times of the flows that it replaces.
+        # When flows are joined, the stage times of the replaced flows may become unused.
         Pass("unused values", UNUSED, dead.run),
-        # Terms of later stages must have cancelled, else a composition method stays one large block.
+        # After the pass for zeros: terms of later stages that cancel would keep a composition in one large
+        # block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
-        # Factoring counts readers; a dead reader would keep a map inside its sum.
+        # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
         Pass("unused values", UNUSED, dead.run),
-        # Single readers first: factoring these always saves maps. Shared terms need a count, see below.
+        # Factoring maps with a single reader always saves maps. Maps with several readers follow below.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring leaves sums of a single term.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # After sharing: whether exp(x) has one reader is known only when equal exponentials are one.
+        # After value numbering, which merges equal exponentials: only then are the readers of exp(x) known.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring makes values independent of a block's unknowns; they leave the block now.
+        # Factoring can make values independent of a block's unknowns; this pass moves them out of the block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
     ]
 
@@ -151,31 +157,33 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are those of the body", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # The Legendre transform replaces variables, and would miss a second copy of a momentum.
+        # The Legendre transform replaces variables: if a momentum had a second variable, it would miss that
+        # one.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta follow from velocities", lambda p: legendre.run(p, scene)),
-        # The transform undoes maps that the program applies again elsewhere.
+        # The transform applies inverses of maps; elsewhere the program may apply the maps themselves.
         Pass("inverse maps", inverse, opposites.run),
-        # Only now: before the transform a force depends on its own momentum, which closes a cycle.
+        # After the transform: before it, a force depends on its own momentum, which closes a cycle.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
-        # Across an unknown that tearing removed, a map meets its inverse.
+        # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),
         Pass("unused values", UNUSED, dead.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # Before functions of ad: without this reader exp(x) may have no reader but one adjoint map.
+        # Before functions of ad, which require that exp(x) has one reader only: this pass can remove the
+        # second.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # Residuals compare momenta in the cheaper frame, and the cheaper frame shows only in functions of ad.
+        # After functions of ad: residuals compare momenta in the frame with fewer operations, known only now.
         Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
-        # The residuals bring new inverse maps, so the passes for maps run again.
+        # The residuals contain new inverse maps, so the passes for maps run again.
         Pass("inverse maps", inverse, opposites.run),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("unused values", UNUSED, dead.run),
-        # Factoring moves coefficients into maps; a coefficient that is alone in its map leaves it again.
+        # Factoring moves coefficients into maps; this pass takes the coefficient of a single term out again.
         Pass("numbers outside maps", "numbers are multiplied into sums", hoist_scalars.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),

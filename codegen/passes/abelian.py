@@ -1,7 +1,7 @@
-"""Brackets on an abelian group, and dexp^{-1} cut off at 0.
+"""Vanishing brackets of an abelian group, and dexp^{-1} truncated at order 0.
 
 Exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad and P
-are zero. On any group dexp^{-1}_(0) is the identity and P_(0) is zero.
+are zero. On any group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0 is zero.
 """
 
 from __future__ import annotations
@@ -19,17 +19,18 @@ ZEROS = (Bracket, InverseDexpSlope)
 
 
 def run(program: Program, abelian: bool) -> Program:
-    """Return the program without operations that do nothing."""
+    """Return the program without operations that are the identity or zero."""
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         operation = assign.operation
-        # dexp^{-1} = 1 - ad/2 + ...: cut off after order 0 only the constant remains, whatever the group.
+        # dexp^{-1} = 1 - ad/2 + ...: truncated at order 0 it is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
             # The last argument is the value that the map acts on; the others select the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # An explicit zero, not an empty sum: the pass for zeros recognises it in every operation.
+            # An explicit zero, not an empty sum: the pass for zeros recognises an explicit zero in every
+            # operation.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

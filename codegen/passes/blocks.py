@@ -1,8 +1,9 @@
-"""Blocks: the strongly connected components of the stage graph, each solved alone and in order.
+"""Blocks: each is split into the strongly connected components of its dependency graph, solved in order.
 
-Exact. An edge leads from each assignment to those that read its values; an unknown is represented by its
-image. A component without a cycle becomes plain assignments, one with a cycle a block of its own unknowns. So
-explicit methods lose their solver, and a composition tableau is solved stage by stage.
+Exact. An edge leads from each assignment to those that read its values. An unknown is represented by its
+image, the right-hand side of the unknown's fixed-point equation. A component without a cycle becomes plain
+assignments; a component with a cycle becomes a block with its own unknowns. Explicit methods therefore need
+no solver, and a composition tableau is solved stage by stage.
 """
 
 from __future__ import annotations
@@ -27,29 +28,31 @@ def run(program: Program) -> Program:
 
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
-    """Return the statements of one block in order; ``names`` maps unknowns to their images from now on."""
-    # Imported late: only programs with blocks need it.
+    """Return the statements of one block in order; add the images of its unknowns to ``names``."""
+    # Imported here, not at the top: only programs with blocks need networkx.
     import networkx
 
-    # Outside a block its unknowns are replaced by their images, also in the starts of later blocks.
+    # Outside a block each of its unknowns is replaced by the unknown's image, also in the starts of later
+    # blocks.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # Positions in the body serve as graph nodes: integers sort, so the result does not depend on hashes.
+    # Graph nodes are positions in the body: integers have an order, so the result does not depend on hashes.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
-    # Assignments that neither read nor feed another one of the block are components, too.
+    # Assignments without an edge to other assignments of the block are components, too.
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # A reader of an unknown waits for its image. Values from before the block order nothing.
+            # A reader of an unknown depends on the unknown's image. Values from before the block add no
+            # edges.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)
     # Two assignments depend on each other exactly if they are in one strongly connected component.
     condensed = networkx.condensation(graph)
-    # The old order is valid inside a component: only reads of unknowns point backwards in it.
+    # Inside a component the old order is valid, because only reads of unknowns refer to later assignments.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # Among orders that are possible take that of the program, so that emitted text is stable.
+    # Among the possible orders the program's own is taken, which keeps emitted text stable.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
@@ -61,35 +64,35 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
         ]
         kept = set(own)
         renamed = [_rename(a, names, image, kept) for a in assigns]
-        # Without an unknown that it reads the component has no cycle: it is explicit.
+        # If the component reads none of its unknowns, it has no cycle: it is explicit.
         if not own:
             result += renamed
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # No residuals to keep: :mod:`codegen.passes.legendre` adds them after the last split.
+        # Residuals need not be kept: :mod:`codegen.passes.legendre` adds them after the last split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
-    # At the solution an unknown equals its image, and the image may now be computed without a block.
+    # At the solution an unknown equals its image, and that image may now be computed without a block.
     names.update(image)
     return result
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Follow images that are themselves unknowns; one that must only equal itself stays at its start."""
+    """Replace images that are themselves unknowns; an unknown of a closed chain gets its start."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # A closed chain v = w, w = v holds for any common value; the start is one that is known.
+        # Any common value solves a closed chain v = w, w = v; the start is a known value.
         result[unknown] = start[unknown] if var in seen else var
     return result
 
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # Unknowns of the component itself stay: replacing them by their images would close a cycle.
+        # Unknowns of the component itself are not replaced by their images: that would close a cycle.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

@@ -1,13 +1,14 @@
-"""The body frame: values seen from the body at the start of the step, the field from that of the stage.
+"""The body frame: values relative to the body at the start of the step, the field relative to the stage.
 
-Exact. With E~ = q^-1 E q for a group element, Ad_{q^-1} x for a value in the algebra and Ad*_q mu for one in
-its dual, a program keeps its operations, which commute with the group; Q = E q becomes q E~. The field is
-taken from :mod:`codegen.scene.body_frame`:
-xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. So the equations of
-a block read only those numbers of q that the body's field reads. The program reads and returns the momentum
-of the body (:data:`codegen.ir.program.BODY`), so that consecutive steps do not transform it.
+Exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the algebra to
+Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a program
+commute with this transformation, so they do not change. The field alone is replaced, by that of
+:mod:`codegen.scene.body_frame`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. Then the equations
+of a block read only those numbers of q that the body's field reads. The program reads and returns the
+momentum of the body (:data:`codegen.ir.program.BODY`), so consecutive steps need no transformation between
+them.
 
-A program of other operations, or of a scene without a body frame, is left alone.
+A program with other operations, or of a scene without a body frame, is not changed.
 """
 
 from __future__ import annotations
@@ -49,17 +50,17 @@ EQUIVARIANT = (
 
 
 class NotFramed(Exception):
-    """A program that this pass leaves alone."""
+    """Raised for a program that this pass does not change."""
 
 
 def run(program: Program, scene: Problem) -> Program:
     """Return the program in the body frame."""
     kinds = {v.name: v.kind for v in program.inputs}
-    # The frame is that of q and turns mu, so the state must be a group element and a momentum.
+    # The body frame is defined by q and transforms mu, so the state must be a group element and a momentum.
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
-        # Tried, not tested first: whether every operation is equivariant shows only on the way.
+        # No test in advance: whether every operation is equivariant is known only after visiting all of them.
         return _Framing(program).run()
     except NotFramed:
         return program
@@ -77,7 +78,8 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The stage at the beginning of the step is q itself: E is the identity, and no map is emitted for it.
+        # The stage at the beginning of the step is q itself: its E is the identity, and no map is emitted for
+        # E.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -85,10 +87,10 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # An unknown position has no known factor E, so its frame would itself be unknown.
+            # An unknown position has no known factor E, so the frame of the stage would itself be unknown.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # Starts are read before the block, so they are renamed before its body adds names.
+            # Starts are read before the block, so they are renamed before the block's body adds names.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -99,12 +101,12 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # An embedded second solution would need a second new frame.
+        # The second solution of an embedded method would need a second new frame.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
         E = self.relative[element]
-        # The next step sees its momentum from the new q' = q E~, and Ad*_{q'} = Ad*_{E~} Ad*_q.
+        # The next step transforms its momentum by the new q' = q E~, and Ad*_{q'} = Ad*_{E~} Ad*_q.
         m = momentum if E is None else self.build.adjoint("m", E, momentum)
         ends = {"q": self.names.get(element, element), "mu": m}
         body += self.build.take()
@@ -123,7 +125,7 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # (E q)(E' q) does not have the form E'' q.
+            # Not supported: a product (E q)(E' q) does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
             # left (E q) = (left E) q, and conjugation by q preserves products.
@@ -132,7 +134,8 @@ class _Framing:
             # In the body frame E q is q E~: the factor changes sides.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # An equivariant operation on turned arguments gives the turned result: rename the arguments.
+            # An equivariant operation on transformed arguments gives the transformed result: rename the
+            # arguments.
             self._emit(replace(assign, args=self._now(args)))
         # A stage time is a number, the same in every frame.
         elif isinstance(operation, Advance):
@@ -144,14 +147,15 @@ class _Framing:
         self.build.body.append(assign)
 
     def _field(self, assign: Assign) -> None:
-        """xi = Ad_E W, n = Ad*_{E^-1} N of (Q, Ad*_E M)."""
+        """Append xi = Ad_E W and n = Ad*_{E^-1} N, evaluated at Q and Ad*_E M."""
         build, (xi, n), element = self.build, assign.targets, assign.args[0]
         E, time = self.relative[element], assign.args[2:]
         (M,) = self._now(assign.args[1:2])
-        # Ad*_Q = Ad*_E Ad*_q for Q = q E~, and the program's momenta are already Ad*_q of those in space.
+        # For Q = q E~, Ad*_Q = Ad*_E~ Ad*_q; the momenta of the program already include the factor Ad*_q.
         P = M if E is None else build.adjoint(f"P{xi.name}", E, M)
         W = build.add(BodyVelocity(bool(time)), f"W{xi.name}", element, P, *time)
         N = build.add(BodyForce(bool(time)), f"N{n.name}", element, P, *time)
-        # W and N are seen from the stage Q = q E~; one more turn by E~ brings them to the frame of q.
+        # W and N are in the frame of the stage Q = q E~; the adjoint maps of E~ transform them to the frame
+        # of q.
         self.names[xi] = W if E is None else build.adjoint(f"b{xi.name}", E, W)
         self.names[n] = N if E is None else build.adjoint(f"b{n.name}", E, N, inverse=True)

@@ -1,7 +1,7 @@
-"""Dead code: values that neither the new state nor any equation behind it depends on.
+"""Dead code: values on which neither the new state nor an equation needed for it depends.
 
-Exact. A block loses unknowns that nothing reads and, with them, their equations; a block without unknowns
-that anything reads vanishes.
+Exact. An unknown that nothing reads is removed from its block together with its equation. A block without
+unknowns that anything reads is removed.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ def run(program: Program) -> Program:
     # Backwards: all readers of a value are visited before its definition.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
-            # One live result keeps the others: an operation such as the field computes them together.
+            # All results stay if one is live: an operation such as the field computes them together.
             if live.intersection(statement.targets):
                 live.update(statement.args)
                 kept.append(statement)
             continue
-        # Reversed with the rest of the list at the end.
+        # In reverse order here: the whole list is reversed at the end.
         kept += reversed(_trim(statement, live))
     return replace(program, body=tuple(reversed(kept)))
 
@@ -38,13 +38,13 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # Not strict: a block has one residual for each unknown, or none at all.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # A list in program order, not a set: the order of ``live`` would change from run to run.
+    # A list in program order, not a set: the iteration order of a set would change from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
-    # A live unknown needs its image, and the image whatever it is computed from.
+    # A live unknown needs its image, and every value that the image is computed from.
     while wanted:
         var = wanted.pop()
-        # A block has cycles, so a value may be reached again.
+        # Values of a block may depend on each other in cycles, so a value may be reached again.
         if var in needed:
             continue
         needed.add(var)
@@ -55,13 +55,13 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
         elif var in maker:
             wanted.extend(maker[var].args)
     pairs = list(zip(block.unknowns, block.starts, block.images, strict=True))
-    # An unknown whose readers are all dead drops out with its equation, and the block stays square.
+    # An unknown that no live value reads is removed with its equation, and the block stays square.
     pairs = [p for p in pairs if p[0] in needed]
     kept = tuple(residual[u] for u in block.unknowns if u in needed and u in residual)
     body = tuple(a for a in block.body if needed.intersection(a.targets))
     if not pairs:
         return body
     unknowns, starts, images = zip(*pairs, strict=True)
-    # Starts are read outside the block, so only those of remaining unknowns keep values alive.
+    # Starts are read outside the block; only the starts of remaining unknowns are live.
     live.update(starts)
     return (replace(block, unknowns=unknowns, starts=starts, images=images, body=body, residuals=kept),)

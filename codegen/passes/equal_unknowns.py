@@ -1,8 +1,8 @@
-"""Unknowns with the same image: one of them represents all.
+"""Unknowns with the same image (right-hand side of the fixed-point map) are merged into one unknown.
 
-Exact. At a solution, unknowns with the same image are equal, so the block is solved for the first of them,
-from its start. Stages with equal rows of coefficients become one stage, after
-:mod:`codegen.passes.value_numbering` has merged their equations.
+Exact. At a solution, unknowns with the same image are equal. The block is solved for the first of them only,
+starting from the first one's start. After :mod:`codegen.passes.value_numbering` has merged equal equations,
+stages with equal rows of coefficients thus become one stage.
 """
 
 from __future__ import annotations
@@ -24,10 +24,11 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
-            # Later blocks and outputs may read a twin, so the map covers the whole program.
+            # Later blocks and outputs may read a removed unknown, so ``same`` covers the whole program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # The body reads twins, too; equal stages then become equal assignments for value numbering.
+            # The body reads removed unknowns, too. After the renaming, value numbering can merge equal
+            # stages.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -40,13 +41,14 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return (unknown, start, image) for the first unknown of each image, and a map of the others to it."""
-    # The first unknown represents the others, so its start is kept; any start has the same solution nearby.
+    """Return (unknown, start, image) for the first unknown of each image; map the other unknowns to it."""
+    # The first unknown keeps its own start; from the other starts the iteration finds the same solution.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}
     for unknown, start, image in zip(block.unknowns, block.starts, block.images, strict=True):
-        # An image that is an unknown is left alone: :mod:`codegen.passes.blocks` follows such chains.
+        # An image that is itself an unknown is skipped: :mod:`codegen.passes.blocks` follows such chains.
+
         if image in block.unknowns or first.setdefault(image, unknown) == unknown:
             pairs.append((unknown, start, image))
         else:

@@ -49,14 +49,14 @@ that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``.""
 
 
 class _Point:
-    """Results from one state; results of smaller steps are computed on demand."""
+    """Results of steps from one state; the results of shorter steps are computed on demand."""
 
     def __init__(self, more: Iterator[Result]) -> None:
         self._more = more
         self.computed = list(islice(more, 1))
 
     def results(self) -> Iterator[Result]:
-        """Yield the results, the largest step first."""
+        """Yield the results, that of the longest step first."""
         yield from self.computed
         for result in self._more:
             self.computed.append(result)
@@ -64,11 +64,15 @@ class _Point:
 
 
 class Reference:
-    """The meaning of a program: its results after one step from points of a scene.
+    """The reference for comparisons: the results of a program after one step from points of a scene.
 
-    The points are the initial state, which may be special (an equilibrium, a symmetric position), and one
-    nearby without any symmetry. The step is the largest of moderate reach for which the blocks converge. A
-    compared program starts at the solutions of the program before it; if its equations differ, it moves away.
+    One point is the initial state, which may be special (an equilibrium, a symmetric position). The other is
+    a
+    nearby point without any symmetry. The step is the longest of moderate reach for which the blocks
+    converge. A
+    compared program starts from the solutions of the reference; if its equations differ, it iterates away
+    from
+    these solutions.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -85,24 +89,26 @@ class Reference:
             )
 
     def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
-        """Yield results of the largest step and of two smaller ones, for programs that converge later."""
-        # The reach of a step is about h times the field, so fast fields get shorter steps.
+        """Yield results of the longest step and of two shorter ones, for programs that converge only
+        there."""
+        # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # A state where the field is not finite is left out; the other state may serve.
+        # A state where the field is not finite is skipped; the other state may be usable.
         if not math.isfinite(speed):
             return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
         count, last = 0, math.inf
         for moderate in STEPS:
-            # A power of two: h^k has no rounding error that could look like a difference.
+            # The step is a power of two: h^k then has no rounding error that could look like a difference.
             step = math.ldexp(moderate, -max(excess, 0))
-            # Later steps are for programs that need much shorter ones: nearby sizes add no evidence.
+            # Further steps are for programs that converge only for much shorter steps, so similar lengths are
+            # skipped.
             if count and step > last / APART:
                 continue
             # The interpreter fills this with the solutions of the blocks; compared programs start from them.
             solutions: dict[Var, Value] = {}
-            # A step that does not settle is too long; a shorter one is tried.
+            # If the iteration does not converge, the step is too long; a shorter one is tried.
             try:
                 after = self._run(program, step, inputs, SWEEPS, solutions)
             except FAILURES:
@@ -127,15 +133,15 @@ class Reference:
         return ""
 
     def _in_some_step(self, program: Program, point: _Point) -> str:
-        """Compare in the first step for which the program converges."""
+        """Compare results after the longest step for which the program converges."""
         failure = ""
         for step, inputs, before, solutions in point.results():
             try:
                 after = self._run(program, step, inputs, 2 * SWEEPS, solutions)
-            # The same equations in another form may contract later: the next, shorter step decides.
+            # The same equations in another form may converge only for shorter steps: try the next step.
             except NotConverged as error:
                 failure = f"interpretation failed: {error}"
-            # The reference passed this point, so a failure of arithmetic comes from the pass.
+            # The reference has a result at this point, so an arithmetic failure is caused by the pass.
             except FAILURES as error:
                 return f"interpretation failed: {error}"
             else:
@@ -144,11 +150,11 @@ class Reference:
 
     def _gap(self, before: dict[str, Value], after: dict[str, Value]) -> str:
         for name, kind in self.kinds.items():
-            # An input that the step only reads, such as the time, has no new value.
+            # An input that the step only reads, such as the time, has no new value to compare.
             if name not in before:
                 continue
             x, y = (flatten(kind, side[name]) for side in (before, after))
-            # Relative to large values, absolute for small ones: components may vanish by symmetry.
+            # Relative for large values, absolute for small ones: some components may vanish by symmetry.
             scale = max(1.0, *(abs(s) for s in x))
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
             # Negated on purpose: a gap that is not a number counts as a difference.
@@ -162,7 +168,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     domain = FloatDomain(0.0)
     coordinates = tuple(x for block in scene.state for x in state[block.name])
     try:
-        # A field that overflows or divides by zero is treated like one without a finite value.
+        # Where the field overflows or divides by zero, it counts as not finite.
         values = evaluate(scene.roots, domain, scene.values(domain, coordinates, state["t"]))
     except (ArithmeticError, ValueError):
         return math.inf
@@ -170,10 +176,10 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
 
 
 def _states(scene: Problem) -> Iterator[dict[str, Value]]:
-    """Yield the initial state, and one moved from it by the group along fixed directions."""
+    """Yield the initial state, and a state moved from it by the group in fixed directions."""
     domain = FloatDomain(0.0)
     start = scene.initial(domain)
-    # Sines of integers have no symmetry and no integer relation that a scene might share, and need no seed.
+    # Sines of integers: no symmetry, no integer relation that a scene might share, and no random seed.
     directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     time = float(scene.span[0])

@@ -1,7 +1,7 @@
 """Linear maps taken out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2) where no term has other uses.
 
-Exact. L is a coadjoint operation, dexp* or the like with the same group argument; the pass repeats until
-nothing changes, so that nested maps come out one after the other.
+Exact. L is a coadjoint operation, dexp* or another linear map, with the same group argument in all terms. The
+pass repeats until nothing changes, so that nested maps are taken out one after the other.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Each round has fewer maps than the one before, so the loop ends.
     while True:
-        new = dead.run(rewrite(program, _rule))  # what was factored out must not count as used
+        new = dead.run(rewrite(program, _rule))  # factored-out values must not count as used
         if new == program:
             return program
         program = new
@@ -29,9 +29,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # With a second reader L(x) is computed anyway, and a map of the sum would be one map more.
+        # If L(x) has a second reader, it is computed anyway, and a map of the sum would be an additional map.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Equal operation and equal first arguments: the same linear map. Other terms keep a key of their own.
+        # Equal operation and equal first arguments: the same linear map. Any other term gets a key of its
+        # own.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):
@@ -45,7 +46,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # The old name tells a reader of emitted code which map this was.
+        # The old name shows a reader of emitted code which map was factored out.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

@@ -1,8 +1,8 @@
 """Exact flows of one part are joined into one if they commute with all flows between them.
 
-Exact. Two flows commute if their order does not matter. A test with 40 digits at points of the scene, for two
-different durations, decides. Example: gravity does not depend on the spin of a symmetric top about its axis,
-so a step needs the flow of this spin only once.
+Exact. Two flows commute if their order does not matter. Whether two flows commute is tested with 40 digits at
+points of the scene, for two different durations. Example: gravity does not depend on the spin of a symmetric
+top about its axis, so a step needs the flow of this spin only once.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Letter:
-    """One flow of a word: its part, its duration, and its time argument, if any."""
+    """One flow of a composition: its part of the splitting, its duration, and its time argument, if any."""
 
     part: str
     duration: Coefficient
@@ -35,30 +35,31 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # Computed only for words of flows: sampling the scene takes time.
+    # Computed only if the program is a composition of flows: sampling the scene takes time.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # Each flow moves back as far as it commutes with the flows that it passes.
+    # Each flow moves to an earlier place if it commutes with all flows that it passes.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
             # Flows of one part form a one-parameter group: exp(a X) exp(b X) = exp((a + b) X).
             duration = letter.duration.value + kept.pop(at).duration.value
             letter = replace(letter, duration=Coefficient(duration, letter.duration.power))
-        # The flow for no time is the identity; a coefficient counts as zero only if that is proven.
+        # The flow of duration zero is the identity; a duration counts as zero only if that is proven.
         if not letter.duration.is_zero:
             kept.append(letter)
-    # Without a join nothing is rebuilt: equal programs skip the comparison after the pass.
+    # Unless flows were joined, the old program is returned: equal programs are not compared after the pass.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the place of the last flow with the same part and time that commutes with all after it."""
+    """Return the place of the last flow with the same part and time such that all later flows commute with
+    it."""
     for at in reversed(range(len(kept))):
-        # A part with time is frozen at its stage time; flows frozen at two times are two different flows.
+        # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # The flow at an earlier place would have to pass this one.
+        # To reach an earlier place, the letter would have to pass this flow.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -69,7 +70,7 @@ def word(program: Program) -> list[Letter] | None:
     letters = []
     state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for statement in program.body:
-        # A block means implicit stages: no word of flows.
+        # A block means implicit stages, so the program is not a composition of flows.
         if not isinstance(statement, Assign):
             return None
         operation, args = statement.operation, statement.args
@@ -80,13 +81,13 @@ def word(program: Program) -> list[Letter] | None:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
-    # A result that is not the state after the last flow makes the program more than a word.
+    # The outputs must be the state after the last flow, else the program computes more than the flows.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that applies these flows, with the stage times of the old one."""
-    # All times first: each depends on t alone, and the pass for unused values removes the rest.
+    # All times first: each of them depends on t alone. The pass for unused values removes unread ones.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
@@ -105,7 +106,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # On the manifold only, where formulas that use the equations of the group agree.
+        # Points on the manifold only: formulas that use the equations of the group agree only there.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
@@ -118,7 +119,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
             try:
                 ends = moved(point, (first, second)), moved(point, (second, first))
             except (ArithmeticError, ValueError):
-                # A flow that fails at a sample point proves nothing, so the order of the program is kept.
+                # If a flow fails at a sample point, nothing is proved, so the two flows count as not
+                # commuting.
                 return False
             if not all(orbit.sized(x - y, (x, y)) for x, y in zip(*ends, strict=True)):
                 return False
@@ -129,7 +131,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
 
 def apart(letters: Sequence[Letter], commute: Callable[[str, str], bool]) -> tuple[str, ...]:
-    """Return the parts that commute with all others of a word, in order of appearance."""
+    """Return the parts whose flows commute with all other flows of a composition, by first appearance."""
     parts = tuple(dict.fromkeys(letter.part for letter in letters))
     bound = {p for a, b in combinations(parts, 2) if not commute(a, b) for p in (a, b)}
     return tuple(p for p in parts if p not in bound)

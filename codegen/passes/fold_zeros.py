@@ -1,8 +1,9 @@
-"""Zero and equal coefficients, terms that cancel, identities.
+"""Simplification: zero coefficients, coefficients of equal values, terms that cancel, identities.
 
-Exact. A sum loses zero coefficients, terms in the same value are added (and vanish where they cancel), a
-single term with coefficient one is that value; the exponential of zero is the identity, a product or action
-of the identity its other factor, a linear operation on zero is zero, dexp at zero does nothing.
+Exact. In a sum, terms with coefficient zero are removed, and coefficients of the same value are added. A sum
+that is a single value with coefficient one becomes that value. The exponential of zero is the identity. A
+product or action of the identity is the other factor. A linear operation on zero gives zero, and dexp at zero
+is the identity map.
 """
 
 from __future__ import annotations
@@ -39,10 +40,10 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     operation = assign.operation
     if assign.terms:
         return _sum(rewriter, assign)
-    # t + 0 h is t: the stage at the start of the step needs no time of its own.
+    # t + 0 h is t: the stage at the start of the step needs no stage time.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # Definitions, not values: an operation is simplified only where the program shows a zero or an identity.
+    # Definitions, not numerical values: only a zero or an identity that the program states explicitly counts.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]
@@ -69,11 +70,11 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
-    # Only a proven zero goes: a ball that merely contains zero stays.
+    # Only a proven zero is removed: a ball that merely contains zero proves nothing.
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
-    # A copy is no operation; its readers take the value itself.
+    # A copy needs no operation; its readers read the value itself.
     if len(terms) == 1 and terms[0][0].is_one:
         return (terms[0][1],)
     return rewriter.emit(Assign.of_terms(assign.targets[0], terms))

@@ -1,8 +1,9 @@
-"""Functions of one ad: dexp, dexp^{-1} and exp applied one after the other become one function.
+"""Functions of one ad: dexp, dexp^{-1} and exp applied one after the other are combined into one function.
 
-Exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x), so that a chain of such operations with multiples
-of one x is a product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for it: on
-SO(3) it is 1 + b ad_x + c ad_x^2. An exponential with one adjoint operation as its only reader is not formed.
+Exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with multiples of one x
+is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this
+product: on SO(3) it is 1 + b ad_x + c ad_x^2. An exp(x) that is read by one adjoint operation only need not
+be computed.
 """
 
 from __future__ import annotations
@@ -24,15 +25,15 @@ from codegen.scene.problem import Problem
 
 
 def run(program: Program, scene: Problem) -> Program:
-    """Return the program with functions of ad combined, where the group knows them in closed form."""
-    # Without a closed form a product of functions costs as many brackets as its factors one by one.
+    """Return the program with functions of ad combined, if the group has closed forms for them."""
+    # Without a closed form a product of functions costs as many brackets as its factors do separately.
     return program if scene.group.offers(ClosedFormSeries) is None else rewrite(program, _rule)
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program with q exp(x) formed row by row where the body's field reads one row of it.
+    """Return the program with q exp(x) formed by rows where the body's field reads a single row of q.
 
-    Then exp(x) need not be formed for it.
+    Then that row of the product is computed without forming exp(x).
     """
     if scene.body is None:
         return program
@@ -40,7 +41,7 @@ def rows(program: Program, scene: Problem) -> Program:
     read = {n.payload for n in walk([*scene.body.velocity, *scene.body.force]) if n.op == "sym"}
     # The state of a matrix group begins with its entries, row by row.
     side = round(len(names) ** 0.5)
-    # Rows of q exp(x) are separate only if all numbers that are read are in one row.
+    # The rows of q exp(x) can be formed separately only if all numbers that the field reads are in one row.
     if len({k // side for k, name in enumerate(names) if name in read}) > 1:
         return program
     fields = {a.args[0] for a in program.assigns() if isinstance(a.operation, BodyVelocity | BodyForce)}
@@ -61,7 +62,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # The functions of one ad commute, so only the ratio of the two x matters, not the order of the maps.
+    # Functions of ad of proportional x commute, so the order of the maps does not matter, only the ratio of
+    # the two x.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -72,13 +74,13 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             # x = scale y turns f(ad_x) into f(scale ad_y): both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # f(ad) of a sum of functions of ad: as a sum of products it nests into two brackets for all terms.
+    # f(ad) of a sum of functions of ad: if f is distributed over the sum, all terms nest into two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
-    # Where other operations use the group element, the exponential is computed anyway.
+    # If other operations use the group element, its exponential is computed anyway.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)
@@ -87,7 +89,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _emit(rewriter: Rewriter, assign: Assign, x: Var, word: Word, v: Var) -> tuple[Var, ...]:
     word = simplified(word)
     if not word:
-        # The factors cancelled: the product is the identity.
+        # All factors cancelled: the product is the identity.
         return (v,)
     return rewriter.emit(Assign(assign.targets, AdSeries(word, v.kind is Kind.DUAL), (x, v)))
 
@@ -97,9 +99,9 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return s and the definition of var as a function of ad_y, if x = s y and var has one reader."""
+    """Return y, the function of ad_y and its argument, by which var is defined, with s in x = s y."""
     source = rewriter.definitions.get(var)
-    # A function with another reader is computed anyway, so joining it would compute it twice.
+    # A function with another reader is computed anyway; joined with this reader, it would be computed twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])
@@ -125,7 +127,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
     operation, args = assign.operation, assign.args
     if isinstance(operation, Adjoint):
         source = rewriter.definitions.get(args[0])
-        # Only an element that is visibly an exponential gives a function of ad.
+        # Only an element that the program defines as an exponential gives a function of ad.
         if source is None or not isinstance(source.operation, Exp):
             return None
         # Ad_{exp x} = exp(ad_x), and its inverse is exp(-ad_x); the same holds on the dual.
@@ -136,7 +138,7 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, or None if their terms do not show one."""
+    """Return the rational number s with x = s y, or None if the terms of x and y do not show one."""
     a, b = _terms(definitions, x), _terms(definitions, y)
     # Proportional combinations have the same terms; both dicts are sorted.
     if list(a) != list(b):
@@ -156,7 +158,7 @@ def _terms(definitions: Mapping[Var, Assign], x: Var) -> dict[tuple[str, int], N
         source = definitions.get(var)
         if source is not None and source.terms:
             for k, arg in source.terms:
-                # Expanded to the end: h xi/2 and h xi meet only in the variable xi.
+                # Sums are expanded completely: h xi/2 and h xi have nothing in common but the variable xi.
                 waiting.append((c * k.value, power + k.power, arg))
             continue
         old = total.get((var.name, power))

@@ -1,6 +1,8 @@
-"""Closed forms of a group: exp followed by the action becomes one operation where exp(x) is used once.
+"""Exponential and action are fused: exp(x) followed by the action becomes one operation if exp(x) has one
+reader.
 
-Exact. exp(x).y needs no group element: Rodrigues' formula applied to a vector costs two cross products.
+Exact. exp(x).y needs no group element: Rodrigues' formula, applied to a vector, needs two cross products
+only.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 
 def run(program: Program) -> Program:
-    """Return the program with act(exp(x), y) fused into actexp(x, y); exp is left for dead code."""
+    """Return the program with act(exp(x), y) fused into actexp(x, y); dead-code removal then drops exp(x)."""
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
@@ -20,7 +22,7 @@ def run(program: Program) -> Program:
             if (
                 source is not None
                 and isinstance(source.operation, Exp)
-                # With a second reader exp(x) is formed anyway, and applying it is cheap.
+                # If exp(x) has a second reader, it is formed anyway, and applying it is cheap.
                 and rewriter.uses[assign.args[0]] == 1
             ):
                 fused = Assign(assign.targets, ActExp(), (source.args[0], assign.args[1]))

@@ -1,7 +1,8 @@
-"""Numbers taken out of linear maps and sums of sums: L(c x) = c L(x), and a sum inside a sum is one sum.
+"""Numbers taken out of linear maps, L(c x) = c L(x), and sums nested in sums expanded into one sum.
 
-Exact. The map is applied to the value that other operations share; the number joins the coefficients of the
-sum that reads the map. Terms that several sums contain in one proportion are added once for all of them.
+Exact. The map is applied to the value x, which other operations share. The number c joins the coefficients of
+the sum that reads L(c x). Terms that several sums contain in the same proportion are added once for all these
+sums.
 """
 
 from __future__ import annotations
@@ -19,9 +20,10 @@ Pattern = tuple[tuple[int, Coefficient], ...]
 
 
 def run(program: Program) -> Program:
-    """Return the program with numbers outside of maps, sums flat, and terms in proportion added once."""
+    """Return the program with numbers outside of maps, nested sums expanded, and proportional terms added
+    once."""
     while True:
-        # Dead code goes in each round: a sum that was expanded must not count as a reader.
+        # Unused values are removed in each round: a sum that was expanded must not count as a reader.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -36,19 +38,19 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # L(x) keeps no number, so maps of different multiples of x become one by value numbering.
+    # Without the number, value numbering can merge the maps of different multiples of x.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
 
 
 def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-    """Append a sum with single multiples, and sums that nothing else reads, replaced by their terms."""
+    """Append a sum in which multiples, and sums without another reader, are replaced by their terms."""
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # The number of a single multiple joins the coefficient at no cost. A sum with several readers
-        # stays: each of them would repeat its products.
+        # If the term is a single multiple, its number joins the coefficient at no cost. A sum with several
+        # readers is not expanded: each reader would repeat its products.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -65,23 +67,23 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program with terms that several sums contain in one proportion added once."""
+    """Return the program in which terms that several sums contain in one proportion are added once."""
     builder = Builder({v.name for v in defined(program)})
-    # Blocks only: a sweep is repeated, so an addition saved in it counts several times.
+    # Only in blocks: a sweep is repeated, so an addition saved there is saved several times.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
 
 def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     sums = {k: a for k, a in enumerate(body) if len(a.terms) > 1}
-    # Values with the same pattern of sums and relative coefficients can be added once.
+    # Values that occur in the same sums with the same relative coefficients can be added once.
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Relative to the first place: values in one proportion then have equal patterns.
+        # Coefficients relative to the first: values in the same proportion then have equal patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A value twice in one sum would have to be removed twice.
+        # A value that occurs twice in one sum would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
         # A negative power would divide by h, which may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
@@ -89,7 +91,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The common sum has no powers of h, so all members need the same one.
+        # The common sum contains no powers of h, so all its members need the same power.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]
@@ -100,8 +102,9 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The totals stand after the sums that read them; sorting restores definitions before uses.
+    # The totals come after the sums that read them; sorting puts definitions before uses again.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
-    # A total reads values that the sums read before, so no cycle can arise.
+    # A total reads only values that the old sums read, so no cycle can arise.
+
     assert result is not None
     return result

@@ -1,10 +1,11 @@
-"""The Legendre transform: momenta and forces of a stage from its velocity alone, and smaller equations.
+"""The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
 Exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the solution.
-Every other reader of W, of P, and of the values on the path between v and a momentum M uses values computed
-from v. Then a force no longer depends on an unknown momentum, and tearing removes it. One equation remains
-for each v: the momentum computed from v equals the momentum of the equations. :func:`residuals` adds it to
-the block. Statements after the block read the velocity from the unknown.
+Other operations that read W, P, or a value on the path between v and a momentum M then read values computed
+from v instead. A force thus no longer depends on an unknown momentum, and tearing removes the force from the
+unknowns. One equation remains for each v: the momentum computed from v equals the momentum of the equations.
+:func:`residuals` adds this equation to the block. Statements after the block read the velocity from the
+unknown.
 """
 
 from __future__ import annotations
@@ -27,9 +28,10 @@ INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
 
 @dataclass(frozen=True)
 class Path:
-    """The path of an unknown from a velocity W(Q, P): maps from W to the unknown, and from a base to P.
+    """The chain of invertible maps between an unknown and the momentum that determines it.
 
-    Both lists are in order of application; each map takes the value before it as its last argument.
+    ``outward`` are the maps from the velocity W(Q, P) to the unknown; ``inward`` are the maps from the base,
+    a momentum, to P. Both are in order of application. Each map has the previous value as its last argument.
     """
 
     unknown: Var
@@ -56,12 +58,13 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are taken from the old block: turning one leaves the statements of the others in place.
+        # All paths are found in the old block: rewriting for one path keeps the statements of the other
+        # paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
         image = dict(zip(block.unknowns, block.images, strict=True))
-        # After the block image and unknown agree, and the unknown needs no computation.
+        # After the block, image and unknown are equal, so readers of the image can read the unknown.
         names |= {image[p.unknown]: p.unknown for p in paths}
         body.append(block)
     outputs = tuple((name, names.get(var, var)) for name, var in program.outputs)
@@ -69,7 +72,7 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def residuals(program: Program, scene: Problem) -> Program:
-    """Return the program with residuals in the blocks all of whose unknowns follow from velocities."""
+    """Return the program with residuals in each block whose unknowns all follow from velocities."""
     if scene.body is None or scene.body.inverse is None:
         return program
     build = Builder({v.name for v in defined(program)})
@@ -77,7 +80,7 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # A block has a residual for every unknown or for none: Newton's matrix is square.
+            # A block has a residual for every unknown or for none, because Newton's matrix is square.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -88,19 +91,19 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the path of an unknown of a block from a velocity, None if there is none."""
+    """Return the path from a velocity to an unknown of a block, None if there is none."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The same search on the other side of W: how P follows from the momentum of the equations.
+    # The same search, from P back to the momentum of the equations that P is computed from.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
 
 def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assign | None]:
-    """Return the chain of invertible linear maps that ends in var, in order, and the source of its start."""
+    """Return the chain of invertible linear maps that ends in var, in order, and the assignment before it."""
     maps: list[Assign] = []
     while True:
         source = maker.get(var)
@@ -111,7 +114,7 @@ def _chain(maker: dict[Var, Assign], var: Var) -> tuple[tuple[Assign, ...], Assi
 
 
 def _invertible(assign: Assign) -> bool:
-    # A multiple of h has no inverse at h = 0, where the iteration must still make sense.
+    # A multiple of h has no inverse at h = 0, where the iteration must still be defined.
     number = assign.is_multiple and assign.terms[0][0].power == 0
     return number or isinstance(assign.operation, INVERTIBLE)
 
@@ -122,16 +125,17 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
-        # The reciprocal of a function of ad is again a function of ad, so the group has a closed form for it.
+        # The reciprocal of a function of ad is again a function of ad, so the group has a closed form for the
+        # reciprocal.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The number is not zero: a multiple by a proven zero is gone since the pass for zeros.
+    # The number is not zero: the pass for zeros has removed multiples by a proven zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
 
 def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
-    """Append everything on a path computed from its unknown: each value, and the base."""
+    """Append the values on a path, computed from its unknown; return their new variables, and the base."""
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
@@ -150,9 +154,10 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
     """Append the difference of the two momenta, in the frame with fewer operations."""
     replaced, computed = _values(build, route)
-    # Momenta may be compared anywhere on the path: an invertible map between them keeps the zeros.
+    # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base
-    # P is then a sum of functions of one ad, which costs less than the momentum before the adjoint map.
+    # In this case P is a sum of functions of one ad, which costs less than the momentum before the adjoint
+    # map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -177,19 +182,21 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block whose other statements read the values of a path as computed from its unknown."""
-    # Every value on the path gets a second computation, from the unknown; dead code drops those not read.
+    """Return the block with the values of a path computed from its unknown for all other statements."""
+    # Every value on the path is computed again from the unknown; unused values are removed later.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The base is computed from other stages; replacing it would add operations and save none.
+    # The base is computed from other stages; computing it from the unknown would add operations and save
+    # none.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]  # a sum of many terms, which no other operation needs from the velocity
-    # The path keeps its own statements: they are the equation that is left to solve.
+    # Statements of the path itself are not changed: they are the equation that remains to be solved.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [
         a if a.targets[0] in own else replace(a, args=tuple(replaced.get(x, x) for x in a.args))
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))
-    # A cycle means that the velocity depends on a value that it should give; the block then stays.
+    # A cycle means that the velocity depends on a value to be computed from it; the block is then not
+    # changed.
     return block if sorted_body is None else replace(block, body=sorted_body)

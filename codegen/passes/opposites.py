@@ -1,4 +1,4 @@
-"""Adjoint operations that undo each other, and exponentials that act on multiples of their exponent.
+"""Adjoint operations that cancel their inverses, and exponentials that act on multiples of their exponent.
 
 Exact. Ad*_g Ad*_{g^-1} mu = mu and the like; Ad_{exp x} y = y where x and y are multiples of one value.
 """
@@ -21,11 +21,11 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Adjoint):
         g, x = assign.args
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
-        # Same variable g: value numbering has made equal elements one variable before.
+        # The same variable g in both: value numbering has already merged equal elements.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
         # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0.
-        # Not on the dual: exp(x) fixes its exponent x, but moves most momenta.
+        # Not on the dual: exp(x) leaves its exponent x fixed, but changes most momenta.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)
@@ -33,6 +33,6 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _line(rewriter: Rewriter, x: Var) -> Var:
-    """Return the value that x is a multiple of."""
+    """Return the value of which x is a multiple, or x itself."""
     source = rewriter.definitions.get(x)
     return source.args[0] if source is not None and source.is_multiple else x

@@ -11,7 +11,7 @@ from codegen.ir.program import Program
 
 @dataclass(frozen=True)
 class Pass:
-    """A pass over programs; ``because`` is the reason why the removed operations are not needed."""
+    """A pass over programs; ``because`` states why the removed operations are not needed."""
 
     name: str
     because: str
@@ -47,17 +47,17 @@ class PassReport:
 
     @property
     def savings(self) -> Counter[str]:
-        """How many operations fewer there are, by noun."""
-        # Counters drop negative differences: an operation that a pass adds is no saving.
+        """Return how many operations of each kind, by noun, the pass removed."""
+        # Counter subtraction drops negative differences: an operation that a pass adds is no saving.
         return _nouns(self.earlier) - _nouns(self.program)
 
 
 def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
     """Return a sentence for each reason why a step needs fewer operations, in the order of the passes.
 
-    The operations that several runs of a pass remove are added: ``2 brackets: the group is abelian``.
+    Operations removed for the same reason by several passes are added: ``2 brackets: the group is abelian``.
     """
-    # By reason: readers of a header ask why, and several passes have one reason.
+    # Grouped by reason: readers of a header want the reason, and several passes share a reason.
     total: dict[str, Counter[str]] = {}
     for report in reports:
         total.setdefault(report.because, Counter()).update(report.savings)
@@ -73,5 +73,5 @@ def _counted(noun: str, n: int) -> str:
 
 
 def _nouns(program: Program) -> Counter[str]:
-    """Return how often each kind of operation occurs, by its noun, without those that cost nothing."""
+    """Return how often each kind of operation occurs, by noun, without operations that cost nothing."""
     return Counter(a.operation.noun for a in program.assigns() if a.operation.noun)

@@ -1,4 +1,4 @@
-"""The one traversal that local passes share: visit assignments in order, replace them or their values."""
+"""The traversal that local passes share: visit assignments in order, and replace them or their values."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from codegen.ir.values import Var
 class Rewriter:
     """Applies a rule to every assignment; the rule sees earlier definitions and how often values are used.
 
-    ``rule(rewriter, assign)`` returns the variables that replace the assignment's targets: earlier variables
-    (the assignment vanishes), or targets of assignments that it has appended by ``emit``.
+    ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. They are
+    earlier variables, in which case the assignment is removed, or targets of assignments that the rule
+    appended by ``emit``.
     """
 
     rule: Callable[[Rewriter, Assign], tuple[Var, ...]]
@@ -27,7 +28,8 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Counted once, on the old program: a rule must not see its own rewritings as readers.
+        # Uses are counted once, in the old program: a rule must not count assignments that it appended as
+        # readers.
         self.uses = uses(self.program)
         # Fresh names must differ from all old ones, including those of later statements.
         self.builder.taken = {v.name for v in defined(self.program)}
@@ -47,7 +49,7 @@ class Rewriter:
         return assign.targets
 
     def _visit(self, assign: Assign) -> None:
-        # Arguments are renamed before the rule sees them, so no rule has to follow chains of names.
+        # Arguments are renamed before the rule is called, so no rule has to follow chains of names.
         current = replace(assign, args=tuple(self.now(a) for a in assign.args))
         for old, new in zip(assign.targets, self.rule(self, current), strict=True):
             self.names[old] = new
@@ -57,11 +59,11 @@ class Rewriter:
         if isinstance(statement, Assign):
             self._visit(statement)
             return self._out
-        # Starts are read before the block: rename them before the body defines new values.
+        # Starts are read before the block: they are renamed before the body defines new values.
         starts = tuple(self.now(v) for v in statement.starts)
         for assign in statement.body:
             self._visit(assign)
-        # Images and residuals are read after the body, when all of its values have their new names.
+        # Images and residuals are read after the body, when all values of the body have their new names.
         images = tuple(self.now(v) for v in statement.images)
         residuals = tuple(self.now(v) for v in statement.residuals)
         body = tuple(self._out)
@@ -95,7 +97,7 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
-            # An unknown's start, image and residual are readers, too: a value read by them must stay.
+            # Starts, images and residuals of unknowns are readers, too: the values they read must be kept.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

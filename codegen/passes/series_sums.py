@@ -1,10 +1,10 @@
-"""Sums of functions of one ad, nested: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
+"""Sums of functions of one ad in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-Exact. It is A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k, for any
-number of terms; evaluated one by one, each term takes two brackets. The momentum of (3.19) is such a sum:
-functions of one ad applied to the momentum before and to the force. A group with closed forms has
-``series_sum``. If the v_k are sums themselves, A, B and C are sums of their terms, so they do not wait for
-the v_k.
+Exact. The sum equals A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k,
+for any number of terms. Without nesting, each term needs two brackets. The momentum of (3.19) is such a sum:
+functions of one ad applied to the old momentum and to the force. A group with closed forms computes the sum
+by ``series_sum``. If the v_k are sums themselves, A, B and C are expanded into the terms of the v_k. They can
+then be computed before the v_k.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Term:
-    """A multiple c W(ad_x) v of a function of ad."""
+    """A term c W(ad_x) v: a multiple of a function W of ad_x, applied to v."""
 
     target: Var
     coefficient: Coefficient
@@ -36,7 +36,7 @@ class Term:
 
 @dataclass
 class SeriesSums:
-    """Finds such sums in a program while it is executed."""
+    """Finds sums of functions of one ad in a program while the program is executed."""
 
     program: Program
     scene: Problem
@@ -47,7 +47,7 @@ class SeriesSums:
         self.uses = uses(self.program)
 
     def value(self, domain: Domain, assign: Assign, env: Mapping[Var, Value]) -> tuple[Value, ...] | None:
-        """Return the value of a sum with its functions of ad nested; None if nesting saves nothing.
+        """Return the value of a sum in nested form, or None if nesting saves nothing.
 
         This method records definitions, so it must see every assignment in order.
         """
@@ -60,7 +60,7 @@ class SeriesSums:
         sums = self._groups(assign)
         if not sums:
             return None
-        # The nested terms are already in the group's sum; the rest of the sum is added to it.
+        # The group's sum already contains the nested terms; the remaining terms are added to that sum.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -72,22 +72,22 @@ class SeriesSums:
         return result
 
     def _groups(self, assign: Assign) -> list[list[Term]]:
-        """Return the terms that are functions of ad of multiples of one x, where there are two or more."""
+        """Return the groups of two or more terms that are functions of ad of multiples of one x."""
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # A function with another reader is computed anyway, and then nesting it saves nothing.
+            # A function with another reader is computed anyway, so nesting it here saves nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # Proportional x share one ad up to a number, which the scale of the factors takes in.
+                # Proportional x have the same ad up to a number, which becomes the scale of the factors.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
             else:
                 groups.append([term])
-        # A single function takes two brackets either way.
+        # A single function needs two brackets in either form.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
@@ -109,10 +109,10 @@ class SeriesSums:
         return group.series_sum(domain, terms, dual, env[x], total)
 
     def _flat(self, terms: list[tuple[Coefficient, Var]]) -> list[tuple[Coefficient, Var]]:
-        """Return a sum with its terms expanded, unless that is longer."""
+        """Return a sum with its terms expanded, unless the expanded sum is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # Expanded sums start from values that are ready earlier, which shortens the critical path.
+            # Expanded sums read values that are ready earlier, which shortens the critical path.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -121,22 +121,24 @@ class SeriesSums:
                 key, more = (u, c.power + d.power), c.value * d.value
                 total[key] = total[key] + more if key in total else more
         flat = [(Coefficient(x, power), u) for (u, power), x in total.items() if not x.is_zero]
-        # No longer than before: otherwise the expansion would add products.
+        # The expanded sum must not be longer, because each further term costs a product.
         return flat if 0 < len(flat) <= len(terms) else terms
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
     """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
-    # c x and (-c) x then share one product, and the sign is free in an addition.
+    # c x and (-c) x then share one product, and an addition or subtraction includes the sign at no cost.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
     return c.evaluate(domain)
 
 
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
-    """Return a sum of multiples, those that need no product first."""
+    """Return a sum of multiples; terms that need no product are added first."""
     total: tuple[Value, ...] | None = None
-    # Starting with a term of coefficient one saves a product; the sort is stable, so the text is, too.
+    # Starting with a term of coefficient one saves a product. The sort is stable, so the text is
+    # reproducible.
+
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)
         total = own if total is None else tuple(a + b for a, b in zip(total, own, strict=True))

@@ -1,9 +1,9 @@
-"""Linear maps applied to sums that several values share: L(x1), L(x2), ... in fixed proportions become one L.
+"""Linear maps of shared sums: where sums share L(x1), L(x2), ... in fixed proportions, L is applied once.
 
-Exact. Where sums contain values of one map L only in a few fixed proportions, each such combination is formed
-once and L applied to it: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This is for terms that
-:mod:`codegen.passes.factor_linear` leaves, because more than one sum uses them;
-it repeats until nothing changes.
+Exact. If sums contain the values L(x_k) of one map L in only a few fixed proportions, the combination is
+formed once for each proportion, and L is applied to it: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This pass is
+for terms that :mod:`codegen.passes.factor_linear` does not factor, because more than one sum uses them. The
+pass repeats until nothing changes.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ Share = tuple[tuple[Var, Coefficient], ...]
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
-        # Counted again in each round: a factored map may complete a combination of the next level.
+        # Counted again in each round: a factored map may complete a combination for the next round.
         wanted = _worthwhile(program)
         if not wanted:
             return program
         values: dict[Share, Var] = {}
 
         def rule(
-            # Defaults bind this round's sets; a closure would read those of the next round.
+            # Default arguments bind the sets of this round; a closure would read the sets of the next round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -52,7 +52,7 @@ def _rule(
         if share not in wanted:
             continue
         members = dict(share)
-        # The map is emitted before the first sum that reads it, and the later sums share it.
+        # The map is emitted before the first sum that reads it, and later sums read the same map.
         if share not in values:
             first = rewriter.definitions[share[0][0]]
             inner = [(c, rewriter.definitions[v].args[-1]) for v, c in share]
@@ -65,10 +65,10 @@ def _rule(
 
 
 def _worthwhile(program: Program) -> set[Share]:
-    """Return the combinations of maps that have fewer combinations than values."""
+    """Return the combinations that are worth factoring: a map has fewer combinations than values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Blocks only: their maps are evaluated once a sweep, those outside once a step.
+        # Only in blocks: maps in a block are evaluated once a sweep, maps outside once a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}
@@ -78,14 +78,15 @@ def _worthwhile(program: Program) -> set[Share]:
                 shares.setdefault((first.operation, first.args[:-1]), {})[share] = None
         for combinations in shares.values():
             values = {v for share in combinations for v, _ in share}
-            # One map a combination replaces one map a value: worth it if there are fewer combinations.
+            # One map for each combination replaces one map for each value, which saves maps if there are
+            # fewer combinations.
             if len(combinations) < len(values):
                 worthwhile |= {share for share in combinations if len(share) > 1}
     return worthwhile
 
 
 def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coefficient]:
-    """Return the combination of each map's values in a sum, and the factor that it has there."""
+    """Return, for each map in a sum, the combination of the map's values and the combination's factor."""
     groups: dict[Key, list[tuple[Var, Coefficient]]] = {}
     for c, arg in assign.terms:
         source = definitions.get(arg)
@@ -93,10 +94,11 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A value twice with different powers of h has no single coefficient in the combination.
+        # A value that occurs with two powers of h has no single coefficient in the combination.
         if len({v for v, _ in terms}) < len(terms):
             continue
-        # Normalised by its first term, a combination is recognised in any multiple.
+        # Combinations are divided by the coefficient of their first term, so that proportional ones are
+        # equal.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)

@@ -1,8 +1,8 @@
-"""Tearing: unknowns that the others determine within one sweep are computed, not solved for.
+"""Tearing: an unknown that the other unknowns determine within one sweep is computed, not solved for.
 
-Exact. Where a block's body stays free of cycles when an unknown is replaced by its image, it is replaced. An
-equation has to hold at the solution only, so the solutions are the same, and the block is smaller. Momenta
-and forces are tried first, so that velocities stay.
+Exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if the body then
+has no cycle. An equation has to hold at the solution only, so the solutions do not change, and the block has
+fewer unknowns. Momenta and forces are replaced first, so that velocities remain unknowns.
 """
 
 from __future__ import annotations
@@ -27,9 +27,10 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Momenta and forces first: without them the block is solved for velocities, which are continued best.
+        # Momenta and forces first: the remaining unknowns are then velocities, which extrapolate best between
+        # steps.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # Greedy in a fixed order: a smallest set is a minimum feedback vertex set, which is NP-hard.
+            # Greedy, in a fixed order: finding the smallest set (a minimum feedback vertex set) is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -40,9 +41,10 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image, None where that closes a cycle."""
+    """Return the block with an unknown replaced by its image, None if that closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # The last unknown carries the cycle: without a cycle the pass for blocks would have removed the block.
+    # The last unknown cannot be removed: a block without a cycle would have been split by the pass for
+    # blocks.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -50,29 +52,29 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         return tuple(image if v == unknown else v for v in variables)
 
     body = ordered(tuple(replace(a, args=now(a.args)) for a in block.body))
-    # A cycle: the image depends on the unknown within one sweep, so it must be solved for.
+    # A cycle means that the image depends on the unknown within one sweep: the unknown must be solved for.
     if body is None:
         return None
     kept = [
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # Other unknowns may have the removed one as their image; they now have its image.
+    # The removed unknown may be the image of other unknowns; their image becomes that of the removed one.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
 def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
-    """Return assignments with definitions before uses, else in the order given; None for a cycle."""
+    """Return assignments with definitions before uses, otherwise in the given order; None for a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # False while an assignment waits for its arguments: meeting it again closes a cycle.
+    # The state is False while an assignment waits for its arguments: meeting it again means a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
-        # Depth first in the given order, so that a body already in order stays as it is.
+        # Depth first in the given order, so that a body that is already sorted does not change.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

@@ -1,7 +1,7 @@
-"""Shared values: exponentials shared between stages and update, products of exponentials sharing a prefix.
+"""Shared values: exponentials that stages and update share, products of exponentials with a common prefix.
 
-Exact. Value numbering: an operation on the same values is computed once. The terms of a sum are taken in the
-order of their values' first appearance, so that equal sums are seen as equal.
+Exact. This is value numbering: an operation on equal values is computed once. The terms of a sum are sorted
+by the first appearance of their values, so that equal sums are recognised.
 """
 
 from __future__ import annotations
@@ -21,17 +21,19 @@ def run(program: Program) -> Program:
         return rank.setdefault(var, len(rank))
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
-        # Ranked by first appearance, not by name: fresh names would change the order of the terms.
+        # Values are ranked by first appearance, not by name: fresh names would change the order of the terms.
         for arg in assign.args:
             ranked(arg)
         if assign.terms:
             assign = Assign.of_terms(
                 assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
-        # The kind belongs to the key: zero in the algebra and zero in its dual are one operation.
+        # The kind is part of the key, because a zero in the algebra and a zero in its dual are the same
+        # operation.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
-            # The first computation stays where it is, before all of its readers.
+            # The first computation keeps its place, before all of its readers.
+
             known[key] = rewriter.emit(assign)
         return known[key]
 
