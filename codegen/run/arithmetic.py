@@ -65,7 +65,7 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
-    """Return the statements that sample the run-time inputs at each time and load the inputs that are read."""
+    """Return the statements that sample run-time inputs at each time and load the inputs that are read."""
     sequence: list[Statement] = []
     # Inputs are sampled once for each time, before all sweeps: an input function may be slow, and
     # it must not change within a step.

@@ -72,8 +72,9 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 class Machine:
     """A unit that is ready to be executed over a domain.
 
-    An array is a list, an array of rows a list of lists, and a cell a list of one entry. :meth:`record` returns
-    records. Absent arguments are None. The signal of run-time inputs is a function from the time to a sequence.
+    An array is a list, an array of rows a list of lists, and a cell a list of one entry. :meth:`record`
+    returns records. Absent arguments are None. The signal of run-time inputs is a function from the time to a
+    sequence.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:

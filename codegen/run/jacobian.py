@@ -1,8 +1,9 @@
 """The derivative of a step: one column for each unit vector, transported by the linearised step.
 
 The kernel of variations computes the step and its linearisation. A variation is a tangent vector of the
-state, to which the linearised step is applied. Implicit equations, and the linear equations for the variations
-of their unknowns, are solved by fixed-point iteration; if only Newton's method converges, the call fails.
+state, to which the linearised step is applied. Implicit equations, and the linear equations for the
+variations of their unknowns, are solved by fixed-point iteration. If only Newton's method converges, the call
+fails.
 """
 
 from __future__ import annotations

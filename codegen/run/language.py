@@ -8,8 +8,8 @@ A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`,
 in which a loop is a ``while_loop`` and a branch is a ``select``:
 
 - A loop is never left from its middle; a status or flag in its test ends it.
-- Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard. A
-  target may compute the statements after a guard and then discard their results.
+- Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.
+  A target may compute the statements after a guard and then discard their results.
 - Statuses are values; there are no pointers. Arrays that a function receives may be changed in place.
 - Scalars are declared by their first assignment; each is assigned before it is read on every path.
 - ``Function.guard`` states the result after an arithmetic error, for targets that raise an exception where C

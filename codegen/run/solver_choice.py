@@ -241,8 +241,8 @@ class _Selection:
     def consider(self, solver: str) -> None:
         """Build and try the kernel of a solver, unless it cannot be the best.
 
-        With many unknowns, simplified Newton is not tried once Newton's method converges, robust or not, because
-        simplified Newton inverts a matrix in each step.
+        If Newton's method converges with many unknowns, robust or not, simplified Newton is tried only if it
+        may be faster: it inverts a matrix in each step.
         """
         least = self.least(solver)
         if any(self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged):
@@ -257,7 +257,7 @@ class _Selection:
         self.candidates[solver] = Candidate(kernel, self.scene, self.initial)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return the nanoseconds below which a step of ``solver`` may be preferred to a candidate's step."""
+        """Return the nanoseconds below which a step with another solver may be preferred to a candidate."""
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -268,9 +268,10 @@ class _Selection:
     def least(self, solver: str) -> float:
         """Return a lower bound for the nanoseconds of a step with a matrix: one sweep of each block.
 
-        A sweep costs one fixed-point sweep and one product with the inverse. Simplified Newton inverts a matrix
-        in each step; Newton's method inverts at least one matrix during the trial. Formulas invert small
-        matrices. The number of operations in these formulas is not known in advance, so they count as free.
+        A sweep costs one fixed-point sweep and one product with the inverse. Simplified Newton inverts a
+        matrix in each step; Newton's method inverts at least one matrix during the trial. Formulas invert
+        small matrices. The number of operations in these formulas is not known in advance, so they count as
+        free.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
@@ -292,8 +293,8 @@ class _Selection:
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
         """Return the candidate with the best solver of each block.
 
-        If the blocks agree on a solver, its candidate has been tried already. Otherwise the mixed kernel is tried,
-        and the best candidate with a single solver is the alternative.
+        If the blocks agree on a solver, its candidate has been tried already. Otherwise the mixed kernel is
+        tried, and the best candidate with a single solver is the alternative.
         """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
@@ -303,10 +304,10 @@ class _Selection:
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
-        """Return the choice if no solver converges directly: the cheapest that converges by continuation in h.
+        """Return the choice if no solver converges directly: the cheapest that does by continuation in h.
 
-        If the continuation fails too, or is not tried, the choice is Newton's method, or fixed-point iteration if
-        Newton's method is not possible.
+        If the continuation fails too, or is not tried, the choice is Newton's method, or fixed-point
+        iteration if Newton's method is not possible.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE

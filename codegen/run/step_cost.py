@@ -35,9 +35,9 @@ Work = Mapping[str, Mapping[str, int]]
 class Amounts:
     """Amounts of work by kind; the weights have the same type and are nanoseconds for one unit of each kind.
 
-    ``unknowns`` counts the unknowns of a step once, ``swept`` counts them in each sweep. ``arithmetic`` counts
-    additions and products, ``calls`` function calls, and ``corrections`` the sweeps of Newton's method on
-    u = g(u). ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
+    ``unknowns`` counts the unknowns of a step once, ``swept`` counts them in each sweep. ``arithmetic``
+    counts additions and products, ``calls`` function calls, and ``corrections`` the sweeps of Newton's method
+    on u = g(u). ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
     """
 
     unknowns: float = 0.0

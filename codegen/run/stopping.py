@@ -139,7 +139,7 @@ class Stopping:
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
         # Rounding errors can keep the change above every bound. The change then stops decreasing, and more
-        # sweeps are useless. A change above ``tolerance`` that does not decrease is divergence instead.
+        # sweeps are useless. ``tolerance`` distinguishes this case from divergence.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -173,9 +173,9 @@ class Stopping:
         """Return the statements that set the flag ``converged`` for a loop over residuals.
 
         The matrix is exact to first order in h, so the rate of the step before is valid in the first sweep. A
-        loop that contracts ends if the predicted next change is below four roundings of the sum of the unknowns.
-        A loop that does not contract ends after the second sweep or later, if the change is below the tolerance
-        or below the rounding of the state.
+        loop that contracts ends if the predicted next change is below four roundings of the sum of the
+        unknowns. A loop that does not contract ends after the second sweep or later, if the change is below
+        the tolerance or below the rounding of the state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))

@@ -246,15 +246,15 @@ class _Newton(_Loop):
         # small changes do not show convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # If the change does not decrease although the matrix is exact at the current unknowns, more sweeps
-            # cannot help, and the step needs a better initial guess (continuation).
+            # If the change does not decrease although the matrix is exact at the current unknowns, more
+            # sweeps cannot help, and the step needs a better initial guess (continuation).
             astray = both(flag("still"), self.making)
             if not self.newton.inverted:
                 astray = either(astray, negated(self.age > 0))
             body.append(Assign(flag("astray"), astray))
             # With an old matrix, the iteration contracts by the relative error of the matrix. A slow
-            # contraction shows that the matrix is outdated, and a new matrix costs less than many slow sweeps.
-            # In the first sweep ``previous`` is 0, and the contraction is not known yet.
+            # contraction shows that the matrix is outdated, and a new matrix costs less than many slow
+            # sweeps. In the first sweep ``previous`` is 0, and the contraction is not known yet.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -319,7 +319,7 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            # An array initialiser and one copy, because n^2 separate assignments would make the function long.
+            # An array initialiser and one copy: n^2 separate assignments would make the function very long.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 

@@ -26,8 +26,8 @@ PARTS = 100
 class Trial:
     """Counts of ``steps`` steps of size ``h``.
 
-    ``sweeps`` and ``matrices`` are average numbers per step, for each block. ``most`` is the largest number of
-    sweeps over one block in one step or substep. ``converged`` is whether all steps succeeded.
+    ``sweeps`` and ``matrices`` are average numbers per step, for each block. ``most`` is the largest number
+    of sweeps over one block in one step or substep. ``converged`` is whether all steps succeeded.
     """
 
     steps: int

@@ -252,9 +252,9 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # The test uses a ratio of two changes, so it does not depend on units. A guess whose error is half
-            # of the motion is hardly better than the last solution, and a polynomial of high degree would
-            # propagate the disturbance for many steps.
+            # The test uses a ratio of two changes, so it does not depend on units. A guess whose error is
+            # half of the motion is hardly better than the last solution, and a polynomial of high degree
+            # would propagate the disturbance for many steps.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
