@@ -19,7 +19,7 @@ FUNCTIONS = {name: getattr(arb, name) for name in ("sqrt", "sin", "cos", "exp", 
 
 
 def ambient_field(scene: Problem) -> Evaluate:
-    """Return the ambient derivative as a function (state, t) of balls, parameters at their defaults.
+    """Return the ambient derivative, for default parameter values, as a function (state, t) of balls.
 
     Constants have the working precision at the time of this call.
     """

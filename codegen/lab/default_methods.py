@@ -1,7 +1,8 @@
 """The methods that commands measure if the user names none, in one table.
 
-A method of a table is used if it can be lowered onto the scene and has the order given here on it: a
-splitting may find no exact flow, or parts for which its order conditions imply less.
+The report uses a default method only if the method can be lowered onto the scene and has the order given here
+on that scene. A splitting, for example, may find no exact flows, or its order conditions may imply a lower
+order for the parts of the scene.
 """
 
 from __future__ import annotations
@@ -32,10 +33,11 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""Defaults of the report: method and the order that it must have on the scene."""
+"""Defaults of the report: each method with the order that it must have on the scene."""
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""Defaults of the report with step-size control; Hamiltonian scenes use only the first (ten colours)."""
+"""Defaults of the report with step-size control. Hamiltonian scenes use the first one only, because a figure
+has ten colours."""
 
 
 def methods_for(scene: Problem, names: Sequence[str] = ()) -> tuple[Method, ...]:

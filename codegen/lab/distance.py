@@ -1,8 +1,9 @@
 """The error norm of a scene: the distance of a computed state from the reference.
 
-Each field of the state adds its own norm: the spectral norm for group elements that are matrices, the
-Euclidean norm for everything else. For the dipole on a stick this is |mu - mu_ref|_2 + |g - g_ref|_2
-(H. Marthinsen, *Lie group integrators*, Fig. 3.2); for a point on the sphere it is the straight distance.
+The error norm is the sum of the norms of all fields of the state: the spectral norm for group elements that
+are matrices, the Euclidean norm for other fields. For the dipole on a stick, the error norm is
+|mu - mu_ref|_2 + |g - g_ref|_2 (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*,
+Fig. 3.2). For a point on the sphere it is the Euclidean distance.
 """
 
 from __future__ import annotations
@@ -53,7 +54,9 @@ def euclidean_norm(vector: Sequence[float]) -> float:
 
 
 def spectral_norm(matrix: Sequence[float]) -> float:
-    """Return the largest singular value of a square matrix, given row by row; else the Euclidean norm.
+    """Return the largest singular value of a square matrix, given row by row.
+
+    The Euclidean norm is returned if the number of entries is not a square.
 
     >>> round(spectral_norm([0.0, -2.0, 1.0, 0.0]), 12)
     2.0

@@ -27,8 +27,8 @@ def functions(scene: Problem) -> dict[str, Evaluate]:
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
     """Return each conserved quantity as expressions in the symbols of the state.
 
-    The expressions of :data:`MANIFOLD` vanish on the manifold; it is absent where the manifold is a vector
-    space.
+    The expressions with the name :data:`MANIFOLD` vanish on the manifold. This name is absent if the manifold
+    is a vector space.
     """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
@@ -42,7 +42,7 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
 
 
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
-    """Return the expressions that vanish where every group element of the state is in the group."""
+    """Return the expressions that vanish if every group element of the state is in the group."""
     start = 0
     laws: list[Expr] = []
     for block in scene.state:

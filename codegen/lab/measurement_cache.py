@@ -1,4 +1,4 @@
-"""Measurements kept on disk by content, so that the same measurement is made once.
+"""A cache of measurements on disk, addressed by content: equal measurements are made once.
 
 The name of an entry is a digest of everything that the result depends on: the emitted files, the scene, the
 settings, the kind of processor. An entry holds a digest of its own bytes. It is written under a temporary
@@ -46,8 +46,8 @@ class MeasurementCache:
         """Return the stored result of ``key``, or call ``measure`` and store what it returns.
 
         ``kind`` is the result's type, built of dataclasses, tuples and plain values. ``key`` consists of
-        values whose ``repr`` is the same in every process. A folder that cannot be used costs time and
-        raises nothing; exceptions of ``measure`` are passed on, and nothing is stored.
+        values whose ``repr`` is the same in every process. If the folder cannot be used, ``measure`` is
+        called and no exception is raised. Exceptions of ``measure`` are passed on, and nothing is stored.
         """
         result = self.find(key, kind)
         if result is None:

@@ -1,7 +1,7 @@
 """Names for the types of numbers that the lab computes with.
 
-One formula serves floats, mpmath numbers, Arb balls, power series and expressions, so no class describes
-them.
+The same formulas are evaluated on floats, mpmath numbers, Arb balls, power series and expressions. These
+types have no common base class.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Reference solutions: Gragg-Bulirsch-Stoer extrapolation of the ambient equations of a scene, to 28 digits.
 
-No Lie group is involved: the modified midpoint rule is applied to y' = f(y).y in the coordinates of the
-state and extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). So an error in a
-group's exponential or in a family cannot be hidden by the same error in the reference. Two runs of different
-order and tolerance must agree, and their distance is the stated uncertainty.
+The reference uses no Lie group: the modified midpoint rule is applied to y' = f(y).y in the coordinates of
+the state and extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). An error in the
+exponential of a group or in a family therefore cannot be hidden by an equal error in the reference. Two runs
+of different order and tolerance must agree, and their distance is the stated uncertainty.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ RUNS = ((14, -33), (16, -36))
 """Columns of the extrapolation and decimal exponent of the tolerance: for the check, and for the result."""
 
 AGREEMENT = 1e-28
-"""The two runs must agree to this, relative to the size of the state."""
+"""Largest difference of the two runs, relative to the size of the state."""
 
 LEAST_STEP = 1e-6
 """A step below this part of the span shows that the solution is near a singularity."""
@@ -118,7 +118,7 @@ def reference(scene: Problem) -> Reference:
 
 
 def _end(scene: Problem, columns: int, exponent: int) -> Vector:
-    """Return the final state; the difference of the last two columns controls the step."""
+    """Return the final state of a run; the difference of the last two columns controls the step size."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
         field = ambient_field(scene)
@@ -162,7 +162,7 @@ def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, toleran
 
 
 def _extrapolate(field: Evaluate, y: Vector, t: Scalar, step: Scalar, columns: int) -> tuple[Vector, float]:
-    """Return the diagonal entry of the table after ``columns`` rows, and its distance from its neighbour.
+    """Return the diagonal entry of the last row, and its distance from the entry before it in that row.
 
     ArithmeticError if the field cannot be evaluated at some stage.
     """

@@ -67,7 +67,10 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the measurements of these names with their parts, all for no names; :class:`UnknownName`."""
+    """Return the named measurements with their parts, or all if no name is given.
+
+    :class:`UnknownName` for an unknown name.
+    """
     every = measurements()
     known = [m.name for m in every]
     for name in names:

@@ -57,9 +57,10 @@ def report(
 ) -> tuple[Path, tuple[SceneResults, ...]]:
     """Measure, write the pages into a folder, and return the path of the overview with the results.
 
-    The page of a scene is written as soon as it is complete. The results of an interrupted report stay in a
-    hidden folder until the report is complete. :class:`InputError` before anything is measured if a name is
-    unknown, if there is no C compiler, or if the folder cannot be written to.
+    The page of a scene is written as soon as it is complete. Until the report is complete, measured results
+    are kept in a hidden folder, so an interrupted report can continue. :class:`InputError` is raised before
+    anything is measured if a name is unknown, if there is no C compiler, or if the folder cannot be written
+    to.
     """
     folder = Path(directory)
     subjects = request.subjects()
@@ -80,7 +81,7 @@ def report(
 
 
 def write_file(path: Path, text: str | None) -> Path:
-    """Write a text under a temporary name and move it into place; None only tests the folder."""
+    """Write a text under a temporary name and move the file into place; None tests the folder only."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=".report-") as temporary:

@@ -1,7 +1,7 @@
 """Running a method over the span of a scene, by the interpreter or by an emitted module.
 
-A :data:`Runner` takes a number of steps and returns the final state. So one convergence test serves the
-interpreter in any precision, emitted Python and emitted C.
+A :data:`Runner` computes the final state after a given number of steps. The same convergence test is
+therefore used for the interpreter in any precision, emitted Python and emitted C.
 """
 
 from __future__ import annotations
@@ -144,8 +144,7 @@ def runner(
     """Return the runner for a target: ``c``, ``python`` or ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. :class:`codegen.errors.MethodError` for an unknown target and for digits that the target does not
-    have.
+    known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
     """
     if target not in TARGETS:
         raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")

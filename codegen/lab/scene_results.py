@@ -33,7 +33,7 @@ class Measured:
 
     @property
     def holds(self) -> bool:
-        """Whether it was measured and every check holds."""
+        """Whether the measurement succeeded and every check holds."""
         return not self.failure and self.measurement.holds(self.result)
 
     def section(self) -> Section | None:
@@ -77,7 +77,7 @@ class SceneResults:
         return all(m.holds for m in self.measured)
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data: one key a measurement, with an empty list if it was not selected."""
+        """Return plain data: one key for each measurement; the value is [] if it was not selected."""
         measured = {m.name: m.as_json() for m in self.measured}
         keys = {m.name: m.json_key or m.name for m in measurements()}
         return {"scene": self.scene.name} | {key: measured.get(name, []) for name, key in keys.items()}

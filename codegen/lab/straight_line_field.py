@@ -22,7 +22,10 @@ INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 @dataclass(frozen=True)
 class StraightLine:
-    """Lines ``name = text`` over y[0], y[1], ... and t, with constants c0, c1, ...; ``results`` in order."""
+    """Assignments ``name = text`` over y[0], y[1], ..., t and the constants c0, c1, ....
+
+    ``results`` are the names of the results, in order.
+    """
 
     scene: str
     constants: tuple[Number, ...]
@@ -33,7 +36,8 @@ class StraightLine:
     def python(self, constant: Callable[[Number], Scalar], functions: Mapping[str, Scalar]) -> Evaluate:
         """Return field(y, t) -> tuple over any numbers.
 
-        ``constant`` converts an exact number, ``functions`` maps ``sqrt``, ``sin``, ... to functions of them.
+        ``constant`` converts an exact number to this type of numbers. ``functions`` maps ``sqrt``, ``sin``,
+        ... to functions of such numbers.
         """
         body = [f"    {name} = {text}" for name, text in self.lines]
         source = "\n".join(
@@ -55,7 +59,7 @@ class StraightLine:
 
 
 def velocity(scene: Problem) -> StraightLine:
-    """Return the ambient derivative of a scene, its parameters at their defaults."""
+    """Return the ambient derivative of a scene for the default values of its parameters."""
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots = scene.velocity(domain, state, domain.space.sym(TIME))

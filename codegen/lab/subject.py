@@ -50,7 +50,7 @@ EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 @dataclass(frozen=True)
 class CompiledMethod:
-    """A method compiled for the scene, the seconds that took, and the emitted C."""
+    """A method compiled for the scene, the seconds of its compilation, and the emitted C."""
 
     compiled: Compiled
     seconds: float
@@ -91,8 +91,8 @@ class MethodResults(Generic[T]):
 class Subject:
     """One scene with the methods to measure; the input of every measurement.
 
-    ``name`` is the scene as the user wrote it. ``adaptive`` methods run once more with step-size control.
-    ``results`` holds the results of measurements by name, so that one can use the result of another.
+    ``name`` is the scene as the user wrote it. ``adaptive`` are the methods that run with step-size control.
+    ``results`` holds the results of measurements by name, so a measurement can use the result of another one.
     """
 
     name: str
@@ -162,10 +162,10 @@ def subject(
     effort: Effort = USUAL,
     adaptive: Sequence[str] = (),
 ) -> Subject:
-    """Return the subject of a page; errors of names as :func:`codegen.method.parse` and ``peers.find``.
+    """Return the subject of a page. Errors are those of ``codegen.method.parse`` and ``peers.find``.
 
-    Without methods the defaults of the report are chosen, without peers those of the effort that are
-    installed.
+    If no methods are named, the defaults of the report are used. If no peers are named, the installed peers
+    of the effort are used.
     """
     families = families_for(scene)
     chosen = tuple(parse(m, families) for m in methods)

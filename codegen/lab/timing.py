@@ -1,8 +1,8 @@
 """The CPU time of a call: the least over several batches of repeated calls in one process.
 
-The least time is the one that other processes disturbed least; a mean would include their load. A call from
-Python costs something before the first step. This overhead is measured with a run of no steps and subtracted,
-so that short and long runs can be compared.
+The batch with the least time is the one that other processes disturbed least; a mean would include the load
+by other processes. A call from Python takes some time before the first step. This overhead is measured with a
+run of no steps and subtracted, so that short and long runs can be compared.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ BATCH = 0.004
 
 BATCHES = 7
 FEWER = 3
-"""Batches, and batches of a call that takes longer than :data:`LONG` seconds."""
+"""The number of batches, and the number of batches for a call that takes longer than :data:`LONG` seconds."""
 
 LONG = 0.2
 

@@ -38,8 +38,8 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
-    """Return the statements that load the entries of an array that are read."""
-    # Unused variables are warnings in C.
+    """Return the statements that load those entries of an array whose symbols are in ``read``."""
+    # C compilers warn of unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
@@ -52,8 +52,8 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
-        # New names, because an output may be an input of another one: the state is overwritten only
-        # after all are computed.
+        # New names, because an old entry of the state may occur in other outputs: the state is overwritten
+        # only after all outputs are computed.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
@@ -65,7 +65,7 @@ def stored(array: Term, values: Sequence[Term]) -> list[Statement]:
 
 
 def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
-    """Return the statements that sample the run-time inputs at each time and load those that are read."""
+    """Return the statements that sample run-time inputs at each time and load the inputs that are read."""
     sequence: list[Statement] = []
     # Inputs are sampled once for each time, before all sweeps: an input function may be slow, and
     # it must not change within a step.
@@ -78,7 +78,7 @@ def sampled(plan: Plan, inputs: Term = INPUTS) -> list[Statement]:
 
 
 def outlined(function: Outlined, arrangement: Arrangement) -> Function:
-    """Return an outlined function of a kernel: it returns its only result, or fills an array."""
+    """Return an outlined function of a kernel; it returns a single result, or fills an array with several."""
     body: list[Statement] = []
     for statement in arrangement.statements:
         assert isinstance(statement, Simple)

@@ -1,10 +1,10 @@
 """Continuation in h: if the equations of a step do not converge, follow the solution from shorter steps.
 
-The first attempt repeats the whole step without the solutions of earlier steps, which mislead if the motion
-has changed. Then the step is halved until its equations converge, and each solution is the initial guess for
-a longer step. The factor between consecutive steps grows on success and shrinks on failure. The result is on
-the branch that tends to the exact motion as h tends to zero; the equations of a long step may have other
-solutions. A step with h = 0 changes nothing.
+The first attempt repeats the whole step without the solutions of earlier steps, which are bad initial guesses
+if the motion has changed. Then the step is halved until its equations converge. From there on, each solution
+is the initial guess for a longer step. The factor between consecutive step sizes grows on success and shrinks
+on failure. The equations of a long step may have several solutions; the result is on the branch of solutions
+that tends to the exact motion as h tends to zero. A step with h = 0 changes nothing.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ class _Continuation:
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
         parameters += (*plan.remembering(plan.memory), *plan.counted)
-        # A step of length zero is the identity; shorter steps do not exist.
+        # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
         # A factor near 1 makes no progress: the branch of solutions probably ends before the whole
         # step.
@@ -116,8 +116,8 @@ class _Continuation:
         """Return the statements that try one step, from the solution of the last successful one."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # Begin at the solution of the shorter step. Its rate does not apply to a longer one: rate 1
-        # asks for a second sweep.
+        # Begin at the solution of the shorter step. Its rate of convergence does not apply to a longer step;
+        # the rate 1 requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -130,8 +130,8 @@ class _Continuation:
             # Each attempt starts at the original state, because h is the parameter of the
             # continuation and not time.
             Assign(self.trial, plan.state()),
-            # Solutions and matrices of another step size are wrong here. Without memory the first
-            # attempt is also independent of the steps before, whose solutions may mislead.
+            # Solutions and matrices of another step size are wrong here. Without them, the first attempt is
+            # also independent of the steps before, whose solutions may be bad initial guesses.
             Assign(memory, fresh(memory)),
             If(self.solved > 0.0, tuple(from_guess)),
             Call(self.core, (self.trial, *arguments), (STATUS,)),
@@ -151,8 +151,8 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Halve until some step converges, which a short enough one does: its equations are a
-            # contraction. From then on increase the length in proportion to it.
+            # Halve the step until its equations converge. They do so for a short enough step, because they
+            # are then a contraction. Afterwards increase the last successful length by the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

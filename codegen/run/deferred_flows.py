@@ -1,10 +1,10 @@
-"""Runs of a splitting that defer flows: the first flow of a step joins the last of the step before, and flows
-that commute with all others are carried out once for many steps.
+"""Runs of a splitting that defer flows: the last flow of a step and the first flow of the next step are
+computed as one flow, and flows that commute with all others are applied once for many steps.
 
-Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only after
-the deferred flows: if a row is due, after the last step, and after :data:`codegen.ir.kernel.LONGEST`
-steps. A NaN persists until then. The run is then repeated with every step completed, to find the last good
-state.
+Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only after the
+deferred flows have been applied. They are applied when a row is due, after the last step, and after
+:data:`codegen.ir.kernel.LONGEST` steps. A NaN in an earlier step persists and is found there. The run is then
+repeated with the deferred flows applied in every step, to find the last good state.
 """
 
 from __future__ import annotations
@@ -81,8 +81,7 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # No test for finiteness here: NaNs and infinities persist, and the run tests the state when it
-    # is complete.
+    # No test for finiteness here: NaNs and infinities persist, and the run tests complete states.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -110,7 +109,7 @@ class _Deferring:
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
     def call(self, name: str, kernel: Kernel | None, t: Term, elapsed: Term) -> list[Statement]:
-        """Return the call of an inner function; none if the kernel has no such part."""
+        """Return the call of the function of a kernel; no statement if ``kernel`` is None."""
         if kernel is None:
             return []
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
@@ -179,9 +178,8 @@ class _Deferring:
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
-            # The fast attempt only shows that some state is not finite. The careful one completes
-            # every step and stops at the first bad one, so that the caller gets the last good
-            # state.
+            # The fast attempt only shows that some state is not finite. The careful attempt applies the
+            # deferred flows in every step and stops at the first bad state. The caller gets the state before.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -191,21 +189,20 @@ class _Deferring:
         rows, deferred = Rows(self.plan), self.deferred
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # One product in place of a sum over steps: one rounding error, however many steps were
-        # deferred.
+        # One product instead of a sum over steps makes one rounding error, however many steps were deferred.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),
             Assign(LATE, LATE + 1),
-            # LONGEST bounds the angle of a deferred rotation, and with it the loss of digits in its
-            # sine and cosine.
+            # LONGEST bounds the angle of a deferred rotation, and so the loss of digits in the sine and
+            # cosine of this angle.
             Assign(self.stop, either(self.shown, self.careful, last, LATE.equals(LONGEST))),
         ]
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If the run continues, the last flow of this step and the first of the next are one
-                # flow of the joint length.
+                # If the run continues, the last flow of this step and the first flow of the next step are
+                # one flow, whose length is the sum of both.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

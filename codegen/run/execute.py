@@ -70,10 +70,11 @@ _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
 
 
 class Machine:
-    """A unit ready to be carried out over a domain.
+    """A unit that is ready to be executed over a domain.
 
-    Arrays are lists, rows lists of lists, cells lists of one entry; :meth:`record` makes records. Absent
-    arguments are None; the signal of run-time inputs is a function from the time to a sequence.
+    An array is a list, an array of rows a list of lists, and a cell a list of one entry. :meth:`record`
+    returns records. Absent arguments are None. The signal of run-time inputs is a function from the time to a
+    sequence.
     """
 
     def __init__(self, unit: Unit, domain: Domain) -> None:
@@ -88,7 +89,7 @@ class Machine:
 
     def number(self, x: float) -> Any:
         """Return a float as a scalar of the domain."""
-        if not math.isfinite(x):  # no ring has it; it only bounds comparisons
+        if not math.isfinite(x):  # no ring contains infinity, which is used in comparisons only
             return x
         fraction = Fraction(x)
         return self.domain.rational(fraction.numerator, fraction.denominator)
@@ -154,8 +155,7 @@ class _Compiler:
         actions = [self.statement(s) for s in body if not isinstance(s, Note)]
 
         def run(env: Environment) -> bool:
-            # ``any`` stops at the first action that has returned, and skips the statements after
-            # it.
+            # ``any`` stops at the first action that executes a Return; the statements after it are skipped.
             return any(action(env) for action in actions)
 
         return run
@@ -433,7 +433,7 @@ def _power(x: Any, exponent: Any) -> Any:
 
 
 def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | None:
-    """Return a library function as one with a list of results, None if it is a function of the unit."""
+    """Return a library function, with a sequence of results; None if the name is a function of the unit."""
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if function.startswith("stumpff_"):

@@ -1,8 +1,8 @@
 """Doubles as emitted code computes with them: Stumpff functions by the same polynomials and closed forms.
 
-Those of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last place, which near
-the end of an iteration may cost or save a sweep. To count the sweeps of emitted code, an executor needs
-these.
+The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last
+place. Near the end of an iteration, this may cost or save a sweep. An executor that counts the sweeps of
+emitted code therefore needs the functions of this module.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class EmittedFloats(FloatDomain):
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
         """Return c_k(z) of some orders, computed together."""
-        # The same branches as the snippets: another polynomial would differ in the last bit.
+        # The branches are those of the snippets, because another polynomial would differ in the last bit.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -35,7 +35,7 @@ class EmittedFloats(FloatDomain):
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # A NaN rejects the step by the ordinary test for finiteness; no status is needed here.
+        # Angles above the limit become NaN; the usual test for finiteness then rejects the step.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
@@ -98,7 +98,7 @@ def _short(k: int, z: float, name: str) -> float:
 
 
 def _series(k: int, z: float) -> float:
-    """Return the Taylor polynomial: even and odd part side by side, each in pairs."""
+    """Return the Taylor polynomial; even and odd parts are summed separately, each in pairs of terms."""
     first, *rest = _terms(k, "series")
     w = z * z
     even, odd = _chain(rest[::2], w), _chain(rest[1::2], w)

@@ -1,7 +1,9 @@
 """The derivative of a step: one column for each unit vector, transported by the linearised step.
 
-The kernel of variations computes the step and its linearisation. Implicit equations, and the linear equations
-for their variations, are solved by fixed-point iteration; if only Newton's method converges, the call fails.
+The kernel of variations computes the step and its linearisation. A variation is a tangent vector of the
+state, to which the linearised step is applied. Implicit equations, and the linear equations for the
+variations of their unknowns, are solved by fixed-point iteration. If only Newton's method converges, the call
+fails.
 """
 
 from __future__ import annotations
@@ -96,7 +98,7 @@ class _Jacobian:
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
-            # The step is linear in its variation: the image of a unit vector is a column of the
+            # The linearised step is linear in the variation, so it maps a unit vector to a column of the
             # derivative.
             Assign(self.vector[self.column], number(1.0)),
             *(self.composed() if plan.parts else self.single()),
@@ -126,7 +128,7 @@ class _Jacobian:
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
-        # The caller's statistics count steps of the integration, not those of a derivative.
+        # The caller's statistics count the steps of the integration only, not the substeps repeated here.
         more = (*plan.remembering(memories[part]), *(absent(x) for x in plan.counted))
         moved: list[Statement] = [Call(SUBSTEP, (point, *moment, *more), (STATUS,))]
         arrays: list[Statement] = []
@@ -145,7 +147,7 @@ class _Jacobian:
             Assign(part, part + 1),
         )
         return [
-            # The state of the caller is unchanged; a copy moves through the substeps.
+            # The state of the caller stays unchanged; the substeps advance a copy of it.
             Array(point),
             Assign(point, plan.state()),
             *([Array(memories, zero=True)] if plan.remembers else []),

@@ -7,12 +7,13 @@ A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`,
 :class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets
 in which a loop is a ``while_loop`` and a branch is a ``select``:
 
-- No loop is left from its middle: a status or flag ends it.
-- Return is at the end of a function, or alone in an If of its outermost block: a guard. A target may compute
-  the statements after a guard and then not select their results.
+- A loop is never left from its middle; a status or flag in its test ends it.
+- Return is at the end of a function, or alone in an If of the outermost block. Such an If is called a guard.
+  A target may compute the statements after a guard and then discard their results.
 - Statuses are values; there are no pointers. Arrays that a function receives may be changed in place.
 - Scalars are declared by their first assignment; each is assigned before it is read on every path.
-- ``guard`` is the effect of an arithmetic error: C computes an infinity or a NaN, another target may raise.
+- ``Function.guard`` states the result after an arithmetic error, for targets that raise an exception where C
+  computes an infinity or a NaN.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from codegen.run.terms import Kind, Term, names
 
 @dataclass(frozen=True)
 class Assign:
-    """target = value; of arrays every entry, of records every field."""
+    """target = value; for an array, every entry is assigned, for a record, every field."""
 
     target: Term
     value: Term
@@ -33,7 +34,7 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """An array (or record) of its shape, undefined, zero, or with the given values."""
+    """The definition of an array or record, which is undefined, zero, or filled with the given values."""
 
     name: Term
     values: tuple[Term, ...] = ()
@@ -100,7 +101,7 @@ RAISES_STATUS, RAISES_NAN = "status", "nan"
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the unit; ``public`` ones are called from outside, ``often`` ones should be inlined."""
+    """A function of the unit; callers outside use ``public`` functions, ``often`` asks for inlining."""
 
     name: str
     about: str
@@ -114,7 +115,7 @@ class Function:
 
 @dataclass(frozen=True)
 class Record:
-    """Named values that live from call to call; a public one is the caller's."""
+    """Named values that persist between calls; a public record belongs to the caller."""
 
     name: str
     about: str
@@ -200,7 +201,7 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 
 def root(target: Term) -> Term:
-    """Return the name that an assignment changes: of ``memory.values[3]`` it is ``memory``."""
+    """Return the name that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
     while target.args:
         target = target.args[0]
     return target

@@ -1,8 +1,8 @@
-"""The carried momentum: steps use the momentum in the body frame, a state contains the one in space.
+"""The carried momentum: steps use the momentum in the body frame, states contain the momentum in space.
 
-A conversion at the beginning and at the end of a run costs less than one in each step. At the end, the
-increase of the space momentum is added to the state's momentum. If rounding has made q slightly
-non-orthogonal, the conversion then perturbs the increase only.
+Converting at the beginning and the end of a run costs less than converting in each step. At the end, the
+increase of the space momentum over the run is added to the momentum of the initial state. So if rounding has
+made q slightly non-orthogonal, the conversion perturbs the increase only.
 """
 
 from __future__ import annotations
@@ -49,8 +49,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
         # The conversion needs q, which both frames share.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
-        # Convert back immediately: the rounding error of the round trip then cancels in the
-        # difference at the end.
+        # Convert back immediately: the rounding error of converting to the body frame and back then cancels
+        # in the difference at the end of the run.
         Call("to_space", (moving, before)),
     )
     about = "Begin: convert the state to body momentum, and store this momentum converted back to space."

@@ -36,7 +36,7 @@ class Names:
     def fresh(self, proposal: str) -> str:
         """Return an unused identifier, close to the proposal."""
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
-        # C reserves identifiers with two leading underscores, Python mangles them in classes.
+        # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
         while name in self._taken:

@@ -14,8 +14,7 @@ def numbers_held(unit: Unit) -> int:
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     public = [held[f.name] for f in unit.functions if f.public]
-    # Private functions may all be inlined into one frame; a caller is inside one public function at
-    # a time.
+    # All private functions may be inlined into one frame. Only one public function runs at a time.
     return sum(held.values()) - sum(public) + max(public)
 
 

@@ -16,19 +16,20 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and its size."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of records, and of arguments of these types."""
+"""The names of two record types, also used for the arguments of these types."""
 
 INPUTS = signal("inputs")
-"""The function of time that gives the run-time inputs."""
+"""The function of time that returns the run-time inputs."""
 
 STEPS, STRIDE = count("steps"), count("stride")
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A kernel in a format.
+    """A kernel and the floating-point format of its module.
 
-    A step whose equations do not converge is tried ``tries`` times, by default ``Start.TRIES``.
+    The continuation tries a step whose equations do not converge up to ``tries`` times (``Start.TRIES`` by
+    default).
     """
 
     kernel: Kernel
@@ -72,7 +73,7 @@ class Plan:
     @property
     def newton(self) -> bool:
         """Whether matrices of Newton's method are kept from step to step."""
-        # The other form of Newton's method computes its matrix in each step and keeps nothing.
+        # Simplified Newton computes its matrix in each step and keeps nothing.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
     @property

@@ -16,7 +16,7 @@ from codegen.ir.number import Number
 from orderconds.errors import InputError, UnknownName
 
 SUBNORMAL = {24: -149, 53: -1074}
-"""Bits to the exponent of the least positive number."""
+"""The exponent of the least positive number of a format, by the bits of its significand."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Precision:
         return 1 + math.ceil(self.bits * math.log10(2))
 
     def scaled(self, tolerance: float) -> float:
-        """Return a tolerance meant for doubles at the same number of units of this format.
+        """Convert a tolerance for doubles to this format: the multiple of the unit roundoff stays the same.
 
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
@@ -51,7 +51,7 @@ class Precision:
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
-        """Return the nearest number of the format, rounded once; an InputError for one that is too large."""
+        """Return the nearest number of the format, rounded once; InputError if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
@@ -61,7 +61,7 @@ class Precision:
         return rounded
 
     def text(self, x: float) -> str:
-        """Return the shortest digits that read back as this number of the format, always as a float."""
+        """Return the shortest float literal that reads back as this number of the format."""
         if self.bits == 53:
             return repr(x)
         # Python prints the shortest digits of a double; for a single they are found by trial.
@@ -69,7 +69,7 @@ class Precision:
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
-        raise AssertionError(x)  # the longest of them always reads back
+        raise AssertionError(x)  # ``self.digits`` digits always read back
 
 
 def _double(value: Number | Fraction | float) -> float:
@@ -88,7 +88,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         exact = Fraction(value)
     if exact == 0:
         return 0.0
-    # Rounding to a double first would round twice, and the second time ties may be decided wrongly.
+    # Rounding to a double first would round twice, and the second rounding may decide ties wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits: the last place has a fixed exponent there.
@@ -106,7 +106,7 @@ PRECISIONS = {p.name: p for p in (DOUBLE, SINGLE)}
 
 
 def precision(name: str) -> Precision:
-    """Return the format of that name; an UnknownName for another."""
+    """Return the format of that name; UnknownName for an unknown name."""
     if name not in PRECISIONS:
         raise UnknownName(f"unknown precision {name}", expected=" or ".join(PRECISIONS))
     return PRECISIONS[name]

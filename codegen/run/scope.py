@@ -1,9 +1,9 @@
 """Scopes for targets that declare variables: each variable is declared as deep and as late as possible.
 
-A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign it
-before they read it, it belongs to each of them. Its first assignment declares it if this assignment is
-directly in the block; otherwise it is declared before the first statement that contains it. A variable that
-is assigned once is constant.
+A variable belongs to the innermost block that contains all its uses. If several sibling blocks each assign
+the variable before they read it, it belongs to each of these blocks. The first assignment declares the
+variable if that assignment is a direct statement of the block. Otherwise the variable is declared before the
+first statement that contains it. A variable that is assigned once is constant.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """Maps from ``id(statement)`` to the variables that are declared before it, and by it.
+    """The variables declared before each statement, and those declared by it; keys are ``id(statement)``.
 
-    ``by`` says of each variable whether it is constant.
+    The values of ``by`` map the name of a variable to whether the variable is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -95,11 +95,11 @@ class _Scopes:
                     self.place(block, inside[id(block)])
 
     def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
-        """Return the inner blocks to which a variable belongs, none if it belongs to this block."""
+        """Return the inner blocks to which a variable belongs; none if the variable belongs to ``body``."""
         result: list[Body] = []
         for k in places:
             statement = body[k]
-            if name in self.own(statement):  # a test or a value of this block reads it
+            if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
                 return []
             result += [block for block in blocks(statement) if self.within(block, name)]
         # A value may pass from one sibling block to the next, unless each block assigns the
@@ -152,7 +152,7 @@ class _Scopes:
 
     def mentioned(self, statement: Statement) -> frozenset[str]:
         """Return the variables that a statement and its inner blocks mention."""
-        # By identity: equal statements at different places have separate scopes.
+        # The key is the identity: equal statements at different places have separate scopes.
         if id(statement) not in self.cached:
             result = set(self.own(statement))
             for block in blocks(statement):

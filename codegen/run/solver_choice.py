@@ -1,26 +1,28 @@
 """How each block of equations is solved: by a fixed point, Newton's method or simplified Newton.
 
-Newton's method keeps an exact matrix as long as it contracts; simplified Newton computes one, to first order
-in h, in each step. A fixed point needs none. Its sweeps gain one power of h each, those of equation (3.19) of
-H. Marthinsen's thesis (*Lie group integrators*) too, because momenta are computed within a sweep; were they
-unknowns beside the velocities, two sweeps would gain one.
+Newton's method keeps an exact matrix as long as the iteration contracts. Simplified Newton computes a matrix
+to first order in h in each step. Fixed-point iteration needs no matrix, and each of its sweeps gains one
+power of h. This also holds for equation (3.19) of H. Marthinsen's thesis (*On symplectic integration in Lie
+groups and manifolds*), because momenta are computed within a sweep; if they were unknowns beside the
+velocities, one power of h would take two sweeps.
 
 The solver of least predicted time is chosen. A trial (:mod:`codegen.run.trial`) counts the sweeps and
-matrices of the first :data:`STEPS` steps of the usage example. The cost model (:mod:`codegen.run.step_cost`),
-which was fitted to measurements of emitted C, predicts the time of a step from them.
+matrices in the first :data:`STEPS` steps of the usage example. From these counts the cost model
+(:mod:`codegen.run.step_cost`), which was fitted to measurements of emitted C, predicts the time of a step.
 ``benchmarks/solver_choice.py`` compares the choices with the fastest solver measured.
 
 Robust solvers are preferred. A solver is robust if it also converges in a step :data:`LONGER` times as long,
-in at most :data:`SWEEPS` sweeps. A fixed point may converge at the step of the example and fail at a somewhat
-longer one: the number of its sweeps grows without bound towards the limit h L = 1, and a user's next step
-size is not known. Newton's method has no such limit where the equations are linear. So a solver that is not
-robust is taken only where every robust one is predicted to take more than :data:`PRICE` times as long; the
-reason then says that longer steps may fail. Without that bound, matrices of 24 and 36 unknowns would make
-steps of the gallery 5 to 14 times as long (``benchmarks/README.md``).
+in at most :data:`SWEEPS` sweeps. Fixed-point iteration may converge at the step size of the example and fail
+at a somewhat longer one: the number of sweeps grows without bound as h L tends to 1, L the Lipschitz constant
+of the equations. The user's next step size is not known. Newton's method has no such limit for linear
+equations. A solver that is not robust is therefore chosen only if every robust solver is predicted to need
+more than :data:`PRICE` times the time of the fastest solver. The reason then says that longer steps may fail.
+Without the bound :data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns would make some steps of
+the gallery 5 to 14 times as long (``benchmarks/README.md``).
 
-Kernels of many unknowns take long to build and try. Before a kernel is built, its cost is estimated from
-below; where a robust solver is known that costs less, it is left out. Trials of more than :data:`LARGE`
-unknowns make fewer steps.
+Kernels of many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
+computed. The kernel is not built if a known solver is certain to be preferred to it
+(:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
 """
 
 from __future__ import annotations
@@ -42,27 +44,27 @@ from orderconds.errors import UnknownName
 
 AUTO = "auto"
 CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""What a caller may ask for."""
+"""The solvers that a caller may request."""
 
 ASKED = "as asked for"
 """The reason for a solver that the caller named."""
 
 STEPS, FEW_STEPS, LONGER = 20, 5, 8
-"""Steps of a trial, those of a large one, and how much longer the one step of the second trial is."""
+"""The steps of a trial, the steps of a trial with many unknowns, and the factor of the longer trial step."""
 
 SWEEPS = 50
-"""The most sweeps that a robust solver takes in the longer step: half of those that a loop may make."""
+"""The most sweeps that a robust solver needs in the longer step: half of the limit of a loop."""
 
 PRICE = 4.0
-"""How many times as long as with the fastest solver a step may take with a robust one."""
+"""A robust solver is accepted if its step takes at most PRICE times as long as with the fastest solver."""
 
 LARGE = 64
-"""With more unknowns, a trial makes few steps, and none by continuation in h, of thousands of sweeps."""
+"""Above LARGE unknowns a trial makes FEW_STEPS steps, without continuation in h (thousands of sweeps)."""
 
 
 @dataclass(frozen=True)
 class Choice:
-    """How one block is solved, and why; ``compared`` has a sentence on each solver that was considered."""
+    """The solver of one block and the reason; ``compared`` has a sentence on each solver considered."""
 
     label: str
     unknowns: int
@@ -89,7 +91,7 @@ class Choice:
 
 
 def known_solver(name: str) -> str:
-    """Return the name; an UnknownName where it is none of :data:`CHOICES`."""
+    """Return the name; UnknownName if it is not in :data:`CHOICES`."""
     if name not in CHOICES:
         raise UnknownName(f"unknown solver {name}", expected=" or ".join(CHOICES))
     return name
@@ -104,10 +106,10 @@ def solved(
 ) -> tuple[Kernel, tuple[Choice, ...]]:
     """Return the kernel of a program with every block solved as ``asked``, and what was chosen.
 
-    ``initial`` is the state that trials start from; signals that are taken at run time are zero in them.
-    ``asked`` is one of :data:`CHOICES`; UnknownName for another, MethodError for Newton's method where a
-    function of the scene or group has no derivative here. ``iterated`` is the kernel with fixed points, for a
-    caller that has it.
+    Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
+    :data:`CHOICES`; UnknownName for another name. MethodError if Newton's method needs a derivative of a
+    function of the scene or group that is not known here. A caller that already has the kernel with
+    fixed-point iteration passes it as ``iterated``.
     """
     known_solver(asked)
     fixed = iterated or to_kernel(program, scene)
@@ -139,12 +141,12 @@ def unknowns_of(kernel: Kernel) -> int:
 
 
 def trial_steps(kernel: Kernel) -> int:
-    """Return how many steps a trial of usual steps makes."""
+    """Return the number of steps in the trial with the usual step size."""
     return STEPS if unknowns_of(kernel) <= LARGE else FEW_STEPS
 
 
 class Candidate:
-    """A kernel with its cost and its trials: one of usual steps, and one of a longer step."""
+    """A kernel with its cost and two trials: with steps of the usual size, and with one longer step."""
 
     def __init__(self, kernel: Kernel, scene: Problem, initial: tuple[float, ...]) -> None:
         self.kernel, self.cost = kernel, StepCost(kernel)
@@ -154,7 +156,7 @@ class Candidate:
 
     @property
     def robust(self) -> bool:
-        """Whether it also converges in a longer step."""
+        """Whether the solver also converges in the longer step, in at most SWEEPS sweeps."""
         return self.far is not None and self.far.converged and self.far.most <= SWEEPS
 
     def block(self, k: int) -> float:
@@ -178,7 +180,7 @@ class Candidate:
 
 
 def counted(trial: Trial, k: int) -> str:
-    """Return how many sweeps and matrices a block took."""
+    """Return how many sweeps and matrices a block needed."""
     text = amount(trial.sweeps[k], "sweep", "sweeps")
     if trial.matrices[k]:
         text += f" and {amount(trial.matrices[k], 'matrix', 'matrices')}"
@@ -239,8 +241,8 @@ class _Selection:
     def consider(self, solver: str) -> None:
         """Build and try the kernel of a solver, unless it cannot be the best.
 
-        Of many unknowns, simplified Newton need not be tried once Newton's method converges, robust or not:
-        it inverts a matrix in each step.
+        If Newton's method converges with many unknowns, robust or not, simplified Newton is tried only if it
+        may be faster: it inverts a matrix in each step.
         """
         least = self.least(solver)
         if any(self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged):
@@ -255,7 +257,7 @@ class _Selection:
         self.candidates[solver] = Candidate(kernel, self.scene, self.initial)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
-        """Return how many nanoseconds a step may take with another solver to be preferred to a candidate."""
+        """Return the nanoseconds below which a step with another solver may be preferred to a candidate."""
         sure = candidate.robust or (solver == NEWTON and unknowns_of(self.fixed) > LARGE)
         return candidate.step() * (1.0 if sure else PRICE)
 
@@ -264,11 +266,12 @@ class _Selection:
         return to_kernel(self.program, self.scene, solvers)
 
     def least(self, solver: str) -> float:
-        """Return what a step costs at least with a matrix, in nanoseconds: one sweep of each block.
+        """Return a lower bound for the nanoseconds of a step with a matrix: one sweep of each block.
 
-        A sweep costs one sweep of the fixed point and one product with the inverse. Simplified Newton inverts
-        a matrix in each step, Newton's method one in all steps of the trial. Formulas invert small matrices;
-        the number of their operations is not known in advance, so they count as free.
+        A sweep costs one fixed-point sweep and one product with the inverse. Simplified Newton inverts a
+        matrix in each step; Newton's method inverts at least one matrix during the trial. Formulas invert
+        small matrices. The number of operations in these formulas is not known in advance, so they count as
+        free.
         """
         total = self.candidates[FIXED_POINT].cost.amounts(
             [float(self.parts)] * len(self.fixed.loops), [0.0] * len(self.fixed.loops)
@@ -288,7 +291,11 @@ class _Selection:
         return max(1, len(self.fixed.substeps))
 
     def combined(self, robust: Mapping[str, Candidate], best: list[str]) -> Candidate:
-        """Return the candidate with the best solver of each block: one that was tried where these agree."""
+        """Return the candidate with the best solver of each block.
+
+        If the blocks agree on a solver, its candidate has been tried already. Otherwise the mixed kernel is
+        tried, and the best candidate with a single solver is the alternative.
+        """
         uniform = robust[min(robust, key=lambda s: robust[s].step())]
         if len(set(best)) == 1:
             return robust[best[0]]
@@ -297,9 +304,10 @@ class _Selection:
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
-        """Return the choice where no solver converges at once: the cheapest that does by continuation in h.
+        """Return the choice if no solver converges directly: the cheapest that does by continuation in h.
 
-        Where that fails too, or is not tried, it is Newton's method, or the fixed point where there is none.
+        If the continuation fails too, or is not tried, the choice is Newton's method, or fixed-point
+        iteration if Newton's method is not possible.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE

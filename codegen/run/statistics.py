@@ -1,7 +1,7 @@
 """Statistics: sweeps by block, the most in one step, the block that failed, and matrices of Newton's method.
 
-They belong to the caller: a run adds to the given record, or counts nothing. Separate functions do the
-counting, so that a loop contains a single call.
+The record of statistics belongs to the caller. A run adds its counts to the record, or counts nothing if the
+caller passes none. Separate functions do the counting, so that a loop contains a single call.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
             "count_sweeps",
             "Add the sweeps over one block in one step.",
             (statistics, block, sweeps, failed),
-            # The caller may pass no statistics; the test is here and not in the loops.
+            # The caller may pass no statistics. This is tested here, once, and not in the loops.
             (If(given(statistics), adding),),
         )
     ]

@@ -1,7 +1,7 @@
 """One step: the kernel on a state, checked, and the composition of substeps.
 
-A step changes the state if it succeeds, and leaves it unchanged otherwise. The step size must be finite. So
-must be the new state, and the entries of the old state that the kernel does not read.
+A step changes the state if it succeeds, and leaves it unchanged otherwise. The step size, the new state, and
+the entries of the old state that the kernel does not read must be finite.
 """
 
 from __future__ import annotations
@@ -62,19 +62,18 @@ def kernel_step(plan: Plan) -> Function:
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read these entries because others determine them: a NaN in them would stay
-    # unnoticed.
+    # The kernel does not read these entries, because other entries determine them. So the new state does not
+    # show a NaN in them.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
         *sampled(plan),
         *loaded(plan.symbols, state, read),
-        # The extrapolation follows the loops directly: its arithmetic overlaps with that of the
-        # outputs.
+        # The extrapolation follows the loops directly: the processor can overlap its arithmetic with the
+        # arithmetic of the outputs.
         *computed(plan, _remembered(plan)),
         *ends,
-        # Nothing is written to the state before this last test, so that a failed step leaves it
-        # unchanged.
+        # Nothing is written to the state before this last test: a failed step leaves the state unchanged.
         If(negated(all_finite(*new, *unread)), (Return(code(NOT_FINITE)),)),
         *_errors(plan),
         *_aged(plan),
@@ -104,7 +103,7 @@ def _errors(plan: Plan) -> list[Statement]:
 
 
 def _aged(plan: Plan) -> list[Statement]:
-    """Return the statements that count the age of an inverse for residuals, in steps."""
+    """Return the statements that count the age, in steps, of the inverse in each loop over residuals."""
     sequence: list[Statement] = []
     for k, loop in enumerate(plan.kernel.loops, 1):
         if loop.newton is None or not loop.newton.period:
@@ -124,7 +123,7 @@ def exact_time(start: Term, steps: Term, h: Term) -> Term:
 
 
 def substep_tables(plan: Plan) -> tuple[Table, ...]:
-    """Return the tables of lengths and beginnings of the substeps, in units of h."""
+    """Return the tables of the lengths and start times of the substeps, in units of h."""
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round

@@ -3,11 +3,11 @@
 The error norm of a step is the root mean square of its estimate over atol + rtol |y|; a step is accepted if
 the norm is at most one. Let p be the order of the estimate. After an accepted step, the step size is
 multiplied by 0.9 norm^(-0.7/p) before^(0.4/p), where ``before`` is the norm of the previous accepted step;
-the factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
+this factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
 factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. Exponents and limits are those of Hairer, Norsett and Wanner,
 Solving Ordinary Differential Equations I, section II.4, and of Gustafsson's controller there.
 
-Solutions of steps with another size give no useful initial guess: each step starts without memory.
+Each step starts without memory, because solutions of steps of another size are bad initial guesses.
 """
 
 from __future__ import annotations
@@ -138,7 +138,7 @@ class _Controlled:
             Assign(self.now, self.t[0]),
             Assign(self.length, size(self.h[0])),
             If(self.length <= 0.0, (Assign(self.length, chosen),)),
-            # The norm 1 makes the integral term neutral in the first step.
+            # With the norm 1, the factor before^(0.4/p) is 1 in the first step.
             Assign(self.before, number(1.0)),
             If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
             *memory,
@@ -148,19 +148,19 @@ class _Controlled:
 
     def step(self) -> tuple[Statement, ...]:
         """Return the statements of one trial."""
-        # In floating-point arithmetic t + h may equal t: then no number of steps reaches the end.
+        # In floating-point arithmetic t + h may equal t. Then no number of steps reaches the end.
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
-            # The last step assigns the end itself: a sum would miss it by rounding, and a tiny step
-            # would follow.
+            # The last step sets the time to the end itself. A sum would differ from the end by a rounding
+            # error, and a tiny step would follow.
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
                 (Assign(STATUS, code(LIMIT)),),
-                # The test is false for a NaN: an estimate that is not a number rejects the step.
+                # The test is false for a NaN, so an estimate that is not a number rejects the step.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
         )
@@ -178,7 +178,7 @@ class _Controlled:
             Assign(self.trial, state),
             *forgotten,
             Call(ADVANCE, (self.trial, *arguments), (STATUS,)),
-            # A failed step is rejected like one whose error is too large: a shorter one may succeed.
+            # A failed step is rejected like a step with a large error, because a shorter step may succeed.
             Assign(self.norm, INFINITY),
             If(STATUS.equals(code(OK)), (measured,)),
         )
@@ -201,8 +201,8 @@ class _Controlled:
         # The previous error damps the controller: step sizes oscillate less where stability limits
         # them.
         trend = self.power(self.before, 0.4)
-        # After a rejection the estimate was just found to be too optimistic: do not increase the
-        # step at once (Hairer, Norsett and Wanner).
+        # A rejection shows that the predicted step size was too large: do not increase the step at once
+        # (Hairer, Norsett and Wanner).
         longer = select(self.shrunk, number(1.0), number(MOST))
         return (
             Assign(state, self.trial),
@@ -211,8 +211,8 @@ class _Controlled:
             Assign(self.proposed, self.rounded(SAFETY) * self.power(self.norm, -0.7) * trend),
             self.bounded(longer),
             If(
-                # A last step is shortened to hit the end; its length is no proposal for the next
-                # call, unless the error asks for less.
+                # The last step is shortened to hit the end. Its length is stored for the next call only if
+                # the error requires a shorter step.
                 either(negated(self.last), self.factor < 1.0),
                 (Assign(self.length, size(self.taken) * self.factor),),
             ),
@@ -223,7 +223,7 @@ class _Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step.
 
-        A failure is cleared as long as a shorter step still changes the time.
+        The status of a failed step is reset to OK as long as a shorter step still changes the time.
         """
         following = real("next")
         changes = either(following > self.now, following < self.now)

@@ -2,20 +2,20 @@
 
 A prediction is a sum of amounts times :data:`WEIGHTS`:
 
-- operations (:mod:`codegen.kernel.operations`): those of a step once, those of a sweep and of a matrix as
-  often as they are made;
-- each unknown costs something in a step, for the warm start, and in a sweep, for the stopping rule;
-- a sweep of Newton's method that compares images with unknowns costs a correction more: the next sweep waits
-  for the product with the inverse. Where residuals are compared, the change of the unknowns is that product
-  in any case;
-- a matrix that is not inverted by a formula costs the cube of its size: the inversion.
+- operations (:mod:`codegen.kernel.operations`): operations outside of sweeps and matrices count once a step,
+  operations of a sweep or matrix as often as sweeps or matrices are computed;
+- unknowns: each costs time in a step, for the warm start, and in a sweep, for the stopping rule;
+- corrections: a sweep of Newton's method on u = g(u) costs one correction, because the next sweep waits for
+  the product of the inverse and the residuals g(u) - u. A sweep on residual equations needs that product for
+  its stopping test in any case, so it costs no correction;
+- cubes: inverting an n x n matrix without a formula costs n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the
 gallery, with each solver, and writes predictions beside measurements into ``benchmarks/README.md``.
-``python benchmarks/solver_choice.py --fit`` prints the weights that fit its measurements best: non-negative
-least squares of relative errors. The length of the critical path as one more amount made the median error
-smaller by less than one part in a hundred, and no choice better: sweeps follow one another, and a long sweep
-has a long critical path.
+``python benchmarks/solver_choice.py --fit`` prints the weights that fit the measurements best: non-negative
+least squares of relative errors. We also tried the length of the critical path as one more amount. It reduced
+the median error by less than one part in a hundred and improved no choice, because the critical path of a
+sweep grows with its operations.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ Work = Mapping[str, Mapping[str, int]]
 
 @dataclass(frozen=True)
 class Amounts:
-    """How much of each kind of work there is; as weights, nanoseconds for one of each.
+    """Amounts of work by kind; the weights have the same type and are nanoseconds for one unit of each kind.
 
-    ``unknowns`` are those of a step, ``swept`` those of all its sweeps; ``arithmetic`` counts additions and
-    products, ``calls`` functions; ``corrections`` are sweeps of Newton's method that compare images with
-    unknowns, ``cubes`` sums of n^3 over inversions of n x n matrices.
+    ``unknowns`` counts the unknowns of a step once, ``swept`` counts them in each sweep. ``arithmetic``
+    counts additions and products, ``calls`` function calls, and ``corrections`` the sweeps of Newton's method
+    on u = g(u). ``cubes`` is the sum of n^3 over all inversions of n x n matrices.
     """
 
     unknowns: float = 0.0
@@ -67,7 +67,7 @@ class Amounts:
 WEIGHTS = Amounts(
     unknowns=2.1, swept=1.7, arithmetic=0.097, divisions=1.5, calls=3.4, corrections=6.1, cubes=0.26
 )
-"""Nanoseconds of each on the machine that fitted them; choices depend on their ratios alone."""
+"""Nanoseconds of each kind on the machine of the measurements; choices depend on ratios of weights alone."""
 
 
 def of_operations(counts: Mapping[str, int]) -> Amounts:
@@ -96,7 +96,7 @@ def of_sweep(loop: Loop, work: Work) -> Amounts:
 
 
 def of_matrix(loop: Loop, work: Work) -> Amounts:
-    """Return the amounts of one matrix with its inversion, nothing for a fixed point."""
+    """Return the amounts of one matrix and its inversion; they are zero for fixed-point iteration."""
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
@@ -110,7 +110,10 @@ def inversion(n: int) -> Amounts:
 
 
 class StepCost:
-    """The predicted cost of a kernel's steps; sweeps and matrices are numbers a step, by block."""
+    """The predicted cost of a kernel's steps.
+
+    The arguments ``sweeps`` and ``matrices`` of its methods are average numbers per step, for each block.
+    """
 
     def __init__(self, kernel: Kernel) -> None:
         self.kernel, self.work = kernel, operations(arrange(kernel))

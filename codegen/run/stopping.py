@@ -1,19 +1,20 @@
 """The stopping rule for all loops over implicit equations.
 
 ``change`` is the largest change of an unknown in a sweep, ``scale`` the largest absolute value of an unknown.
-``previous`` is the change of the sweep before, so the rate of convergence is change/previous. A loop ends if
-it is
+``previous`` is the change in the sweep before. The rate of convergence is change/previous. A loop ends if it
+is in one of three states:
 
 - *close*: the change is at rounding level, and the predicted next change, change times rate, is below half a
-  unit in the last place. A small change alone proves nothing: a slow iteration makes small changes far from
-  the solution.
+  unit in the last place. A small change alone is no proof of convergence, because a slow iteration makes
+  small changes far from the solution.
 - *still*: the change no longer decreases and is near rounding level, so that it consists of rounding errors.
 - *lost*: the change no longer decreases, and its effect on the state, h times the change, is below the
   rounding errors of the state. Unknowns that are small differences of large numbers never reach rounding
   level themselves.
 
-All tests are relative: a scaled motion takes the same sweeps, and a diverging iteration is not accepted
-because its values are still small. A change that is not finite ends a loop with NOT_FINITE.
+All tests are relative, so the number of sweeps does not depend on the units of the motion. In particular, a
+diverging iteration is never accepted on the grounds that its values are still small. A change that is not
+finite ends a loop with NOT_FINITE.
 
 A stopping test by rate times change is that of Hairer and Wanner, Solving Ordinary Differential Equations II,
 section IV.8.
@@ -53,10 +54,10 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""Added to the rate: the last change is applied too, and its own relative errors have this size."""
+"""Added to the rate, because the last change is applied too and has relative errors of this size."""
 
 FOUR_ROUNDINGS = 2.0**-50
-"""Four roundings, relative to the sum of the unknowns; for residuals, a change is such a sum too."""
+"""Four roundings, relative to the sum of the absolute values of the unknowns (see :meth:`Stopping.sums`)."""
 
 CHANGE, SCALE = real("change"), real("scale")
 
@@ -77,7 +78,7 @@ class Stopping:
 
     @property
     def rate(self) -> Term:
-        """The rate of convergence; in the first sweep that of the step before."""
+        """The rate of convergence; in the first sweep, the rate stored by the step before."""
         return real(f"rate_{self.number}")
 
     @property
@@ -95,14 +96,14 @@ class Stopping:
         sequence: list[Statement] = [Assign(self.previous, number(0.0))]
         if self.warm:
             known = self.plan.memory.field("known", Kind.COUNT) > 0
-            # Between steps of equal size the rate hardly changes, so the old one lets the first
-            # sweep be the last (Hairer and Wanner start with the old rate for the same reason).
-            # Rate 1 is pessimistic: only a change at rounding level ends the first sweep.
+            # Between steps of equal size the rate hardly changes. With the old rate, one sweep may be enough
+            # (Hairer and Wanner start with the old rate for the same reason). Without an old rate, the
+            # pessimistic rate 1 ends the loop after one sweep only if the change is at rounding level.
             sequence.append(Assign(self.rate, select(known, self.kept_rate, 1.0)))
         return sequence
 
     def measured(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
-        """Return the statements that measure a sweep: the changes are absolute values."""
+        """Return the statements that measure a sweep; ``changes`` are absolute values."""
         return [
             Assign(CHANGE, greatest(changes)),
             Assign(SCALE, greatest(map(size, unknowns))),
@@ -114,8 +115,8 @@ class Stopping:
             return []
         first = self.plan.memory.field("first")
         return [
-            # The first change measures the error of the initial guess. A step may have several
-            # loops, and the warm start judges all by the worst.
+            # The first change measures the error of the initial guess. If a step has several loops, the
+            # warm start uses the largest error among them.
             If(SWEEPS.equals(1), (Assign(first, greatest([first, CHANGE])),)),
             If(
                 # Near rounding level a quotient of changes may be tiny by accident.
@@ -129,16 +130,16 @@ class Stopping:
         # Tolerances are multiples of the unit roundoff: single precision needs fewer sweeps.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
-        # A small change proves nothing by itself; the predicted next change, rate times change,
-        # must be below rounding. Without a stored rate the test is change^2 <= bound * previous,
-        # which needs no division; previous = 0 in the first sweep then accepts a zero change only.
+        # The predicted next change, rate times change, must be below rounding, because a small change alone
+        # is no proof. Without a stored rate the test is change^2 <= bound * previous, without a division.
+        # In the first sweep previous = 0, so this test accepts a zero change only.
         next_change = (
             CHANGE * self.rate <= form.unit * SCALE
             if self.warm
             else CHANGE * CHANGE <= form.unit * SCALE * previous
         )
-        # Rounding errors can keep the change above every bound. Then it stops decreasing, and more
-        # sweeps are useless; ``tolerance`` distinguishes this from divergence.
+        # Rounding errors can keep the change above every bound. The change then stops decreasing, and more
+        # sweeps are useless. ``tolerance`` distinguishes this case from divergence.
         still = both(previous > 0.0, CHANGE >= previous)
         return [
             Assign(flag("still"), still),
@@ -150,9 +151,8 @@ class Stopping:
         ]
 
     def lost(self) -> Term:
-        """Return the test that a change is below the rounding of every block of the state or variation."""
-        # A variation does not act on the state, so its equations are compared with the variation
-        # itself.
+        """Return the test that h times the change is below the rounding of the state, or of the variation."""
+        # The unknowns of a variation do not change the state, so they are compared with the variation.
         varied, bound = self.loop.label.startswith(VARIED), self.plan.format.scaled(LOST)
         moved = CHANGE * size(STEP)
         tests = [
@@ -173,8 +173,9 @@ class Stopping:
         """Return the statements that set the flag ``converged`` for a loop over residuals.
 
         The matrix is exact to first order in h, so the rate of the step before is valid in the first sweep. A
-        contracting loop ends if the predicted next change is below four roundings of the sum of the unknowns.
-        Another loop ends if its change is small or below the rounding of the state, never in the first sweep.
+        loop that contracts ends if the predicted next change is below four roundings of the sum of the
+        unknowns. A loop that does not contract ends after the second sweep or later, if the change is below
+        the tolerance or below the rounding of the state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))
@@ -192,17 +193,16 @@ class Stopping:
                 select(
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
-                    # One sweep that does not contract says nothing about the distance to the
-                    # solution.
+                    # After a single sweep that does not contract, the distance to the solution is unknown.
                     both(SWEEPS > 1, either(CHANGE <= tolerance * SCALE, self.lost())),
                 ),
             ),
         ]
 
     def decided(self, finite: Term, possible: Term | None = None) -> Statement:
-        """Return the statement that converts the flag to a status, NOT_FINITE unless ``finite`` is finite.
+        """Return the statement that converts the flag to a status; NOT_FINITE if ``finite`` is not finite.
 
-        ``possible`` is false if the matrix is singular; the flag is then meaningless.
+        ``possible`` is false if the matrix is singular. The flag ``converged`` is then meaningless.
         """
         # Test for finiteness first: all comparisons with a NaN are false, so the flag would ask for more
         # sweeps.
@@ -220,8 +220,8 @@ class Stopping:
     def after(self) -> list[Statement]:
         """Return the statements after a loop that has succeeded.
 
-        One sweep measures no rate. The old rate is then doubled, so that after some steps a second sweep
-        follows.
+        A single sweep measures no rate. In that case the old rate is doubled, so after some steps with one
+        sweep a second sweep measures the rate again.
         """
         if not self.warm:
             return []

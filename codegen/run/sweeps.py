@@ -1,15 +1,17 @@
 """Loops over implicit equations: fixed-point iteration for u = g(u), and Newton's method in three forms.
 
-A sweep computes the images g(u) of the unknowns. Fixed-point iteration replaces the unknowns by their images,
-except in the last sweep, so that values computed there belong to the accepted unknowns. Newton's method adds
-the inverse of a matrix times the residuals, in the last sweep too:
+A sweep computes the images of the unknowns u: the components of the right-hand side g(u). Fixed-point
+iteration replaces the unknowns by the images, except in the last sweep. Values computed in the last sweep
+therefore belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the residuals to
+the unknowns, in the last sweep too. Its three forms use different matrices:
 
 - *Newton*: the exact matrix is computed in the first sweep if the memory has none. It is kept from sweep to
-  sweep and from step to step, until a change exceeds ``Newton.CONTRACTION`` times the one before it. If the
-  change does not decrease right after the matrix was computed, or if the matrix is singular, the loop has
-  failed.
-- *simplified Newton*: the matrix to first order in h is cheap. It is computed before the sweeps of each step.
-- *residuals*: the matrix of residuals to first order in h is kept for ``Newton.period`` steps.
+  sweep and from step to step, until a change exceeds ``Newton.CONTRACTION`` times the previous change. The
+  loop fails if the change does not decrease right after the matrix was computed, or if the matrix is
+  singular.
+- *simplified Newton*: the matrix to first order in h is computed before the sweeps of each step.
+- *residuals*: the matrix of residual equations r(u) = 0, to first order in h, is kept for ``Newton.period``
+  steps.
 """
 
 from __future__ import annotations
@@ -68,7 +70,7 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """The common part of both methods; without ``counting`` the loop has no statistics."""
+    """The common part of fixed-point iteration and Newton's method; ``counting`` includes statistics."""
 
     plan: Plan
     iteration: Iteration
@@ -117,8 +119,8 @@ class _Loop:
         sequence: list[Statement] = [Assign(SWEEPS, SWEEPS + 1)]
         for statement in self.iteration.body:
             sequence += simple(statement)
-        # All images are computed before any unknown changes (a Jacobi sweep): the order of the
-        # equations then has no effect.
+        # All images are computed before any unknown changes (a Jacobi sweep), so the order of the equations
+        # has no effect.
         for image, x in zip(self.images, self.iteration.images, strict=True):
             if image.text.startswith("next "):
                 sequence.append(Assign(image, value(x)))
@@ -126,8 +128,8 @@ class _Loop:
 
     def until_converged(self, body: Sequence[Statement], astray: Term | None = None) -> list[Statement]:
         """Return the loop and the statements after it."""
-        # No loop is left from its middle, because array languages cannot do that: the status ends
-        # it. NOT_CONVERGED is also the result if the loop ends at its limit of sweeps.
+        # The status ends the loop, because array languages cannot leave a loop from its middle. NOT_CONVERGED
+        # is also the result if the loop reaches its limit of sweeps.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
         if self.counting:
@@ -149,8 +151,8 @@ class _FixedPoint(_Loop):
         rule, body = self.rule, self.computed()
         body += [*measured, *rule.rates(), *rule.converged(), rule.decided(finite)]
         taken = [Assign(u, x) for u, x in zip(self.unknowns, self.images, strict=True)]
-        # The last sweep does not change the unknowns: values of its body that are read later belong to them.
-        # A branch and not a select: after convergence nothing needs to be copied.
+        # The last sweep does not change the unknowns, so the values of its body that are read later belong to
+        # the accepted unknowns. This is a branch and not a select: after convergence nothing needs copying.
         again = (Assign(rule.previous, CHANGE), *taken)
         body.append(If(STATUS.equals(code(NOT_CONVERGED)), again))
         return [*self.begin(), *self.until_converged(body)]
@@ -162,12 +164,12 @@ class _FixedPoint(_Loop):
             Assign(change, size(x - u))
             for change, x, u in zip(changes, self.images, self.unknowns, strict=True)
         ]
-        # CHANGE, a maximum, cannot show a NaN: `a > b ? a : b` drops it. A sum of absolute values
-        # keeps NaNs, and infinities in it cannot cancel.
+        # CHANGE is a maximum, and `a > b ? a : b` may lose a NaN. A sum of absolute values keeps NaNs, and
+        # infinities in it cannot cancel.
         return [*sequence, *self.rule.measured(changes, self.unknowns)], total(changes)
 
     def wide(self) -> tuple[list[Statement], Term]:
-        """Return the same for many unknowns, by a loop over arrays."""
+        """Return the statements and the term of :meth:`narrow` for many unknowns, with a loop over arrays."""
         n, k, i = len(self.unknowns), self.number, count("i")
         before, after = real(f"unknowns_{k}", n), real(f"images_{k}", n)
         most, all_changes, moved = real(f"largest_{k}"), real(f"total_{k}"), real("moved")
@@ -187,7 +189,7 @@ class _FixedPoint(_Loop):
 
 
 class _Newton(_Loop):
-    """u + M^-1 (g(u) - u), or u + M^-1 r(u) where the images are residuals."""
+    """Newton's method: u becomes u + M^-1 (g(u) - u), or u + M^-1 r(u) if the images are residuals r(u)."""
 
     @property
     def newton(self) -> Newton:
@@ -231,30 +233,29 @@ class _Newton(_Loop):
         if self.kept:
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # A matrix at unknowns that are not finite would replace a good one in the memory.
+            # A matrix computed from unknowns that are not finite would replace a good matrix in the memory.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # Measure the scale before the correction: with an initial guess of zero no change is relatively
-        # small.
+        # Measure the scale before the correction: relative to an initial guess of zero, no change is small.
         body += self.corrected(changes)
         body += rule.converged()
-        # ``invert`` writes its success to the age. With a singular matrix the changes mean nothing,
-        # however small.
+        # ``invert`` sets the age to 1 on success and to 0 for a singular matrix. With a singular matrix, even
+        # small changes do not show convergence.
         body.append(rule.decided(finite, self.age > 0 if self.kept and not self.newton.inverted else None))
         if self.kept:
-            # The matrix is exact at the current unknowns and still the change does not decrease: no
-            # further sweep can help, and the step needs a better initial guess (continuation).
+            # If the change does not decrease although the matrix is exact at the current unknowns, more
+            # sweeps cannot help, and the step needs a better initial guess (continuation).
             astray = both(flag("still"), self.making)
             if not self.newton.inverted:
                 astray = either(astray, negated(self.age > 0))
             body.append(Assign(flag("astray"), astray))
-            # A simplified Newton iteration contracts by the relative error of its matrix. A slow
-            # contraction means an outdated matrix, and a new one costs less than many slow sweeps.
-            # In the first sweep ``previous`` is 0 and nothing is known yet.
+            # With an old matrix, the iteration contracts by the relative error of the matrix. A slow
+            # contraction shows that the matrix is outdated, and a new matrix costs less than many slow
+            # sweeps. In the first sweep ``previous`` is 0, and the contraction is not known yet.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
@@ -282,12 +283,12 @@ class _Newton(_Loop):
         return [Assign(u, u + c) for u, c in zip(self.unknowns, changes, strict=True)]
 
     def renewed(self) -> list[Statement]:
-        """Return the statements that compute and invert the matrix of the memory."""
+        """Return the statements that compute and invert a new matrix for the memory."""
         sequence = self.entries()
         if self.newton.inverted:
             return [*sequence, Assign(self.age, whole(1)), *self.matrix_counted()]
-        # An explicit inverse costs more than a factorisation once, but each sweep then is a product
-        # without divisions or dependent substitutions, and the inverse lasts for many sweeps.
+        # Computing the inverse costs more than a factorisation. But a product with the inverse has no
+        # divisions or dependent substitutions, and the inverse is used in many sweeps.
         sequence.append(Call("invert", (whole(len(self.unknowns)), self.inverse), (self.age,)))
         counted = self.matrix_counted()
         return [*sequence, *([If(self.age > 0, tuple(counted))] if counted else [])]
@@ -319,15 +320,14 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            # An initialiser and one copy: n^2 separate assignments would make very long functions.
+            # An array initialiser and one copy: n^2 separate assignments would make the function very long.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 
     def cell(self, place: int) -> Term:
         """Return an entry of the inverse; it is a variable if the inverse is computed in each step."""
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
-            # This inverse is used in one step only: scalars can stay in registers, entries of an
-            # array cannot.
+            # This inverse is used in one step only. Its entries are scalars, which can stay in registers.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
@@ -336,8 +336,8 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # The latency of this sum is on the critical path of every sweep, and sums of pairs
-            # halve it.
+            # The latency of this sum is on the critical path of every sweep. Adding pairs first halves the
+            # latency.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)

@@ -1,7 +1,8 @@
 """Terms: the small expressions of the run representation, over reals, counts, flags, status codes and arrays.
 
-Arithmetic of a kernel stays :class:`codegen.ir.expr.Expr` and enters as one term (:func:`value`). A term
-knows its kind and its shape, so that no printer infers types. Operators build terms, they compute nothing:
+Arithmetic of a kernel remains a :class:`codegen.ir.expr.Expr`, wrapped in a single term (:func:`value`). A
+term has a kind and a shape, so printers need not infer types. Python operators build terms and compute
+nothing:
 
 >>> change, scale = real("change"), real("scale")
 >>> (change <= 0.5 * scale).op
@@ -38,9 +39,10 @@ class Kind(Enum):
 class Term:
     """An operation on terms, a name, or a constant.
 
-    ``text`` is the name, function or field; a name that is ``own`` is one of the kernel, which a target may
-    have to change. ``shape`` is that of an array, () for one value; a size that only a caller knows is 0.
-    ``optional`` arguments may be absent; a ``cell`` is an array of one entry that hands a value back.
+    ``text`` is the name, function or field. ``own`` marks the names of the kernel, which a target may have to
+    change. ``shape`` is the shape of an array and () for a single value; a size that only the caller knows is
+    0. ``optional`` arguments may be absent. A ``cell`` is an array of one entry through which a function
+    returns a value.
     """
 
     op: str
@@ -114,7 +116,7 @@ class Term:
         return Term("item", (self, place), self.kind, shape=self.shape[1:], record=self.record)
 
     def __iter__(self) -> Iterator[Term]:
-        """Refuse: an array is not a Python sequence."""
+        """Raise TypeError: an array is not a Python sequence."""
         raise TypeError("a term has no entries until a program runs")
 
     def part(self, start: int, size: int) -> Term:
@@ -136,8 +138,7 @@ _COUNT = Term("name", kind=Kind.COUNT)
 def _term(x: Operand, like: Term) -> Term:
     if isinstance(x, Term):
         return x
-    # A Python number takes the kind of the other operand: 1 beside a count is a count, beside a
-    # real 1.0.
+    # A Python number gets the kind of the other operand: 1 beside a count is a count, 1 beside a real is 1.0.
     counted = like.kind in (Kind.COUNT, Kind.FLAG)
     return Term("number", kind=Kind.COUNT if counted else Kind.REAL, number=x)
 
@@ -172,17 +173,17 @@ def own(name: str, *shape: int) -> Term:
 
 
 def record(name: str, of: str, *shape: int, optional: bool = False) -> Term:
-    """Return the name of a record, or of an array of them; ``of`` names its fields."""
+    """Return the name of a record, or of an array of records; ``of`` is the name of the record type."""
     return Term("name", (), Kind.RECORD, name, shape=shape, optional=optional, record=of)
 
 
 def signal(name: str) -> Term:
-    """Return the name of a function of time that gives the run-time inputs."""
+    """Return the name of a function of time that returns the run-time inputs."""
     return Term("name", (), Kind.SIGNAL, name)
 
 
 STATUS = Term("name", (), Kind.STATUS, "status")
-"""The status of the function that runs."""
+"""The variable for the status of the current function."""
 
 
 def code(name: str) -> Term:
@@ -231,7 +232,7 @@ def negated(test: Term) -> Term:
 
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
-    """Return one of two values; this is no branch, since an array language computes both."""
+    """Return one of two values; unlike a branch, an array language computes both of them."""
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
@@ -278,9 +279,8 @@ def paired(terms: Iterable[Term]) -> Term:
     listed = list(terms)
     if len(listed) < 3:
         return total(listed)
-    # The pairs are independent of one another, so n / 2 dependent additions remain. The order is
-    # fixed here because floating-point addition is not associative and compilers must not regroup
-    # it.
+    # The pairs are independent of one another, so n / 2 dependent additions remain. The grouping is chosen
+    # here because floating-point addition is not associative, so compilers must not change it.
     return total(total(listed[k : k + 2]) for k in range(0, len(listed), 2))
 
 

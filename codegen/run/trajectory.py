@@ -1,7 +1,7 @@
 """A run of steps with constant size, with rows of a trajectory, and the public single step.
 
-A run ends after the last step or after a failure; the state is then the last good one. Rows are written at
-the beginning and after every stride-th step.
+A run ends after the last step or after a failure. After a failure, the state is the state before the failed
+step. Rows are written at the beginning and after every stride-th step.
 
 A small explicit kernel is inlined in the loop of the run, so that its state stays in registers.
 """
@@ -47,7 +47,7 @@ COMPLETED = count("completed", 1, optional=True, cell=True)
 
 
 def is_looped(plan: Plan) -> bool:
-    """Whether the loop of a run contains the kernel: no other function calls it, and its state is small."""
+    """Whether the kernel is inlined in a run: it has a small state, and no other function contains it."""
     kernel = plan.kernel
     # A function call in each step would force the state to memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
@@ -117,7 +117,7 @@ def step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # A step is a run of one step here: a second copy of the kernel would only add code.
+        # The public step calls a run of one step here, because a second copy of the kernel would add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
@@ -158,17 +158,17 @@ def run(plan: Plan) -> Function:
         now = moving if carried else state
         row = rows.add(state)
         if carried:
-            # The row is first a copy of the initial state: LEAVE adds the increase of the momentum
-            # to it. The run itself continues in the body frame, without another conversion.
+            # The row is first a copy of the initial state. LEAVE then adds the increase of the momentum to
+            # the row. The run itself continues in the body frame, without another conversion.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
         # Each time is computed from the initial one, so that errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
-        # The counter advances after success only: it is then the number of completed steps.
+        # The counter advances after success only, so it is the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
     if carried:
-        # A momentum may be finite in the body frame and overflow in space: then no step counts as completed.
+        # A momentum that is finite in the body frame may overflow in space. Then no step counts as completed.
         ended = Term("name", (), STATUS.kind, "ended")
         failed = (Assign(STATUS, code(NOT_FINITE)), Assign(DONE, whole(0)))
         finite = (Call(LEAVE, (moving, before, state), (ended,)), If(ended.differs(code(OK)), failed))
@@ -200,8 +200,8 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     bad_step = both(STEPS > 0, negated(is_finite(STEP)))
     return [
         If(bad_step, (Assign(STATUS, code(BAD_STEP)),)),
-        # Local copies: the compiler cannot prove that rows of the trajectory do not alias the
-        # state, and would store the state in each step.
+        # The loop works on local copies, because the compiler cannot prove that rows of the trajectory do
+        # not alias the state. Without the copies it would store the state in each step.
         *(Assign(x, state[k]) for k, x in enumerate(numbers)),
         While(both(STATUS.equals(code(OK)), DONE < STEPS), tuple(inner)),
         *(Assign(state[k], x) for k, x in enumerate(numbers)),

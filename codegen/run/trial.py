@@ -1,7 +1,7 @@
 """Trials: a kernel run for a few steps from the initial state, with its sweeps and matrices counted.
 
-The executor (:mod:`codegen.run.execute`) carries out the statements that printers write, so that a trial
-makes the sweeps and matrices of the emitted program.
+The executor (:mod:`codegen.run.execute`) executes the statements that printers translate, so a trial makes
+the same sweeps and matrices as the emitted program.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from codegen.run.unit import unit_of
 from codegen.scene.problem import Problem
 
 PARTS = 100
-"""How many steps of the usage example make the scene's span."""
+"""The number of steps into which the usage example divides the scene's span."""
 
 
 @dataclass(frozen=True)
 class Trial:
     """Counts of ``steps`` steps of size ``h``.
 
-    ``sweeps`` and ``matrices`` are numbers a step, by block; ``most`` is the largest number of sweeps over
-    one block in one step or substep; ``converged`` says whether all steps were made.
+    ``sweeps`` and ``matrices`` are average numbers per step, for each block. ``most`` is the largest number
+    of sweeps over one block in one step or substep. ``converged`` is whether all steps succeeded.
     """
 
     steps: int
@@ -41,8 +41,8 @@ class Trial:
 class Trials:
     """The trials of one kernel.
 
-    A step whose equations do not converge is tried again without the solutions before it, and no more; with
-    ``continuation`` it is reached through shorter steps, as in the emitted program.
+    A step whose equations do not converge is repeated once, without the solutions of earlier steps. With
+    ``continuation`` it is computed by continuation in h from shorter steps, as in the emitted program.
     """
 
     def __init__(
@@ -55,7 +55,7 @@ class Trials:
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
 
     def run(self, steps: int, longer: int = 1) -> Trial:
-        """Make steps that are ``longer`` times as long as those of the usage example."""
+        """Make ``steps`` steps, each ``longer`` times as long as the steps of the usage example."""
         first, last = self.span
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
         counts, state = self.machine.record(STATISTICS), list(self.initial)

@@ -33,8 +33,8 @@ def _steps(plan: Plan) -> list[Function]:
         listed += counters(plan)
     if plan.start is not None:
         listed += WarmStart(plan).functions()
-    # Here ``step`` calls ``run``, so ``run`` comes first; otherwise both call the function of the
-    # kernel.
+    # If the kernel is inlined in ``run``, ``step`` calls ``run``, so ``run`` comes first. Otherwise both
+    # call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), run(plan), step(plan)]
     listed.append(kernel_step(plan))

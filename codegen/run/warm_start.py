@@ -4,8 +4,9 @@ The degree of the polynomial grows while the backward differences of the solutio
 is full, the degree is adapted in every eighth step only. If the error of the guess exceeds ``Start.ROUGH``
 times the change of the unknowns over the step, the motion has changed, and only the last solution is kept.
 
-Solutions are stored in a ring buffer, each twice, so that the last ``depth`` are always contiguous. Up to
-:data:`FEW` unknowns each sum is a scalar; loops over arrays would take as long as the sweeps they save.
+Solutions are stored in a ring buffer, each twice. The last ``depth`` solutions are therefore always
+contiguous. Up to :data:`FEW` unknowns, each sum is a scalar variable, because loops over arrays would cost as
+much as the sweeps that the warm start saves.
 """
 
 from __future__ import annotations
@@ -63,8 +64,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # A branch and not a select: the cold start evaluates parts of the kernel, which a run needs
-    # once only.
+    # This is a branch and not a select: the cold start evaluates parts of the kernel, and a run needs it
+    # only once.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -85,12 +86,12 @@ def memory_record(plan: Plan) -> Record:
                 "ring buffer; each solution is stored twice, so the last ones are contiguous",
             ),
         ]
-        # The rates of convergence belong to the solutions: both are invalid once the motion
-        # changes.
+        # The rates of convergence belong to the solutions: rates and solutions become invalid together when
+        # the motion changes.
         fields += [(real(f"rate_{k}"), "") for k in range(1, len(plan.kernel.loops) + 1)]
         words.append("solutions of its equations, the latest first")
     for k, loop in enumerate(plan.kernel.loops, 1):
-        # A matrix to leading order is computed in each step and needs no memory.
+        # A matrix to leading order in h is computed in each step and needs no memory.
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
@@ -108,7 +109,7 @@ def differences(start: Start) -> Table:
     rows = tuple(
         tuple(float((-1) ** j * comb(order, j)) for j in range(order + 1)) for order in range(start.depth + 1)
     )
-    # Padding with zeros lets a loop read terms in pairs: an odd last term meets a zero.
+    # Padding with zeros lets a loop read the terms in pairs: an odd last term is paired with a zero.
     padded = tuple((*row, *(0.0,) * (start.depth + 2 - len(row))) for row in rows)
     about = "Coefficients of backward differences by order, the latest solution first."
     return Table(_factors(start), padded, about)
@@ -147,7 +148,8 @@ class WarmStart:
     def difference(self) -> Function:
         """Return the function that fills ``sum`` with a backward difference.
 
-        The latest solution is added last, so that the rest of the sum can be computed before it is known.
+        The latest solution is added last: the rest of the sum can then be computed before the latest solution
+        is known.
         """
         order, first, sign, result = count("order"), count("first"), real("sign"), real("sum", self.n)
         body = self.difference_of_few(order, first, sign, result) if self.n <= FEW else []
@@ -181,13 +183,13 @@ class WarmStart:
         ]
         for k, partial in enumerate(sums):
             later, earlier = self.values[place][k], self.values[place + 1][k]
-            # Two terms for each dependent addition: the two products are independent, so half the
-            # latency remains.
+            # Each dependent addition adds two products, which are independent of each other. So there are
+            # half as many dependent additions.
             inner.append(Assign(partial, partial + sign * (newer * later + older * earlier)))
         return [
             *(Assign(partial, number(0.0)) for partial in sums),
-            # From the oldest solution to the latest, which the sweeps of this step have just
-            # produced: only the last product waits for them.
+            # The sum runs from the oldest solution to the latest. The sweeps of this step have just computed
+            # the latest solution, so only the last product waits for the sweeps.
             For(pair, (order - first) // 2 + 1, tuple(inner), reverse=True),
             *(Assign(result[k], partial) for k, partial in enumerate(sums)),
         ]
@@ -216,7 +218,7 @@ class WarmStart:
         ]
         body += [
             Assign(self.first, number(0.0)),
-            # Fill the ring downwards: row place + j is then the solution j steps ago.
+            # Fill the ring downwards, so that row place + j is the solution j steps ago.
             Assign(place, select(self.place > 0, self.place - 1, self.depth - 1)),
             Assign(self.place, place),
         ]
@@ -229,9 +231,8 @@ class WarmStart:
         body += self.chosen(place)
         body += [
             Note("choose the next solution such that the difference of the next order vanishes"),
-            # The polynomial of degree k through the last solutions has zero differences of order k
-            # + 1. Solved for the first term of the difference, this is the value one step later: no
-            # nodes, no divisions.
+            # The differences of order k + 1 of a polynomial of degree k are zero. Solving this equation for
+            # the latest term of the difference yields the value one step later, without nodes and divisions.
             Call("difference", (self.memory, self.degree + 1, whole(1), number(-1.0), self.guess)),
         ]
         about = (
@@ -251,9 +252,9 @@ class WarmStart:
         return [
             Assign(moved, number(0.0)),
             *each(self.n, added),
-            # A ratio of two changes has no unit. A guess that is off by half of the motion is
-            # hardly better than the last solution, and a high degree would carry the disturbance on
-            # for many steps.
+            # The test uses a ratio of two changes, so it does not depend on units. A guess whose error is
+            # half of the motion is hardly better than the last solution, and a polynomial of high degree
+            # would propagate the disturbance for many steps.
             If(self.first > Start.ROUGH * moved, forgotten),
         ]
 
@@ -274,10 +275,9 @@ class WarmStart:
         )
         grows = flag("grows")
         adapt = (
-            # Differences decrease with the order while the motion is smooth on the scale of h,
-            # until rounding errors, which grow by 2 with each order, dominate. The least difference
-            # marks the best degree. It moves slowly, so it is enough to compare with the two
-            # neighbours.
+            # If the motion is smooth on the scale of h, differences decrease with the order, until rounding
+            # errors dominate, which double with each order. The order of the least difference is the best
+            # degree. The best degree changes slowly, so comparing with the two neighbours is enough.
             measured(self.degree, "size"),
             Assign(grows, truth(False)),
             # A difference of order k needs k + 1 solutions.

@@ -16,12 +16,11 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
             case Call(name, arguments, results):
                 changed_names |= {root(r).text for r in results}
                 callee = unit.parts.get(name)
-                if callee is None:  # of the library, which changes a matrix and nothing else
+                if callee is None:  # a library function: only ``invert`` changes an argument, its matrix
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
-                # Callees come first in a unit and calls are not recursive, so that this recursion
-                # ends.
+                # This recursion ends, because functions of a unit do not call each other recursively.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
             case Array():

@@ -1,9 +1,9 @@
 """The symplectic defect of a step on T*G: the change of the canonical form under the tangent map of the step.
 
 In right trivialisation the form at (q, mu) is <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H.
-Marthinsen, *Lie group integrators*, eq. (2.26)). The tangent map is computed by central differences in 60
-digits with the interpreter, so that the result shows the defect of the method and not that of the difference
-quotient.
+Marthinsen, *On symplectic integration in Lie groups and manifolds*, eq. (2.26)). The tangent map is
+computed by central differences in 60 digits with the interpreter, so that the result shows the defect of
+the method and not that of the difference quotient.
 """
 
 from __future__ import annotations

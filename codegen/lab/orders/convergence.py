@@ -93,8 +93,8 @@ def converge(
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return its convergence.
 
-    ``steps`` prescribes the numbers of steps. Without it they are doubled from five until the slopes settle
-    (with ``to_rounding``: until rounding dominates), or until the runner's largest number of steps.
+    ``steps`` prescribes the numbers of steps. Otherwise the number of steps is doubled from five until the
+    slopes settle (with ``to_rounding``: until rounding dominates), or up to the runner's largest number.
     """
     scene = runner.compiled.scene
     size = math.hypot(*(float(x) for x in exact.state))

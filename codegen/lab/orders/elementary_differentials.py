@@ -33,7 +33,7 @@ class RingDomain(Domain):
         self.h = ring.one
 
     def number(self, value: Number) -> Element:
-        """Return an exact number of the ring, or a rational one."""
+        """Return the element of the ring for an exact number, which is rational or an element already."""
         if value.ring is self.ring:
             return value.element
         fraction = value.fraction()
@@ -61,7 +61,7 @@ def _coefficient(x: Scalar, mask: int, zero: Element) -> Element:
 class FrozenFields:
     """The elementary differentials of the field of an autonomous scene at its initial point.
 
-    Trees and forests are ordered (:mod:`orderconds.trees.levels`), the first tree of a forest acts first.
+    Trees and forests are ordered (:mod:`orderconds.trees.levels`). The first tree of a forest acts first.
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:
@@ -96,8 +96,8 @@ class FrozenFields:
 class CanonicalFields:
     """The elementary differentials of Hamilton's equations on T*R^n, over trees with directed edges.
 
-    A vertex is H, differentiated by q along xi for each branch of kind 0 and by mu along n for each
-    branch of kind 1 (:mod:`orderconds.trees.directed`).
+    A vertex represents H, differentiated with respect to q along xi for each branch of kind 0, and with
+    respect to mu along n for each branch of kind 1 (:mod:`orderconds.trees.directed`).
     """
 
     def __init__(self, scene: Problem, ring: Ring) -> None:

@@ -1,10 +1,10 @@
 """The exact order of an emitted step program, computed from its local error over Q[[h]].
 
 A slope only estimates the order. For a scene whose field is polynomial or rational, the Taylor coefficients
-of the local error are exact numbers: the order is p if the coefficients of h, ..., h^p vanish and that of
-h^(p+1) does not. Coordinates of the initial state that are not in the ring of the coefficients are replaced
-by nearby rational numbers. The point may then lie off the manifold; the equations, the group action and the
-order conditions remain valid there.
+of the local error are exact numbers. The order is p if the coefficients of h, ..., h^p vanish and the
+coefficient of h^(p+1) does not. Coordinates of the initial state that are not in the ring of the method's
+coefficients are replaced by nearby rational numbers. The initial point may then lie off the manifold, where
+the equations, the group action and the order conditions remain valid.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ DENOMINATOR = 64
 class ExactLocalError:
     """The leading term of the local error of one step, with exact coefficients.
 
-    ``order`` is the exact order; if ``vanishes``, all coefficients up to h^(order) vanish and the next one
-    was not computed, so the order on this scene is at least ``order``. ``coefficients`` are those of
-    h^(order+1) by symbol, empty if ``vanishes``. ``start`` is the initial state that was used.
+    ``order`` is the exact order. If ``vanishes``, all coefficients up to h^order vanish and the next one was
+    not computed, so the order on this scene is at least ``order``. ``coefficients`` are the coefficients of
+    h^(order+1) by symbol, and empty if ``vanishes``. ``start`` is the initial state that was used.
     """
 
     scene: str
@@ -123,7 +123,7 @@ def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
 
 
 def with_exact_start(scene: Problem, ring: Ring) -> Problem:
-    """Return a scene with initial coordinates in ``ring``; others become nearby rational numbers."""
+    """Return a scene with initial coordinates in ``ring``: other coordinates become nearby rationals."""
     values = iter(scene.initial(FloatDomain(0.0)))
     domain = SeriesDomain(ring, 1)
     parameters = {name: domain.number(number) for name, number in scene.parameters.items()}

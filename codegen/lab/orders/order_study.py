@@ -18,7 +18,7 @@ from codegen.lab.timing import Timing, timings
 from codegen.method import Method
 
 COMPARED = 4 * FIRST
-"""Number of steps after which the executors are compared; more if that run fails."""
+"""Number of steps after which C, Python and the interpreter are compared; larger if a run with it fails."""
 
 MOST_TIMED = 2560
 """Number of steps of the longest run that is timed."""
@@ -99,9 +99,9 @@ def order_study(
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
     """Return the largest difference of a coordinate between the final states of several runners.
 
-    The number of steps is the first of ``steps``, from :data:`COMPARED` on, that every runner completes:
-    Newton's method of emitted code solves some steps that are too long for the interpreter. None if there is
-    none.
+    The number of steps is the first of ``steps``, from :data:`COMPARED` on, that every runner completes. The
+    runners may differ here: Newton's method of emitted code solves some steps that are too long for the
+    interpreter. None if no number of steps is completed by all runners.
     """
     for n in steps:
         if n < COMPARED:

@@ -19,8 +19,8 @@ from itertools import pairwise
 SETTLED = 0.1
 TOLERANCE = 0.25
 CLEAR = 100.0
-"""A run counts if its error is this many times the possible rounding error; then rounding changes a slope by
-less than 0.03."""
+"""A run is used if its error is more than CLEAR times the possible rounding error. Rounding then changes a
+slope by less than 0.03."""
 
 FIRST = 5
 """Number of steps of the first run."""
@@ -41,13 +41,13 @@ class Run:
 
 @dataclass(frozen=True)
 class Refinement:
-    """Runs from coarse to fine, and the order that their slopes show."""
+    """Runs from long to short steps, and the order estimated from their slopes."""
 
     runs: tuple[Run, ...]
 
     @property
     def clean(self) -> tuple[Run, ...]:
-        """The runs that count: the longest stretch of neighbours without an excluded run."""
+        """The runs that are used: the longest sequence of neighbouring runs without an excluded run."""
         stretches: list[list[Run]] = [[]]
         for run in self.runs:
             if run.excluded:

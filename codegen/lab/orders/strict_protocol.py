@@ -23,7 +23,7 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the order to compare with: ``stated``, the claim of the tableau file, or the certified order."""
+    """Return ``stated``, else the claim of the tableau file, else the certified order."""
     if stated is not None:
         return CertifiedOrder(stated, "stated")
     for claim in method.tableau.claims.orders:
@@ -35,7 +35,7 @@ def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
 def strict(
     method: Method, stated: CertifiedOrder, tell: Callable[[str], object] = str, alter: Alter = lambda c: c
 ) -> Iterator[Convergence]:
-    """Yield the convergence on each scene; ``alter`` changes the program, to test the protocol."""
+    """Yield the convergence on each scene; tests of the protocol change the program by ``alter``."""
     for scene in strict_scenes(lowering(method.family).hamiltonian):
         tell(f"{method.label} on {scene.name}")
         compiled = alter(optimise_method(scene, method))

@@ -1,8 +1,9 @@
 """The scenes of the strict protocol, chosen so that an error in a method cannot cancel by symmetry.
 
 Published software has shipped methods of order 2 as order 4, because its tests used rotations about one
-axis, generators orthogonal to the state, or fields that do not depend on time. Here every field is
-polynomial, depends on state and time and does not commute; on the sphere it has a component along the state.
+axis, generators orthogonal to the state, or fields that do not depend on time. Here every field f is
+polynomial and depends on state and time, and its values at different points do not commute. On the sphere, f
+has a component along the state.
 The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three, acting on
 themselves or on vectors. Variational methods run on T*G with Hamiltonians that have no symmetry and depend
 on time.
@@ -19,7 +20,7 @@ from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
-"""Short, because solutions of polynomial equations may reach infinity soon."""
+"""The span is short, because solutions of polynomial equations may reach infinity soon."""
 
 
 @cache

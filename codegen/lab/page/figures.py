@@ -1,8 +1,8 @@
 """Figures as inline SVG with the colours and fonts of the page, in light and dark mode.
 
-Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text remains
-text. Identifiers are salted with the name of the figure: the same data gives the same bytes, and two figures
-of a page do not share clip paths.
+Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text is
+written as SVG text, not as outlines. The identifiers in the SVG are hashes salted with the name of the
+figure. So equal data produces equal bytes, and two figures of a page do not share clip paths.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ LIGHT = {
         start=1,
     )
 }
-"""CSS variables to fixed colours, for a picture outside a page, on white."""
+"""CSS variable to fixed colour, for pictures that are not part of a page and have a white background."""
 SIZE = (4.7, 3.9)
-"""Inches; on a phone the picture is about as wide as its view box, so that text has its usual size."""
+"""Width and height in inches. On a phone the picture is shown at about this size, so its text is readable."""
 
 LINE = 0.175
 """Height of a line of labels in inches; it is added for each line after the third."""
@@ -63,8 +63,8 @@ LINE = 0.175
 class Curve:
     """A labelled sequence of points (x, y), and the order for a reference line (None: no line).
 
-    The curve of a ``peer`` is dashed and thin. ``place`` determines colour and marker, so that they are the
-    same for a method in all pictures; by default it is the position of the curve.
+    The curve of a ``peer`` is dashed and thin. ``place`` determines colour and marker, so a method can have
+    the same colour and marker in all pictures. By default ``place`` is the position of the curve.
     """
 
     label: str
@@ -127,9 +127,9 @@ GRID = 121
 
 
 def region_figure(name: str, functions: Sequence[tuple[str, int, Callable[[complex], complex]]]) -> str:
-    """Return the boundaries |R(z)| = 1 of stability functions, given with label and place.
+    """Return the boundaries |R(z)| = 1; ``functions`` are triples of label, place and stability function R.
 
-    Zero lies on every boundary; the stable side is on its left.
+    Zero lies on every boundary, and the stable side of the boundary is on the left of zero.
     """
     left, right, low, high = PLANE
     xs, ys = ([a + (b - a) * k / (GRID - 1) for k in range(GRID)] for a, b in ((left, right), (low, high)))
@@ -285,7 +285,7 @@ def standalone(svg: str, title: str) -> str:
 
 
 def _svg(figure: Figure, name: str) -> str:
-    """Return the figure as an SVG element without size, date and fixed colours."""
+    """Return the figure as an SVG element, without size and date, and with the colours of the page."""
     import matplotlib
 
     stream = io.StringIO()

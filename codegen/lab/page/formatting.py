@@ -1,4 +1,4 @@
-"""Numbers, times and pictures as a page shows them."""
+"""The formats of numbers, times and pictures on a page."""
 
 from __future__ import annotations
 
