@@ -69,7 +69,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The absolute value to 20 digits, from the ball if the ball determines all digits."""
+        """The residual as a number of 20 digits, from the ball if the ball determines all of them."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:

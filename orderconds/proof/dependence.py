@@ -1,7 +1,7 @@
 """Search modulo primes for dependent conditions of a sub-family, and lift the combinations to fractions.
 
-Nothing in this module is a proof. A rank modulo a prime can be too small, and the denominator of a
-coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember` verifies each
+Nothing in this module is a proof. A rank modulo a prime can be too small, and the numerator or denominator of
+a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember` verifies each
 combination in exact arithmetic.
 """
 

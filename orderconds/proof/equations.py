@@ -18,12 +18,12 @@ odd order are needed, one for each Lyndon word in the letters 1, 3, 5,
 ``spelling``     coefficients given by formulas in others define a sub-family, in which some of the
                  conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-2N schemes. With y_j, k_j, f_j the values of Y_j, K_j, F(Y_j) on a word or tree, k_j = A_j k_{j-1} + f_j and
-y_{j+1} = y_j + B_j k_j on single trees, D_j = y_j(t) k_j(u) - y_j(u) k_j(t) is not changed by y_j ->
-y_{j+1}, so it obeys D_j = A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t): the recursion of k_j on a
+2N schemes. Let y_j, k_j, f_j be the values of Y_j, K_j, F(Y_j) on a word or tree. On single trees, k_j = A_j
+k_{j-1} + f_j and y_{j+1} = y_j + B_j k_j. Let D_j = y_j(t) k_j(u) - y_j(u) k_j(t). Replacing y_j by y_{j+1}
+does not change D_j, so D_j = A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t). This is the recursion of k_j on a
 combination of trees. Hence y(tu) - y(ut), the sum of B_j D_j, is a linear combination of values on single
-trees, the same for every scheme and for the exact flow. The tests confirm, by ranks modulo primes, that no
-condition on longer words is left either: a 2N scheme has as many independent conditions as there are
+trees. The combination is the same for every scheme and for the exact flow. By ranks modulo primes, the tests
+confirm that longer words add no conditions: a 2N scheme has as many independent conditions as there are
 rooted trees.
 """
 
