@@ -36,7 +36,7 @@ MAX_UNKNOWNS, MAX_ORDER = 16, 5
 """Limits on unknowns and order; beyond them the polynomials of the conditions are too long to expand."""
 
 MAX_DEGREE = 8
-"""Degree of the multipliers in a certificate."""
+"""The highest degree of the multipliers in a certificate."""
 
 
 @dataclass(frozen=True)

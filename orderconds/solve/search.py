@@ -200,8 +200,9 @@ def batches(
 ) -> Iterator[Batch]:
     """Yield ``count`` batches 0, 1, ... in order; batches in the checkpoint are not computed again.
 
-    The first new batch runs in this process. The others run in further processes, or on the dask cluster at
-    the address ``cluster``. Raises :class:`~orderconds.errors.InputError` for a cluster that does not answer.
+    With several processes, the first new batch runs in this process and the others in further processes. With
+    ``cluster``, all new batches run on the dask cluster at this address. Raises
+    :class:`~orderconds.errors.InputError` for a cluster that does not answer.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]
