@@ -1,12 +1,12 @@
 """Compute the exact order of a tableau in each family that its file claims, with a certificate.
 
-Orders 1, 2, ... are evaluated over the tableau's own ring until the first with a condition that fails. A
-claim is an equality: a method that is better than its file says fails the claim as well.
+Conditions of order 1, 2, ... are evaluated over the tableau's own ring until a condition fails. A claim is an
+equality: a claim fails too if the order of the method is higher than the claimed order.
 
 Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file names
-equations for its decimals, and interval arithmetic proves that they have exactly one solution within the last
-digits, which has the order (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain
-zero. The printed digits support the order, but do not prove it. A ball too wide to decide (see
+equations for its decimals, and interval arithmetic proves that the equations have exactly one solution within
+the last digits. This solution has the order (:mod:`orderconds.proof`). ``decimal``: some residuals are balls
+that contain zero. The printed digits support the order, but do not prove it. A ball too wide to decide (see
 :data:`orderconds.checking.residuals.RESOLUTION`) leaves the order ``undecided`` and its certificate ``none``;
 a ball that excludes zero proves that the condition fails.
 """

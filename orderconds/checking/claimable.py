@@ -1,10 +1,10 @@
 """The claimable families of a tableau: its file should state an order in each of them.
 
 A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``, and with non-zero weights ``sprk``, ``vcg`` and
-``vrkmk`` (any cut-off of ``rkmk`` and ``vrkmk`` is a claim); a commutator-free method claims ``rk``,
-``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``, and where it is symplectic
-``sprk_separable`` instead. A family whose order follows from another one, as ``prk`` for an ``rk`` tableau,
-is not included. Each family decides (:meth:`orderconds.families.Family.claimable`).
+``vrkmk`` (any cut-off of ``rkmk`` and ``vrkmk`` is a claim); a commutator-free method claims ``rk``, ``cf``
+and, with non-zero weights, ``vcf``. A pair claims ``prk``; a symplectic pair claims ``sprk_separable``
+instead. A family is not included if its order follows from the order in another family, as ``prk`` for an
+``rk`` tableau. The decision is a method of each family (:meth:`orderconds.families.Family.claimable`).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    Families that divide by weights come last, and families on groups after the others. Among equals, a
-    family whose preferred format is the tableau's comes first.
+    Families that divide by weights come last, and families on groups after the others. Within each of these
+    groups, families whose preferred format is the format of the tableau come first.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

@@ -1,4 +1,4 @@
-"""Limits on the work of a check, after which it reports its results so far."""
+"""Limits on the work of a check. At a limit the check ends and reports its results so far."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ MAX_CONDITIONS = 50_000
 
 @dataclass(frozen=True)
 class Limits:
-    """At most ``conditions`` of one order, ``seconds`` in all, ``megabytes`` of memory; None: no limit.
+    """Limits on ``conditions`` of one order, ``seconds`` in total and ``megabytes`` of memory; None: no
+    limit.
 
     Time and memory are compared with their limits after each batch of conditions, so a batch may exceed them.
     """
@@ -37,7 +38,7 @@ class Meter:
     started: float = field(default_factory=time.monotonic)
 
     def next_order(self) -> None:
-        """Start to count the conditions of another order."""
+        """Start the count of conditions of another order."""
         self.of_order = 0
 
     def count(self, conditions: int) -> None:
@@ -56,7 +57,7 @@ class Meter:
 
 
 def resident_megabytes() -> float:
-    """Return the memory that this process occupies; the largest so far where the system reports no other.
+    """Return the memory of this process; if the system does not report it, the peak memory.
 
     >>> resident_megabytes() >= 0
     True

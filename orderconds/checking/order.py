@@ -19,8 +19,8 @@ from orderconds.ring import Balls, Ring
 from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
-"""Above this number the conditions of an order are evaluated in batches, simplest trees first, up to the
-first batch with a failure. Then only failures of that batch are reported, and no error norm."""
+"""If an order has more conditions than this, they are evaluated in batches, simplest trees first, up to the
+first batch with a failure. The report then has only the failures of that batch, and no error norm."""
 
 STOPPED = "stopped"
 """The verdict on an order that was not decided because of a limit."""
@@ -36,7 +36,8 @@ class FamilyOrder:
     ``failing`` are the conditions of order ``order + 1`` that fail, ``error_norm`` the 2-norm of their
     residuals. ``limit`` is the order at which the search stopped without a failing condition; None if a
     condition failed. ``stopped`` is the number of conditions evaluated before a limit on work ended the
-    search. ``required`` is a lower bound; without it ``claimed`` must be equal to the order.
+    search. ``required`` is a lower bound that the order must reach. Without ``required``, the order must
+    equal ``claimed``.
     """
 
     family: str
@@ -64,7 +65,8 @@ class FamilyOrder:
         return "holds" if self.claimed in (None, self.order) else "fails"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one family; ``limit`` only where the search ended there."""
+        """Return the JSON object of one family; it has the key ``limit`` only if the search ended at this
+        order."""
         record: dict[str, object] = {
             "claimed": self.claimed,
             "order": self.order,
@@ -93,11 +95,12 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
-    ``bound`` is the order in a family whose conditions are a subset of this one's, so it is an upper bound.
-    At the search limit of the family (with ``brief`` at every order), the search stops at this bound, and the
-    failing conditions are those of ``bound``. Conditions that follow from others, and from the orders
-    ``proved`` in other families, are not evaluated (:mod:`orderconds.families.reductions`). The search also
-    ends when ``meter`` reports that a limit is reached.
+    ``bound`` is the order in another family, whose conditions are a subset of those of ``family``. It is
+    therefore an upper bound. From the search limit of ``family`` on (with ``brief`` at every order), the
+    search stops at this bound, and the failing conditions are those of ``bound``. Conditions that follow from
+    others, and from the orders ``proved`` in other families, are not evaluated
+    (:mod:`orderconds.families.reductions`). The search also ends when ``meter`` reports that a limit is
+    reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -115,7 +118,8 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return the first condition that no method of the family meets at this order, if this method does not.
+    """Return the first condition of this order that no method of the family satisfies, if this method
+    violates it.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -142,7 +146,7 @@ class _Search:
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
     ) -> FamilyOrder:
-        """Return the order; arguments as of :func:`family_order`."""
+        """Return the order; the arguments are described in :func:`family_order`."""
         family, label, highest = self.family, self.family.label(), self.family.order_bound
         limit = max(family.search_limit, (claimed or 0) + 1, (required or 0) + 1)
         limit = limit if highest is None else min(limit, highest)
@@ -194,7 +198,8 @@ class _Search:
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
     """Yield the conditions that decide order n: all at once (True), or in batches that double in size.
 
-    They are an independent set or, if that costs more, those of every tree. Batches share results.
+    The conditions are an independent set or, if such a set costs more, the conditions of all trees. Batches
+    share results.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)

@@ -16,10 +16,11 @@ if TYPE_CHECKING:
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The claimed order of the embedded row in the family ``own``, and its orders by family.
+    """The claimed order of the embedded row in the family ``own``, and the computed orders of the row by
+    family.
 
-    ``certificates`` are those of the orders, by family. ``own`` is ``rk`` for weights, ``cf`` for an update
-    of exponentials; ``failing`` are the conditions of the next order that fail in it.
+    ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` for weights, ``cf``
+    for an update of exponentials. ``failing`` are the conditions of ``own`` at the next order that fail.
     """
 
     claimed: int
@@ -51,7 +52,7 @@ class Report:
 
     @property
     def verdict(self) -> str:
-        """``fails`` if any claim fails, else ``undecided`` if any is, else ``holds``."""
+        """``fails`` if any claim fails, else ``undecided`` if any claim is undecided, else ``holds``."""
         verdicts = {family.verdict for family in self.orders}
         if self.broken_claims or "fails" in verdicts:
             return "fails"

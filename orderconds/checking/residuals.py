@@ -1,7 +1,8 @@
 """The residuals of the conditions of one order, with verdicts: zero, not zero, or a ball too wide to decide.
 
-In a number field, balls are much cheaper than exact arithmetic, and show that most residuals of a failing
-order are not zero. Exact arithmetic is used for the others, and for residuals that are printed.
+In a number field, ball arithmetic is much cheaper than exact arithmetic. It shows that most residuals of a
+failing order are not zero. Exact arithmetic is used for the other residuals, and for residuals that are
+printed.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The same text, from the ball if it determines all digits."""
+        """The residual as a number of 20 digits, from the ball if the ball determines all of them."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -106,7 +107,7 @@ def judge(
     conditions: Sequence[OrderCondition],
     balls_first: bool = False,
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Return the verdicts that occur, and the conditions that fail.
+    """Return the set of verdicts on the conditions, and the conditions that fail.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (a narrow ball around zero), ``undecided`` (a wide one).
     ``balls_first`` is faster if most conditions fail; it does not change the result.
@@ -169,7 +170,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals: the first is computed alone, all others together when a second one is needed."""
+    """Exact residuals on demand: the first is computed alone, all others together when a second one is
+    needed."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

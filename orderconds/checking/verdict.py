@@ -33,11 +33,11 @@ def check(
 ) -> Report:
     """Find the exact order of ``tableau`` (or of a file, or of a library name) in each family that it claims.
 
-    With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, claimed or not. With ``order`` the
-    order must be at least that, and claims are ignored. With ``complete`` the check fails unless there is a
-    claim for each claimable family. With ``certified`` it fails if only rounded decimals support an order. A
-    tableau without claims is checked in the family of its format. ``limits`` bound the work; if one is
-    reached, the order is a lower bound.
+    With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, whether or not the file claims it.
+    With ``order`` the order must be at least this number, and claims are ignored. With ``complete`` the check
+    fails unless the file claims an order in each claimable family. With ``certified`` it fails if only
+    rounded decimals support an order. A tableau without claims is checked in the family of its format.
+    ``limits`` bound the work; if one is reached, the order is a lower bound.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
@@ -84,7 +84,7 @@ def check(
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
     """Return the orders of the embedded row in families whose stages do not depend on the weights.
 
-    These are the wanted families, the classical one, and that of the format.
+    These families are the wanted ones, the classical one, and the family of the tableau format.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -126,7 +126,7 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family; beyond the limit of a family, from theorems."""
+    """Return the order in each family; beyond the search limit of a family, theorems determine the order."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -150,7 +150,8 @@ Reading = tuple[Tableau, Family, int | None]
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
-    """Return further families whose orders may imply a claim beyond the limit of a family."""
+    """Return further families whose orders may imply a claim beyond the search limit of the claimed
+    family."""
     if all(max(claimed or 0, required) < family.search_limit for family, claimed in wanted):
         return []
     return _bounding(tableau, {family.label() for family, _ in wanted})
@@ -175,7 +176,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order if theorems decide it beyond the end of the search, else ``ended``.
+    """Return the order if theorems determine it beyond the end of the search, else the result ``ended``.
 
     Theorems bound the order from below. The order in another family, or a failing condition, bounds it from
     above.
@@ -217,10 +218,11 @@ def _proved(computed: Sequence[FamilyOrder]) -> dict[str, int]:
 def _settled(
     tableau: Tableau, family: Family, computed: Sequence[FamilyOrder], facts: tuple[Fact, ...]
 ) -> FamilyOrder | None:
-    """Return an order that follows from earlier ones, if it is at least the search limit of the family.
+    """Return an order that follows from orders in other families, if it is at least the search limit of
+    ``family``.
 
-    The failing conditions are those of the family that bounds it from above. An order that follows from
-    orders with certificate ``decimal`` has this certificate too.
+    The failing conditions belong to the family that bounds the order from above. An order that follows from
+    orders with certificate ``decimal`` also has the certificate ``decimal``.
     """
     proved = [f for f in computed if f.certificate != "decimal"]
     settled = _settled_by(tableau, family, proved, facts)
@@ -276,8 +278,8 @@ def read(given: str | PathLike[str]) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check with their claims: the given one, else all claimed, else that of the
-    format."""
+    """Yield the families to check with their claims: the given family, else all claimed ones, else the family
+    of the tableau format."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)

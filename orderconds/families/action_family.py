@@ -1,4 +1,4 @@
-"""The base class of variational families: their conditions on action trees and the values of these."""
+"""The base class of variational families: conditions on action trees, and the values of action trees."""
 
 from __future__ import annotations
 
@@ -34,8 +34,9 @@ if TYPE_CHECKING:
 class ActionFamily(Family):
     """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact, one for each g-valued action tree t.
 
-    The conditions of order n are those of the trees with n copies of H. ``conditions`` picks the independent
-    ones by their rank at random methods; ``decisive_conditions`` needs neither rank nor NumPy.
+    The conditions of order n are those of the trees with n copies of H. ``conditions`` selects independent
+    conditions by ranks of their values at random methods. ``decisive_conditions`` needs neither ranks nor
+    NumPy.
     """
 
     needs_nonzero_weights = True
@@ -52,7 +53,7 @@ class ActionFamily(Family):
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of random members of the family, one for each sample of the ring.
 
-        They have enough stages for the conditions up to ``order``.
+        The members have enough stages to distinguish the independent conditions up to ``order``.
         """
 
     @abstractmethod
@@ -64,7 +65,8 @@ class ActionFamily(Family):
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return every tree's condition of exactly this order, simplest first, dependent ones related."""
+        """Return the conditions of all trees of exactly this order, simplest first, dependent ones with
+        relations."""
         related = _relations(self, order)
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
@@ -87,7 +89,8 @@ class ActionFamily(Family):
         }
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all of this order: the simplest of each root-switching class."""
+        """Return conditions that imply all conditions of this order: the simplest of each root-switching
+        class."""
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
@@ -106,19 +109,20 @@ class ActionFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand sides, as printed, for a method with coefficients in ``ring``."""
+        """Return the left-hand sides of the printed conditions for a method with coefficients in ``ring``."""
         series = self._memo(method, ring)
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of all rooted action trees, as expanded about (q0, mu1), not scaled."""
+        """Return the residuals of all rooted action trees in the expansion about (q0, mu1), without scale
+        factors."""
         series = self.series(method, ring)
         exact = action_exact.condition
         return tuple(series.condition(t) - in_ring(ring, exact(t)) for t in velocities(order))
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Tableaux (A, b) without zero weights."""
+        """Return the family for tableaux (A, b) without zero weights."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:
@@ -161,7 +165,7 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word whose value enters that of an action tree.
+    """Return the length of the longest word on whose value the value of an action tree depends.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))
@@ -173,7 +177,7 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """The varied velocity is a separate letter."""
+    """Return the length of the longest word for a momentum tree; the varied velocity is a separate letter."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

@@ -1,10 +1,10 @@
-"""Action conditions as readable index sums, from one walk over the tree with symbols for numbers.
+"""Action conditions as readable index sums, computed by one traversal of the tree with symbols for numbers.
 
-A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with 1/run! for
-each run of equal ones; this module writes it with strict inequalities, one sum for each way of forming runs.
-For a word that repeats one letter this is not necessary: its coefficient is a power of one sum, divided by
-k!. That factor is left out on both sides of a condition (:func:`multiplier`), so that ``sum_i b_i c_i^2 =
-1/3`` is printed.
+A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with a factor
+1/r! for each run of r equal indices. This module writes the coefficient with strict inequalities, one sum for
+each division into runs. A word that repeats one letter k times does not need such sums: its coefficient is a
+power of one sum, divided by k!. Both sides of a condition are multiplied by k! (:func:`multiplier`). The
+printed condition is then ``sum_i b_i c_i^2 = 1/3``, for example.
 """
 
 from __future__ import annotations
@@ -35,7 +35,8 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word that may contain the index of a stage once, for a variation of the velocity of that stage."""
+"""A word that may contain the index of a stage once; the index represents a variation of the stage's
+velocity."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -57,7 +58,7 @@ def _momentum_multiplier(tree: Momentum) -> int:
 
 
 class ActionFormula(ABC):
-    """The index sums of action conditions. Subclasses define how stages and update depend on the velocities.
+    """The index sums of action conditions. A subclass defines how stages and update depend on the velocities.
 
     ``row`` is the index of a stage, None for the update.
 
@@ -73,7 +74,8 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v, where x replaces the velocity of a stage once."""
+        """Return the coefficient of u x v, where u is ``before``, v is ``after`` and x replaces the velocity
+        of ``stage`` once."""
 
     def condition(self, tree: Velocity) -> Formula:
         """Return ``sum_i b_i tau_t(i)`` times :func:`multiplier`."""
@@ -150,7 +152,8 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v with x in the exponential at ``place``, without the factor of x."""
+        """Return the coefficient of u x v with x in the exponential at ``place``, without the coefficient of
+        x itself."""
         terms = []
         for r in range(len(before) + 1):
             for q in range(len(after) + 1):
@@ -163,7 +166,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """One exponential for each a_ij and each b_j: places are stages.
+    """Index sums for one exponential for each a_ij and each b_j: the index of an exponential is that of a
+    stage.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -185,7 +189,8 @@ class CrouchGrossmanFormula(ExponentialsFormula):
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
-    """Exponents ``sum_j alpha_iJj xi_j`` in the stages, ``sum_j beta_Jj xi_j`` in the update.
+    """Index sums for exponents ``sum_j alpha_iJj xi_j`` in the stages and ``sum_j beta_Jj xi_j`` in the
+    update.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -203,7 +208,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the sum over the exponentials that the stage's velocity enters."""
+        """Return the sum over the exponentials whose exponents contain the stage's velocity."""
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
         return index_sum((place,), (), inner)
@@ -215,7 +220,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """One exponential of ``X_i = sum_j a_ij dexpinv_{(r),X_j} xi_j``.
+    """Index sums for one exponential of ``X_i = sum_j a_ij dexpinv_{(r),X_j} xi_j``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -234,7 +239,7 @@ class MuntheKaasFormula(ActionFormula):
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v in exp(X_i), or in exp(Y)."""
+        """Return the coefficient of u x v in exp(X_i), or in exp(Y) for the update."""
         return self._exponential(row, (*before, stage, *after))
 
     def _exponential(self, row: str | None, word: Marked) -> Formula:
@@ -243,7 +248,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i^n, or in Y^n: computed once for all stages."""
+        """Return the coefficient of a word in X_i^n, or in Y^n for the update; it is computed once for all
+        stages."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -267,9 +273,10 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _argument(self, row: str | None, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i, or in Y.
+        """Return the coefficient of a word in X_i, or in Y for the update.
 
-        Each letter in turn is the velocity to which dexpinv applies; a varied velocity belongs to one stage.
+        The coefficient is a sum over the letters: each one in turn is the argument of dexpinv. A varied
+        velocity belongs to one stage.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -284,7 +291,7 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of dexpinv for at most this many letters beside the velocity."""
+        """Return the terms of dexpinv with at most ``letters`` letters besides the velocity."""
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
@@ -300,7 +307,7 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """One exponential of ``X_i = sum_j a_ij v_j``, where v_j solves dexp_{(r),X_j} v_j = xi_j.
+    """Index sums for one exponential of ``X_i = sum_j a_ij v_j``, where v_j solves dexp_{(r),X_j} v_j = xi_j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

@@ -1,7 +1,7 @@
 """Runge-Kutta methods on the space around the manifold: ``rk`` in coordinates of the ambient space.
 
-A step leaves the manifold by its local error, and the order is the classical one. The family is a baseline
-for methods that stay on the manifold.
+The distance of a step from the manifold is at most the local error, and the order is the classical one. The
+family is a baseline for comparison with methods that stay on the manifold.
 """
 
 from __future__ import annotations

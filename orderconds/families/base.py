@@ -1,8 +1,8 @@
 """The base class of families, with every attribute and method that the rest of the program uses.
 
-A family defines the series of a tableau. Its conditions compare that series with the exact flow's. Facts
-about a family are attributes and methods of its class, with defaults declared here; no other module keeps a
-table of family names.
+A family defines the series of a tableau. Its conditions compare this series with the series of the exact
+flow. Facts about a family are attributes and methods of its class, with defaults in the base class. No other
+module has a table of family names.
 """
 
 from __future__ import annotations
@@ -40,42 +40,44 @@ class Family(ABC):
     """A family of methods.
 
     A subclass sets ``name``, ``description`` and ``formats`` and implements :meth:`conditions` and
-    :meth:`evaluate`; all else has a default. :func:`orderconds.families.register` makes it known to every
-    command. The options of a family, such as ``cutoff`` of RKMK, are parameters of its class; they are
-    integers.
+    :meth:`evaluate`; all other attributes and methods have defaults. :func:`orderconds.families.register`
+    makes it known to every command. The options of a family, such as ``cutoff`` of RKMK, are parameters of
+    its class; they are integers.
     """
 
     name: ClassVar[str] = ""
-    """The name under which commands and claims know the family; lower case."""
+    """The name of the family in commands and claims; lower case."""
     description: ClassVar[str] = ""
     """One line for ``orderconds list families``."""
     formats: ClassVar[tuple[str, ...]] = ()
-    """The tableau formats it reads, the preferred one first."""
+    """The tableau formats that the family reads, the preferred one first."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
     """Whether the family divides by the weights b_i."""
     search_limit: ClassVar[int] = 8
-    """The order up to which ``check`` searches without a claim; with a claim, at least one order higher."""
+    """The order up to which ``check`` searches without a claim. With a claim, it searches at least one order
+    beyond the claim."""
     order_bound: ClassVar[int | None] = None
     """The highest order of any member, by a theorem; None without such a bound."""
     over_rationals: ClassVar[bool] = False
     """Whether conditions are evaluated by :mod:`orderconds.ring.nodal`, without field arithmetic."""
     trees: ClassVar[str | None] = None
-    """The kind of trees its conditions belong to (:mod:`orderconds.explain.kinds`); None for words."""
+    """The kind of the trees that index the conditions (:mod:`orderconds.explain.kinds`); None for words."""
     illustrates: ClassVar[tuple[str, ...]] = ()
     """The kinds of trees that ``orderconds trees --explain`` shows with the conditions of this family."""
 
     # Other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Names of families whose conditions are a subset of its own at every order, each with the theorem."""
+    """Names of families whose conditions are a subset of this family's at every order, each with the
+    theorem."""
     abelian: ClassVar[str | None] = None
     """The family of the same method on an abelian group, where brackets vanish; None if no family reads all
     tableaux."""
     low_order: ClassVar[str | None] = None
     """A family with the same conditions up to order 2, which involve no bracket and no momentum."""
     bounds_others: ClassVar[bool] = False
-    """Whether ``check`` computes its order in order to bound those of other families."""
+    """Whether ``check`` computes the order in this family to bound the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
     """Families in which a 2N scheme has the same order as in this one."""
 
@@ -83,7 +85,8 @@ class Family(ABC):
     on_groups: ClassVar[bool] = False
     """Whether a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """Whether the stages do not depend on the weights: a second row of weights then estimates the error."""
+    """Whether the stages are independent of the weights, so that a second row of weights can estimate the
+    error."""
     keeps_manifold: ClassVar[bool] = True
     """Whether a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
@@ -127,13 +130,13 @@ class Family(ABC):
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return a subset of :meth:`conditions` in which none follows from the others or from lower orders.
 
-        By default all of them. A family overrides this where its conditions are a generating set that is
-        not independent, and explains the difference in :meth:`remark`.
+        By default the subset is all of :meth:`conditions`. A family overrides the method if its conditions
+        generate all others but are not independent, and explains the difference in :meth:`remark`.
         """
         return self.conditions(order)
 
     def remark(self, order: int) -> str:
-        """Return a remark on the conditions up to ``order`` for the reader; or an empty text."""
+        """Return a remark for the reader on the conditions up to ``order``, or an empty text."""
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -141,9 +144,8 @@ class Family(ABC):
         return self.conditions(order)
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all of this order and cost less than an independent set.
-
-        By default the independent set.
+        """Return conditions that imply all conditions of this order and cost less than an independent set.
+        By default these are the independent set.
         """
         return self.conditions(order)
 
@@ -190,9 +192,8 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of one order whose 2-norm measures a method's error.
-
-        By default those of the family's independent conditions.
+        """Return the residuals of one order whose 2-norm measures a method's error.  By default these are the
+        residuals of the independent conditions.
         """
         return self.residuals(method, ring, self.conditions(order))
 
@@ -203,11 +204,11 @@ class Family(ABC):
         return tableau.read_as(self.formats)
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method that is no member of the family."""
+        """Raise :class:`~orderconds.errors.InputError` for a method that is not a member of the family."""
         return
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which to check a file without claims whose format has the name of this
+        """Return the family in which a file without claims is checked, if its format has the name of this
         family."""
         return self
 
@@ -215,7 +216,7 @@ class Family(ABC):
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return the family with the options in which a file of this tableau should claim an order, or None.
 
-        By default an order may be claimed, and no claim is missed.
+        By default it returns None: a file may claim an order, but need not.
         """
         return None
 
@@ -226,20 +227,19 @@ class Family(ABC):
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the members in which a complete file claims an order, by rising cost."""
+        """Return the variants of this family in which a complete file claims an order, by rising cost."""
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the field evaluations, exponentials and brackets of a step, None if they are not counted.
-
-        By default only the evaluations.
+        """Return the field evaluations, exponentials and brackets of a step, or None if they are not counted.
+        By default only the evaluations are counted.
         """
         from orderconds.tableau.work import evaluations
 
         return evaluations(tableau)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of the methods with a number of stages.
+        """Return the coefficients of the methods with ``stages`` stages.
 
         Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by
         stages alone.
@@ -258,7 +258,8 @@ class Family(ABC):
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order by theorems, from the orders in other families by label; or 0.
+        """Return a lower bound of the order that theorems derive from ``orders`` in other families, by label;
+        or 0.
 
         Families that name this one in :attr:`implies` need not be considered here.
         """
@@ -273,12 +274,13 @@ class Family(ABC):
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions, which for this method imply those of this family; or
+        """Return a family with fewer conditions that imply the conditions of this family for this method, or
         None."""
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the first failing condition if no member of the family has this order, else None."""
+        """Return the first condition that all members violate if no member of the family has this order, else
+        None."""
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
@@ -304,7 +306,7 @@ class Family(ABC):
     def symmetric_family(self, method: Method) -> Family | None:
         """Return a family whose conditions suffice for a symmetric ``method``, or None.
 
-        The caller uses the family with the name of the format.
+        If the result is None, the caller uses the family with the name of the format.
         """
         return None
 
@@ -330,7 +332,7 @@ _UNWRAPPED = Memo(_unwrapped)
 
 
 def expect(method: Method, kind: type[Kind]) -> Kind:
-    """Return ``method``, which is of this kind; TypeError for another one.
+    """Return ``method`` if it is of type ``kind``; otherwise raise TypeError.
 
     >>> from orderconds.tableau import Composition, RungeKutta
     >>> expect(Composition("symmetric-2", (1,)), RungeKutta)

@@ -1,10 +1,10 @@
 """Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0, cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a sum of brackets, and of products with their reverses, as A_i A_j A_k + A_k A_j A_i; these lie in
-the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n and of its reverse differ by the
-factor (-1)^(n+1). There is no other relation, hence one condition for each pair, and for each palindrome of
-odd length (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998)
-317).
+Omega is a sum of brackets and of combinations of products with their reverses, as A_i A_j A_k + A_k A_j A_i.
+All of these terms are elements of the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n
+and of its reverse differ by the factor (-1)^(n+1). There is no other relation. Hence there is one condition
+for each pair of a word and its reverse, and one for each palindrome of odd length (Iserles, Found. Comput.
+Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the lesser of each word and its reverse, without words of even length that equal it."""
+        """Return the lesser of each word and its reverse, without palindromes of even length."""
         return tuple(
             word
             for word in self.words(order)

@@ -1,9 +1,9 @@
 """Commutator-free methods: each stage and the update is a product of exponentials of combinations of stages.
 
-exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, the first acting first; stage i alike with alpha_iJj
-(Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage that starts from another stage begins with the
-exponentials of that stage. In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j
-a_ij.
+The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
+first. Stage i has the same form with alpha_iJj (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage
+that starts from another stage begins with the exponentials of that stage. In printed conditions b_j = sum_J
+beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Commutator-free methods; of a tableau (A, b) the order is the Crouch-Grossman one."""
+        """Return the family for commutator-free methods. The order of a tableau (A, b) is that of ``cg``."""
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -81,7 +81,8 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
 
 def exponentials(method: Method) -> list[Exponentials]:
-    """Return the exponentials from y0 to each stage and, last, to the step; rows over all stages.
+    """Return the exponentials from y0 to each stage and, as the last entry, to y1. Each exponential is a row
+    of coefficients of all stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
@@ -96,9 +97,8 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the coefficients in formulas, filled with zeros.
-
-    These are alpha_iJj and beta_Jj, their sums over exponentials a_ij and b_j, and c_i = sum_j a_ij.
+    """Return the coefficients that occur in formulas, with zeros for missing entries.  These are alpha_iJj
+    and beta_Jj, their sums over exponentials a_ij and b_j, and c_i = sum_j a_ij.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

@@ -1,7 +1,8 @@
 """Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h).
 
-Letter k is X_k in A(t) = X_1 + t X_2 + ... and has weight k; the exact values are iterated integrals
-(Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230 (2011) 5930).
+Letter k denotes X_k in A(t) = X_1 + t X_2 + ... and has weight k. The values of the exact flow are iterated
+integrals (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230
+(2011) 5930).
 """
 
 from __future__ import annotations
@@ -89,7 +90,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of random exponentials over random nodes, ``order`` of each."""
+        """Return products of ``order`` random exponentials over ``order`` random nodes."""
         return random_product(ring, generator, order, "exp")
 
 

@@ -1,6 +1,7 @@
 """Crouch-Grossman methods: exp(h b_s k_s) ... exp(h b_1 k_1) y0, stages alike with a_ij (HLW IV.8.1).
 
-The first stage acts first, in the stages and in the update; exponentials with coefficient zero are left out.
+Stage i has the same form with a_ij instead of b_j. The exponential of the first stage acts first, in the
+stages and in the update. Exponentials with coefficient zero are left out.
 """
 
 from __future__ import annotations
@@ -54,7 +55,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Tableaux (A, b)."""
+        """Return the family for tableaux (A, b)."""
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
@@ -87,7 +88,8 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
     """Whether a tableau read as a Crouch-Grossman method is proved to be symmetric.
 
-    A variational method is symmetric if its discrete Lagrangian is, that is, if the paths to the stages are.
+    A variational method is symmetric if its discrete Lagrangian is symmetric, that is, if the products of
+    exponentials that lead to the stages are symmetric.
 
     >>> from orderconds.tableau import find
     >>> triple_jump = Tableau.load(find("triple_jump"))

@@ -1,9 +1,9 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi.
 
-Phi_h = exp(h X_1 + h^2 X_2 + ...), X_1 is the field itself, and letter k has weight k; in Phi_{alpha h} it
-has the value alpha^k, in the adjoint Phi*_{beta h} the value -(-beta)^k. The exact flow has 1/n! on the word
-of n letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999)
-1079).
+Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the field itself. Letter k denotes X_k and has weight k. Its
+value is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint Phi*_{beta h}. The exact flow has 1/n! on the
+word of n letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357
+(1999) 1079).
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 class CompositionFamily(WordFamily):
     """Compositions Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h} of any basic method.
 
-    For a composition of symmetric methods X_2, X_4, ... vanish.
+    If the basic method is symmetric, then X_2, X_4, ... vanish.
 
     >>> for condition in CompositionFamily().conditions(2):
     ...     print(condition.tree, condition)
@@ -67,7 +67,7 @@ class CompositionFamily(WordFamily):
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return 1/n! where every letter is 1, else 0."""
+        """Return 1/n! for a word of n letters 1, else 0."""
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
@@ -104,7 +104,7 @@ class CompositionFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Every composition."""
+        """Return the family for every composition."""
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
@@ -112,11 +112,13 @@ class CompositionFamily(WordFamily):
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the family of symmetric compositions, because a search uses palindromic steps."""
+        """Return the family of symmetric compositions, because a search considers only palindromic step
+        sizes."""
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return compositions with random steps, half as many pairs as conditions up to ``order``."""
+        """Return compositions with random steps; the number of pairs is half the number of conditions up to
+        ``order``."""
         pairs = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         alpha, beta = (tuple(ring.random(generator) for _ in range(pairs)) for _ in range(2))
         return AdjointComposition(alpha, beta)

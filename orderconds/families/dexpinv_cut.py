@@ -1,10 +1,11 @@
-"""Families that cut dexpinv after the power r, their option ``cutoff``; without it there is no cut.
+"""Families that cut the series of dexpinv after the power r, their option ``cutoff``; None: no cut.
 
-Without a cut, RKMK and VRKMK are the Runge-Kutta method and its symplectic partner in coordinates of the
-first kind, and have their order (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1). The error
-of the cut is of order h^(r+3). For even r >= 2, B_(r+1) = 0, so that the cut after r is the cut after R = r +
-1. Hence the order is min(p, R + 2) (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). A cut
-changes only the values of trees with long words.
+Without a cut, RKMK and VRKMK are the Runge-Kutta method and its symplectic partitioned method in coordinates
+of the first kind, and have the orders of these methods (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen,
+Section 3.4.1). The error of the cut is of order h^(r+3). For even r >= 2, B_(r+1) = 0, so the cuts after r
+and after R = r + 1 are equal. For other r let R = r. The order is min(p, R + 2), where p is the order without
+the cut (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). A cut changes only the values of trees
+with long words.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The cut-offs for which a complete file claims orders, while the order rises."""
+"""The cut-offs for which a complete file claims orders, as long as the order rises with the cut-off."""
 
 
 class DexpinvCut(Family):
@@ -41,7 +42,7 @@ class DexpinvCut(Family):
 
     @abstractmethod
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word whose value enters that of a tree or forest."""
+        """Return the length of the longest word on whose value the value of a tree or forest depends."""
 
     def label(self) -> str:
         """Return ``rkmk(r)``, or ``rkmk`` when dexpinv is not cut."""
@@ -52,7 +53,7 @@ class DexpinvCut(Family):
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the members with few brackets."""
+        """Return the variants with few brackets."""
         return tuple(type(self)(cutoff) for cutoff in CLAIMED)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -60,7 +61,7 @@ class DexpinvCut(Family):
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return min(p, R + 2), p the order of the method without brackets."""
+        """Return min(p, R + 2), where p is the order of the method without brackets."""
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
 

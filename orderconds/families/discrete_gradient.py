@@ -1,8 +1,8 @@
 """Discrete gradient methods on groups: the tableau is a quadrature rule for the mean differential of H.
 
-They keep the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, thesis,
-NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order two if also sum_i b_i c_i
-= 1/2. It has no higher order, because the bivector is evaluated at the midpoint.
+The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and
+manifolds*, thesis, NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order two
+if also sum_i b_i c_i = 1/2. It has no higher order, because the bivector is evaluated at the midpoint.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Elementary weights of rooted trees as index sums, and the conditions on them.
 
-A tree with directed edges or coloured vertices has edges of two kinds, for a_ij and ahat_ij.
+In a tree with directed edges or coloured vertices, an edge has one of two kinds, for a_ij and ahat_ij.
 """
 
 from __future__ import annotations
@@ -50,7 +50,8 @@ def weight(tree: DirectedTree, weights: str = "b") -> Formula:
 def elementary_weight(
     tree: TreeT, below: Callable[[TreeT], Iterable[tuple[int, TreeT]]], weights: str
 ) -> Formula:
-    r"""Return the same for a tree of any encoding with ``len``; ``below`` gives edge kinds and subtrees.
+    r"""Return the elementary weight of a tree in any encoding with ``len``; ``below`` returns edge kinds and
+    subtrees.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children
@@ -68,7 +69,8 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree, with its relation where the root may move.
+    """Return the condition ``weight = 1/gamma`` of each tree, with a relation if another choice of the root
+    implies it.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -101,9 +103,8 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Sum ``factors`` times the stage value of a tree, at the last index, over the indices.
-
-    The formula is built directly: equal subtrees give equal factors.
+    """Return the sum over ``indices`` of ``factors`` times the stage value of a tree at the last index.  The
+    formula is built directly: equal subtrees have equal factors.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

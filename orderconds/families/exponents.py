@@ -1,6 +1,7 @@
 """Exponents of methods for Y' = A(t) Y as series of words, from A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k.
 
-Letter k is X_k, the coefficient of t^(k-1) in A, and has weight k; words are in the order of action.
+Letter k denotes X_k, the coefficient of t^(k-1) in A, and has weight k. The letters of a word are in the
+order of action.
 """
 
 from __future__ import annotations
@@ -31,10 +32,11 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return the values on words, not empty, of each exponent of a method, the first acting first.
+    """Return the values of each exponent of a method on non-empty words; the exponent that acts first comes
+    first.
 
-    Elements are not expanded in products of nodes: the value of a bracket is a sum over all ways to cut the
-    word in two, and each value is computed once.
+    Brackets are not expanded in products of nodes. The value of a bracket on a word is a sum over all
+    divisions of the word into two parts, and each value is computed once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

@@ -1,4 +1,4 @@
-"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), F_1 = sum_i b_i A_i acting last and F_2 made of brackets.
+"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), with brackets only in F_2. F_1 = sum_i b_i A_i acts last.
 
 Conditions on letters are those of a quadrature for F_1. Conditions on longer Lyndon words compare the
 logarithm F_2 = sum_{ij} phi_ij A_j A_i + ... of the other factors with that of exp(-F_1) Y (Fer 1958;

@@ -100,7 +100,7 @@ class MagnusFamily(WordFamily):
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of random exponentials over random nodes, ``order`` of each."""
+        """Return products of ``order`` random exponentials over ``order`` random nodes."""
         return random_product(ring, generator, order, self.transform)
 
 

@@ -1,8 +1,8 @@
 """Prove that there is a method near rounded decimals, by interval Newton on its order conditions.
 
-A file's ``[proof]`` table (:mod:`orderconds.tableau.unknowns`) names equations for its decimals. Krawczyk's
-operator proves that exactly one solution lies within a unit of their last digits, and encloses it
-(:mod:`orderconds.proof.krawczyk`); the equations are all independent conditions of a family, or fewer by a
-verified reduction (:mod:`orderconds.proof.equations`); theorems on orders in different families are in
-:mod:`orderconds.proof.implications`.
+A file's ``[proof]`` table (:mod:`orderconds.tableau.unknowns`) names equations for the decimals of the file.
+Krawczyk's operator proves that exactly one solution lies within one unit of the last digits of the decimals,
+and encloses the solution (:mod:`orderconds.proof.krawczyk`). The equations are all independent conditions of
+a family, or a subset that a verified reduction allows (:mod:`orderconds.proof.equations`). Theorems on orders
+in different families are in :mod:`orderconds.proof.implications`.
 """

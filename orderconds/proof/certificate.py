@@ -1,4 +1,5 @@
-"""The proof of one file: the enclosed solution, its orders, and the distance of the decimals from it."""
+"""The proof of one file: the enclosed solution, its orders, and its distance from the decimals of the
+file."""
 
 from __future__ import annotations
 
@@ -23,7 +24,7 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Misrounded:
-    """A decimal that is not the rounded solution: its name, the given digits, the correct digits."""
+    """A decimal of a file that is not the correctly rounded solution: name, given digits, correct digits."""
 
     name: str
     given: str
@@ -37,9 +38,10 @@ class Misrounded:
 class Certificate:
     """A proved solution near the decimals of a file.
 
-    ``tableau`` has its coefficients, over balls; ``facts`` the orders that the equations imply. ``radius``
-    bounds the distance of every decimal from the solution; ``printed`` bounds that of each number printed in
-    the source. ``misrounded`` names the decimals that are not the solution rounded to their last digit.
+    ``tableau`` has the coefficients of the solution, over balls. ``facts`` are the orders that the equations
+    imply. ``radius`` bounds the distance of every decimal from the solution. ``printed`` bounds the distance
+    of each number printed in the source from the solution. ``misrounded`` names the decimals that are not the
+    solution rounded to their last digit.
     """
 
     tableau: Tableau
@@ -80,7 +82,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A tableau, compared by the data of its proof, so that several families share one proof."""
+    """A tableau as a cache key. Tableaux with the same data for a proof are equal, so families share one
+    proof."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -165,7 +168,7 @@ def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
 
 
 def _decimal(value: fmpq, unit: fmpq) -> str:
-    """Return a multiple of ``unit``, a power of ten, with the digits down to it."""
+    """Return ``value`` in decimal notation; it is a multiple of ``unit``, which is a power of ten."""
     places = len(str(unit.q)) - 1
     return f"{Decimal(int((value / unit).p)).scaleb(-places):f}" if places else str(value)
 

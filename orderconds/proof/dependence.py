@@ -1,7 +1,8 @@
 """Search modulo primes for dependent conditions of a sub-family, and lift the combinations to fractions.
 
-Nothing in this module is a proof. A rank modulo a prime can be too small, and a coefficient may be divisible
-by the prime; :class:`orderconds.proof.exact_member.ExactMember` verifies each combination without primes.
+Nothing in this module is a proof. A rank modulo a prime can be too small, and the numerator or denominator of
+a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember` verifies each
+combination in exact arithmetic.
 """
 
 from __future__ import annotations
@@ -27,28 +28,31 @@ FIRST = 40
 """The initial number of random members; most sub-families have few conditions."""
 
 SPARE = 24
-"""Additional random members, so that a dependence is not accidental."""
+"""The number of additional random members, which make an accidental dependence improbable."""
 
 PRIME_BITS = 61
-"""Size of the primes: products of residues fit in flint's words, and small fractions need one prime."""
+"""The size of the primes. Products of residues fit in a machine word, and one prime determines small
+fractions."""
 
 MAX_PRIMES = 24
-"""How many primes are tried. They do not suffice for combinations with larger coefficients."""
+"""The largest number of primes. Combinations with larger coefficients would need more primes."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
-"""For a dependent condition, its combination of monomials; a coefficient is x + y sqrt(d)."""
+"""A dependent condition as a combination of monomials; each coefficient is x + y sqrt(d)."""
 
 
 @dataclass(frozen=True)
 class Dependences:
-    """The independent conditions, and the others as combinations of these modulo several primes."""
+    """The independent conditions, and the dependent ones as combinations of the former modulo several
+    primes."""
 
     pivots: tuple[OrderCondition, ...]
     primes: tuple[int, ...]
     residues: tuple[Residues, ...]
 
     def combinations(self) -> Iterator[tuple[OrderCondition, Combination | None]]:
-        """Yield each dependent condition with its combination over Q, or None if more primes are needed."""
+        """Yield each dependent condition with its combination over Q, or with None if more primes are
+        needed."""
         for condition in self.residues[0]:
             yield condition, self._lifted(condition)
 
@@ -115,7 +119,8 @@ def _modulo(
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
     """Return the independent conditions and the combinations modulo one prime.
 
-    With a square root, combine the results for both roots into rational parts; None if their pivots differ.
+    If there is a square root, the results for both signs of the root are combined into rational parts. Return
+    None if the independent conditions for the two signs differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -202,7 +207,8 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """Samples with random numbers for radicals, except for a lone square root, which is ``square_root``."""
+    """Samples in which radicals are random numbers, except for a lone square root, which is
+    ``square_root``."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -210,13 +216,13 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return a random number, the same for the same radical, or the lone square root."""
+        """Return the lone square root, or a random number that depends only on the radical."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))
 
     def named_root(self, minpoly: Any, near: Any, unit: Any, name: str) -> Sample:
-        """Return a random number, the same for the same name."""
+        """Return a random number that depends only on the name."""
         return self._drawn(name)
 
     def _drawn(self, key: object) -> Sample:

@@ -1,7 +1,8 @@
 """The equations that the decimals of a file solve, and the orders of their solution.
 
-Without a reduction they are all independent conditions of one family. A reduction needs fewer equations. Its
-assumptions are verified exactly, from the formulas in the file and not from its decimals:
+Without a reduction the equations are all independent conditions of one family. With a reduction there are
+fewer equations. The assumptions of a reduction are verified exactly, from the formulas in the file and not
+from its decimals:
 
 ``symmetric``    a palindromic composition of a symmetric method: its order is even, and only conditions of
 odd order are needed, one for each Lyndon word in the letters 1, 3, 5,
@@ -17,12 +18,12 @@ odd order are needed, one for each Lyndon word in the letters 1, 3, 5,
 ``spelling``     coefficients given by formulas in others define a sub-family, in which some of the
                  conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
-2N schemes. With y_j, k_j, f_j the values of Y_j, K_j, F(Y_j) on a word or tree, k_j = A_j k_{j-1} + f_j and
-y_{j+1} = y_j + B_j k_j on single trees, D_j = y_j(t) k_j(u) - y_j(u) k_j(t) is not changed by y_j ->
-y_{j+1}, so it obeys D_j = A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t): the recursion of k_j on a
+2N schemes. Let y_j, k_j, f_j be the values of Y_j, K_j, F(Y_j) on a word or tree. On single trees, k_j = A_j
+k_{j-1} + f_j and y_{j+1} = y_j + B_j k_j. Let D_j = y_j(t) k_j(u) - y_j(u) k_j(t). Replacing y_j by y_{j+1}
+does not change D_j, so D_j = A_j D_{j-1} + y_j(t) f_j(u) - y_j(u) f_j(t). This is the recursion of k_j on a
 combination of trees. Hence y(tu) - y(ut), the sum of B_j D_j, is a linear combination of values on single
-trees, the same for every scheme and for the exact flow. The tests confirm, by ranks modulo primes, that no
-condition on longer words is left either: a 2N scheme has as many independent conditions as there are
+trees. The combination is the same for every scheme and for the exact flow. By ranks modulo primes, the tests
+confirm that longer words add no conditions: a 2N scheme has as many independent conditions as there are
 rooted trees.
 """
 
@@ -59,17 +60,16 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """Conditions on words with letters beyond this follow from the others (Gauss nodes)."""
+    """The largest letter in words of independent conditions, for Gauss nodes; None: no bound."""
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions for the reduction ``spelling``."""
 
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
-        """Return left-hand sides minus right-hand sides; ``point`` are the values of the unknowns in
-        ``ring``.
+        """Return left-hand sides minus right-hand sides, for values ``point`` of the unknowns in ``ring``.
 
-        With ``places``, return only these equations.
+        With ``places``, return only the equations with these indices.
         """
         values = {u.name: x for u, x in zip(self.proof.unknowns, point, strict=True)}
         method, _ = self.proof.over(ring, values)
@@ -111,7 +111,7 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 
 
 def equations(tableau: Tableau) -> Equations:
-    """Return the equations that the proof of a tableau names; its reduction is verified here.
+    """Return the equations that the proof of a tableau names, after verification of the reduction.
 
     Raises :class:`NotProved` where the reduction does not apply, :class:`InputError` for an unknown family.
 
@@ -209,7 +209,7 @@ def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
     Equations that look constant over a box are evaluated exactly, with random numbers for the unknowns
-    (:mod:`orderconds.tableau.random_member`); those with the value zero are left out. ``values`` are jets
+    (:mod:`orderconds.tableau.random_member`); equations with the value zero are left out. ``values`` are jets
     over the box.
 
     >>> from flint import arb

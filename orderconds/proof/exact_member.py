@@ -1,7 +1,7 @@
 """Exact values of conditions at one random member of the sub-family of a file, to verify combinations.
 
-The member is that of :mod:`orderconds.tableau.random_member`, over Q, or over Q(sqrt(d)) where the square
-root of a rational is the only radical of the file.
+The module :mod:`orderconds.tableau.random_member` draws the member. Its coefficients are in Q, or in
+Q(sqrt(d)) if the square root of a rational number is the only radical of the file.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Reading = Callable[[Method, Ring], Method]
 """A function from the method of a file over a ring to the method that a family evaluates."""
 
 Monomial = tuple[OrderCondition, ...]
-"""The product of the left-hand sides of conditions."""
+"""Conditions; the monomial is the product of their left-hand sides."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """Monomials with their coefficients x + y sqrt(d)."""
@@ -37,7 +37,8 @@ Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 
 @dataclass(frozen=True)
 class Surd:
-    """The square root of a rational number that is the only radical of a file, in the field it generates."""
+    """A square root of a rational number, the only radical of a file, as an element of the field it
+    generates."""
 
     radicand: Fraction
     ring: Ring
@@ -45,7 +46,7 @@ class Surd:
 
 
 def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
-    """Return the only radical of a file if it is the square root of an exact rational, else None.
+    """Return the only radical of a file if it is the square root of an exact rational number, else None.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["sqrt(12)"]\\n'
@@ -84,7 +85,8 @@ class ExactMember:
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Whether a combination equals the left-hand side at this member, and gives the right-hand side.
+        """Whether a combination equals the left-hand side at this member, and the right-hand side at the
+        exact flow.
 
         Then ``condition`` follows from the conditions in the combination, at every member.
         """
@@ -110,7 +112,7 @@ def exact_member(
 ) -> ExactMember | None:
     """Return a random member of the sub-family that ``symbolic`` describes.
 
-    None if it cannot be evaluated: its numbers grow too large, or a divisor is zero.
+    Return None if the member cannot be evaluated because its numbers grow too large or a divisor is zero.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions

@@ -1,7 +1,7 @@
 """Theorems that derive the order in one family from proved orders in others, with their sources.
 
 A fact is (label of a family, order). ``cg`` 4 implies ``rk`` 4, since a vector space is a group. The theorems
-belong to the families: :attr:`~orderconds.families.Family.implies` and
+are attributes and methods of the families: :attr:`~orderconds.families.Family.implies` and
 :meth:`~orderconds.families.Family.implied_order`.
 """
 
@@ -56,8 +56,9 @@ def consequences(facts: Iterable[Fact]) -> dict[str, int]:
 def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) -> int | None:
     """Return the order in ``family`` if theorems determine it, else None.
 
-    ``facts`` are lower bounds, ``orders`` exact orders by label: the order in a family is at most that in any
-    family whose conditions are a subset of its own.
+    ``facts`` are lower bounds of orders; ``orders`` are exact orders by label. Upper bounds come from
+    families whose conditions are a subset of those of ``family``: the order in ``family`` is at most the
+    order in such a family.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -4,9 +4,10 @@ For F: R^n -> R^n, a box X with midpoint x and any matrix Y,
 
     K(X) = x - Y F(x) + (I - Y F'(X)) (X - x).
 
-If K(X) lies in the interior of X, then F has one and only one zero in X, it lies in K(X), and F' is regular
-on X: the equations have full row rank there (Krawczyk 1969; Neumaier, *Interval Methods for Systems of
-Equations*, Theorem 5.1.8). Repeated, K encloses the zero to the working precision, quadratically.
+If K(X) lies in the interior of X, then F has exactly one zero in X. This zero lies in K(X), and F' is regular
+on X, so the equations have full row rank there (Krawczyk 1969; Neumaier, *Interval Methods for Systems of
+Equations*, Theorem 5.1.8). Repeated application of K encloses the zero to the working precision, with
+quadratic convergence.
 """
 
 from __future__ import annotations
@@ -19,7 +20,8 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""n functions of n variables, from jets of the variables, and their ring, to jets of the values."""
+"""A system of n functions of n variables: maps jets of the variables, and the ring of jets, to jets of the
+values."""
 
 MAX_SWEEPS = 40
 
@@ -29,7 +31,7 @@ class NotProved(Exception):
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls, about as narrow as ``bits`` allow, around the one zero of ``system`` in ``box``.
+    """Return balls around the only zero of ``system`` in ``box``, about as narrow as ``bits`` allow.
 
     Raises :class:`NotProved` where Krawczyk's operator does not map the box into its interior.
 
@@ -81,7 +83,7 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return the midpoints of the inverse; raises :class:`NotProved` for a singular matrix.
+    """Return a matrix of the midpoints of the inverse; raises :class:`NotProved` for a singular matrix.
 
     >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True

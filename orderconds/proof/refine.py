@@ -1,7 +1,8 @@
 """Newton's method in high precision, starting from the digits printed in a source.
 
-If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects those
-that the equations determine best. The others are pinned: they keep their printed digits exactly.
+If there are more decimals than equations, elimination on the Jacobian with complete pivoting selects the
+decimals that the equations determine best. The other decimals are pinned: they keep their printed digits
+exactly.
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ TOLERANCE = fmpq(1, 100)
 
 @dataclass(frozen=True)
 class Refined:
-    """New ``decimals`` by name, the names that were ``pinned``, and the text of the file with them."""
+    """New ``decimals`` by name, the names of ``pinned`` decimals, and the text of the file with the new
+    decimals."""
 
     decimals: dict[str, str]
     pinned: tuple[str, ...]
@@ -38,9 +40,10 @@ class Refined:
 
 
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
-    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and the pins it needs.
+    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and with the pinned
+    decimals.
 
-    The digits that were there are recorded as ``printed``, unless the file has such a record. Raises
+    The original digits are recorded as ``printed``, unless the file already has a table of this name. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` where Newton's method does not converge nearby.
 
     >>> from orderconds.tableau import find
@@ -73,7 +76,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Return the unknowns that elimination with complete pivoting solves for, in rising order.
+    """Return the indices of the unknowns that elimination with complete pivoting selects, in rising order.
 
     Each row is scaled by its largest entry.
 
@@ -139,7 +142,7 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequence[str]) -> str:
-    """Return the file with new digits for old ones, pins and printed digits recorded under ``[proof]``."""
+    """Return the file with the new digits, and with pins and printed digits recorded under ``[proof]``."""
     record = dict[str, str]()
     for unknown in proof.unknowns:
         if unknown.name not in decimals:
@@ -190,14 +193,14 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the number of that name with the decimals of the file."""
+    """Return the value of the number ``name`` for the decimals of the file, as text."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
     value = at.number(name, cast("RootedRing", QQ), {})  # a decimal has no radicals
     return _decimal_text(Fraction(int(value.p), int(value.q)))
 
 
 def _decimal_text(x: Fraction) -> str:
-    """Return a rational as a decimal if it is finite, else as a fraction.
+    """Return a rational number as a decimal if the expansion is finite, else as a fraction.
 
     >>> _decimal_text(Fraction(-1, 8)), _decimal_text(Fraction(1, 3))
     ('-0.125', '1/3')

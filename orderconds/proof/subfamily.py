@@ -1,15 +1,15 @@
 """Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
-Coefficients given by formulas in others, as ``b3 = "1 - b1 - b2"``, restrict a family to a sub-family, in
-which fewer of its conditions are independent. A condition is left out if its value, at every member of the
-sub-family and at the exact flow, is one combination of kept conditions of its order and of products of kept
-conditions of lower order. It then holds where the kept conditions hold.
+Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of others. They restrict a family to a
+sub-family, in which fewer conditions of the family are independent. A condition is left out if its value is a
+fixed combination of kept conditions of its order and of products of kept conditions of lower order, at every
+member of the sub-family and at the exact flow. Such a condition holds wherever the kept conditions hold.
 
 Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each one is
 then verified exactly at a member drawn from a digest of the file (:mod:`orderconds.proof.exact_member`). A
-condition without a verified combination is kept. So is one whose left-hand side is constant, unless exact
-arithmetic finds it equal to its right-hand side. If a file has several radicals, they are random numbers too.
-The sub-family is then larger and the statement stronger.
+condition without a verified combination is kept. A condition with a constant left-hand side is also kept,
+unless exact arithmetic finds it equal to the right-hand side. If a file has several radicals, random numbers
+replace them. The sub-family is then larger and the statement stronger.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def independent_conditions(
 
 
 def decisive_conditions(family: Family, order: int) -> list[tuple[OrderCondition, ...]]:
-    """Return conditions that imply all up to ``order``, for every method of the family, by order.
+    """Return, by order, conditions that imply all conditions up to ``order`` for every method of the family.
 
     >>> from orderconds import families
     >>> [len(of_order) for of_order in decisive_conditions(families.get("vcg"), 3)]

@@ -1,15 +1,16 @@
-"""Tableaux with equal abscissae, c_i = chat_i = m_i; m_i is the time at which the update passes stage i.
+"""Tableaux with equal abscissae, c_i = chat_i = m_i, where m_i is the time at which the update passes stage
+i.
 
 A stage of a variational method on a group has three abscissae: c_i for the position q, chat_i for the forces
 on the momentum, and m_i, at which Ad* carries the momentum through the update,
 
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j,
 
-for Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain
-sum_i b_i x_i y_i = 1/3 for every two of them, hence sum_i b_i (c_i - m_i)^2 = 0, and the same for chat. If
-the weights are positive, the three abscissae are equal; in practice they are equal in other solutions too.
-Given the update, row i of A then sums to m_i and the weighted column j to b_j (1 - m_j). This transport
-problem is solved along a spanning tree of the free entries.
+For Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i
+x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0, and likewise for
+chat. If the weights are positive, the three abscissae are equal. In practice they are equal in other
+solutions too. For a given update, row i of A then sums to m_i, and the weighted column j sums to b_j (1 -
+m_j). This transport problem is solved along a spanning tree of the free entries.
 """
 
 from __future__ import annotations
@@ -56,8 +57,8 @@ def _sum(row: Sequence[str]) -> str:
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
     """Return the entries of A that its row sums m_i and weighted column sums b_j (1 - m_j) determine.
 
-    ``b`` are the texts of the weights; ``fixed`` maps entries to their values. Raises
-    :class:`~orderconds.errors.InputError` if the other entries do not connect all rows and columns.
+    ``b`` are the texts of the weights. ``fixed`` maps the entries with known values to these values. Raises
+    :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -81,7 +82,8 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return entries that connect the s rows and s columns; prefer those of the last row and column."""
+    """Return entries that connect the s rows and s columns; entries of the last row and column are
+    preferred."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):
@@ -113,9 +115,9 @@ def symmetric_transport(
     """Return the entries of x, the sums of each stage's own exponents, that the abscissae determine.
 
     The method is symmetric (:mod:`orderconds.solve.paths`). ``own`` are the rows x_i of the stages before the
-    middle; stage i branches off ``update`` after ``leave[i]`` exponentials. ``middle`` is the row of a middle
-    stage, if there is one. With j' = s + 1 - j, column j gives the equation sum_i b_i (x_ij - x_ij') = C_j,
-    which is solved for the last row of ``own``. Each row equation is solved for one entry.
+    middle. Stage i branches off ``update`` after ``leave[i]`` exponentials. ``middle`` is the row of a middle
+    stage, if there is one. Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j; it
+    is solved for the last row of ``own``. Each row equation is solved for one entry.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

@@ -1,8 +1,8 @@
 """An ansatz: a tableau file whose decimals are the unknowns of a search.
 
-The coefficients of a family with a number of stages, named a21, b1, ... and related by constraints, are
-written as a file. The same text is then evaluated over recorded programs for the search, modulo primes for
-ranks, and over balls for the proof.
+The file contains the coefficients of a method with a given number of stages, named a21, b1, ... and related
+by constraints. It is evaluated over recorded programs for the search, modulo primes for ranks, and over balls
+for the proof.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Ansatz:
     tail: tuple[str, ...] = ()
 
     def text(self, values: Mapping[str, str], head: Sequence[str] = (), foot: Sequence[str] = ()) -> str:
-        """Return the file with these texts for the free coefficients."""
+        """Return the file in which the free coefficients have these values as text."""
         texts = {**{name: values[name] for name in self.free}, **self.numbers}
         numbers = [f'{name} = "{texts[name]}"' for name in sorted(texts, key=_place)]
         table = ["", "[numbers]", *numbers] if numbers else []
@@ -54,7 +54,7 @@ class Ansatz:
         return proof.symbolic
 
     def method(self, values: Sequence[Element], ring: RootedRing) -> Method:
-        """Return the method with these elements of a ring for the free coefficients."""
+        """Return the method in which the free coefficients have these values in ``ring``."""
         symbolic = self._symbolic
         known = {u.constant: x for u, x in zip(symbolic.decimals(), self._sorted(values), strict=True)}
         return symbolic.method(ring, known)[0]

@@ -1,10 +1,10 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-First, coefficients that the equations do not determine are rounded to short decimals. The others are computed
-again to high precision by Newton's method in balls. If they are algebraic numbers of one field, recognised by
-lattice reduction, the file has closed forms and its order is checked exactly. Otherwise its decimals are
-unknowns of the conditions that are independent for the ansatz (reduction ``spelling``), and interval
-arithmetic proves them.
+First, coefficients that the equations do not determine are rounded to short decimals. The other coefficients
+are computed again to high precision by Newton's method in balls. If lattice reduction recognises them as
+algebraic numbers of one field, the file has closed forms and its order is checked exactly. Otherwise the
+decimals in the file are unknowns of the conditions that are independent for the ansatz (reduction
+``spelling``). Interval arithmetic then proves that these conditions have a solution near the decimals.
 """
 
 from __future__ import annotations
@@ -46,19 +46,20 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Free coefficients are rounded to multiples of one of these: the coarsest with a good solution."""
+"""Free coefficients are rounded to multiples of one of these units, the coarsest that leaves a good
+solution."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The same after the principal error was minimised; near a minimum, rounding hardly changes it."""
+"""The units after the principal error was minimised. Near a minimum, rounding hardly changes the error."""
 
 DIGITS = 50
 """Decimal places of a coefficient in the file."""
 
 BITS = 1400
-"""Working precision of Newton's method in bits; lattice reduction needs it this high."""
+"""Working precision of Newton's method in bits, as high as lattice reduction needs it."""
 
 WORSE = 1.5
-"""A rounded solution may have larger coefficients, and a larger principal error, by this factor."""
+"""The factor by which rounding may increase the largest coefficient and the principal error."""
 
 
 @dataclass(frozen=True)
@@ -121,8 +122,8 @@ def _rounded_free(
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Solve for some coefficients, with the others fixed; return the solution near ``start`` and its residual
-    norm."""
+    """Solve for the coefficients ``solved``, with the others fixed, and return the solution near ``start``
+    with its residual norm."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)
@@ -137,7 +138,7 @@ def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple
 
 
 def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
-    """Return the largest coefficient and, where it is cheap, the principal error."""
+    """Return the largest coefficient and, if it is cheap to compute, the principal error."""
     size = float(np.abs(problem.coefficients.values(point[None])).max())
     if problem.order > CHEAP:
         return (size,)
@@ -154,7 +155,7 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 
 def determined(slopes: Floats) -> list[int]:
-    """Return the unknowns that elimination with complete pivoting solves for, in rising order.
+    """Return the indices of the unknowns that elimination with complete pivoting selects, in rising order.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -177,9 +178,9 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Return the unknowns to nearly :data:`BITS` bits, by Newton's method on as many equations.
+    """Return the unknowns to nearly :data:`BITS` bits, by Newton's method on an equal number of equations.
 
-    Raises NotProved where it does not converge.
+    Raises NotProved if Newton's method does not converge.
     """
     trace = problem.trace()
     operations = trace[0].ring.operations if trace else []
@@ -238,7 +239,7 @@ def _roots(forms: dict[str, ClosedForm]) -> list[str]:
 
 
 def _exact(problem: Problem, text: str, source: str) -> Solution | None:
-    """Return the solution with exact coefficients, or None if it does not have the order."""
+    """Return the solution with exact coefficients, or None if the method does not have the required order."""
     tableau = Tableau.loads(text)
     label = problem.ansatz.family
     report = check(tableau, label, problem.order)

@@ -1,7 +1,7 @@
 """Recognise numbers known to many digits as elements of one number field, by lattice reduction.
 
-A real number near a root of a polynomial with small integer coefficients shows as a short vector of the
-lattice spanned by (e_k, N x^k), with N large (Lenstra, Lenstra and Lovasz 1982). The result is a guess,
+If a real number x is near a root of a polynomial with small integer coefficients, the lattice spanned by
+(e_k, N x^k), with N large, has a short vector (Lenstra, Lenstra and Lovasz 1982). The result is a guess,
 which the caller has to verify in the field.
 """
 
@@ -22,12 +22,13 @@ MAX_DEGREE = 6
 """The highest degree of a field that is recognised."""
 
 MAX_TEXT = 160
-"""A closed form with more characters is not used."""
+"""The largest number of characters in a closed form; longer ones are not used."""
 
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """A number as text for a tableau file; ``root`` defines the number ``r`` that it refers to."""
+    """The ``text`` of a number in a tableau file. The lines ``root`` define the number ``r`` if the text
+    contains it."""
 
     text: str
     root: tuple[str, ...] = ()
@@ -38,8 +39,8 @@ def closed_forms(
 ) -> dict[str, ClosedForm] | None:
     """Return all of the numbers as elements of one field of degree at most :data:`MAX_DEGREE`, or None.
 
-    ``bits`` is the precision to which the numbers are known. ``radicals`` are expected square roots by their
-    text; they may extend the field of the number of least degree.
+    ``bits`` is the precision to which the numbers are known. ``radicals`` are square roots that the numbers
+    may contain, by their text. They may extend the field that the number of least degree generates.
 
     >>> with precision(400):
     ...     root = arb(3).sqrt()
@@ -73,7 +74,8 @@ def closed_forms(
 def _extended(
     numbers: Mapping[str, arb], polynomials: Mapping[str, fmpz_poly], radicals: Mapping[str, arb], bits: int
 ) -> dict[str, ClosedForm] | None:
-    """Return the numbers in the field of one of them, the simplest, and of the given square roots."""
+    """Return the numbers as elements of the field that the simplest number and the given square roots
+    generate."""
     roots = {"": arb(1), **radicals}
     inside = [name for name, x in numbers.items() if combination(x, list(roots.values()), bits) is None]
     if not inside:
@@ -135,7 +137,7 @@ def combination(x: arb, basis: Sequence[arb], bits: int) -> list[Fraction] | Non
 
 
 def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
-    """Return small integers with sum_k c_k values_k = 0 to the precision, or None."""
+    """Return small integers c_k with sum_k c_k values_k = 0 to the given precision, or None."""
     known = bits - 100
     scale = fmpz(2) ** known
     rows = []

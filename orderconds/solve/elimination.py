@@ -3,7 +3,7 @@
 Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
 method, real or complex. If it contains a polynomial in one coefficient without real roots, counted by Sturm's
 theorem, there is no real method. (The root zero does not count if the family divides by the coefficient.) The
-certificate writes this consequence as a combination of the conditions, which a reader can verify by
+certificate expresses this element of the ideal as a combination of the conditions. A reader can verify it by
 multiplication.
 """
 
@@ -27,23 +27,23 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""A condition with its equation."""
+"""A condition and its left-hand side minus its right-hand side."""
 
 MAX_VARIABLES = 3
-"""Conditions in more coefficients than this are not eliminated."""
+"""The largest number of coefficients in a condition that is used for elimination."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""Conditions with more unknowns, or of a higher order, have polynomials that are too long to expand."""
+"""Limits on unknowns and order; beyond them the polynomials of the conditions are too long to expand."""
 
 MAX_DEGREE = 8
-"""Degree of the multipliers in a certificate."""
+"""The highest degree of the multipliers in a certificate."""
 
 
 @dataclass(frozen=True)
 class Infeasible:
     """A contradiction: ``consequence`` = sum of ``multipliers`` times ``equations`` has no solution.
 
-    The equations are left-hand sides less right-hand sides of ``conditions``, cleared of denominators.
+    The equations are left-hand sides minus right-hand sides of ``conditions``, without denominators.
     """
 
     variables: tuple[str, ...]
@@ -176,7 +176,7 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return multipliers for the consequence, by linear algebra; None where they are too large."""
+    """Return multipliers for the consequence, by linear algebra; None if their degree would be too large."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

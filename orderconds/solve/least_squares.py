@@ -16,7 +16,7 @@ System = Callable[[Floats], tuple[Floats, Floats]]
 """A function of points x n; returns residuals, points x m, and Jacobians, points x m x n."""
 
 SOLVED = 1e-13
-"""A residual norm below this may be a rounding error."""
+"""The residual norm of a solved system; a smaller norm may be a rounding error."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:

@@ -1,6 +1,6 @@
-"""Linear constraints on the coefficients of a tableau, eliminated exactly, one after another. A constraint
-that contradicts earlier ones is refused by name. The result is a set of free coefficients; all others are
-affine functions of these.
+"""Linear constraints on the coefficients of a tableau, eliminated exactly, one after another. If a constraint
+contradicts earlier ones, the error message names it. The result is a set of free coefficients; all other
+coefficients are affine functions of the free ones.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from orderconds.errors import InputError, TableauError
 from orderconds.tableau.grammar import Chain, Constant, Expression, Name, parse
 
 Affine = Mapping[str, Fraction]
-"""Coefficients by name; the constant has the empty name."""
+"""An affine function: its coefficients by the name of the variable; the constant has the empty name."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Constraint:
 
 @dataclass
 class Elimination:
-    """The coefficients ``names``; each constraint expresses one of them by earlier ones.
+    """The elimination of coefficients ``names``; each constraint expresses one of them in terms of others.
 
     >>> elimination = Elimination(("a", "b", "c"))
     >>> elimination.impose([equality("c = a + 1/2"), equality("b = a")])

@@ -20,12 +20,13 @@ if TYPE_CHECKING:
 MAX_STEPS = 400
 RESTORED = 1e-12
 ENOUGH = 1e-7
-"""Stop if the relative decrease is less than this :data:`PATIENCE` times in a row."""
+"""The minimisation ends if the relative decrease is below this value :data:`PATIENCE` times in a row."""
 PATIENCE = 12
 
 
 def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[Floats, float]:
-    """Return a nearby solution of least principal error, and the error; ``point`` solves the conditions.
+    """Return a solution near ``point`` with least principal error, and the error; ``point`` solves the
+    conditions.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem

@@ -23,7 +23,7 @@ from orderconds.solve.spec import Spec, refuse
 
 
 def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
-    """Return the coefficients after a layout's own constraints and those of ``--fix``."""
+    """Return the coefficients after elimination of the constraints of a layout and of ``--fix``."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text) for text in spec.fix]
     for constraint in fixed:
@@ -40,13 +40,14 @@ def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constrai
 
 @dataclass(frozen=True)
 class _Cells:
-    """Coefficients after elimination: the text of each in the file, and the formulas of named numbers."""
+    """Coefficients after elimination: the text of each coefficient in the file, and the formulas of named
+    numbers."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
 
     def written(self, name: str) -> str:
-        """Return a constant, or the name of the number that holds the coefficient."""
+        """Return the text of a coefficient: a constant, or the name of a number in the file."""
         form = self.elimination.cell(name)
         if self.extra and name in self.extra:
             return name
@@ -122,7 +123,7 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
-    """Return the entries of A that are constants; InputError where one depends on others."""
+    """Return the entries of A that are constants. Raises InputError if an entry depends on others."""
     values = {}
     for name in (x for line in A for x in line):
         form = elimination.cell(name)
@@ -141,7 +142,7 @@ def _matrix(rows: Sequence[str]) -> list[str]:
 
 
 def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of stages and an update that are products of exponentials.
+    """Return the ansatz of commutator-free methods: stages and update are products of exponentials.
 
     >>> from orderconds.families import get
     >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
@@ -181,7 +182,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return sums a_ij of exponents with the required abscissae, and the last exponentials of the stages."""
+    """Return formulas for the sums a_ij of exponents with the required abscissae, and for the last
+    exponentials of the stages."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -229,7 +231,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return sums x_ij of each stage's own exponents with the required abscissae, and the last exponents."""
+    """Return formulas for the sums x_ij of the exponents of each stage with the required abscissae, and for
+    the last exponents."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two")
@@ -273,7 +276,7 @@ def _exponentials(rows: Sequence[Sequence[str]], cells: _Cells) -> list[str]:
 
 
 def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of compositions whose steps read the same backwards and sum to one.
+    """Return the ansatz of compositions whose step sizes are palindromic and sum to one.
 
     >>> from orderconds.families import get
     >>> composition(get("composition"), Spec(stages=3), "full", "m").free
@@ -344,7 +347,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
 
 
 def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures of tableaux (A, b) in which a search begins, the most promising first.
+    """Return the structures that a search for tableaux (A, b) tries, the most promising first.
 
     >>> from orderconds.families import get
     >>> [tableau_structures(get(name), Spec(stages=3)) for name in ("vcg", "cg")]
@@ -354,7 +357,7 @@ def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures of commutator-free methods.
+    """Return the structures that a search for commutator-free methods tries, the most promising first.
 
     >>> from orderconds.families import get
     >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))
@@ -367,7 +370,7 @@ def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the one structure of compositions and splittings.
+    """Return the only structure of compositions and splittings.
 
     >>> from orderconds.families import get
     >>> one_structure(get("splitting"), Spec(stages=3))
@@ -381,7 +384,7 @@ class Layout:
     """How the coefficients of one tableau format are parametrised.
 
     ``ansatz`` takes a family, a specification of the method, a structure and a name; ``structures`` returns
-    the structures in which a search begins.
+    the structures that a search tries.
     """
 
     ansatz: Callable[[Family, Spec, str, str], Ansatz]
@@ -415,7 +418,7 @@ def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found"
 
 
 def structures(family: str, spec: Spec) -> tuple[str, ...]:
-    """Return the structures in which a search of this family begins, the most promising first.
+    """Return the structures that a search in this family tries, the most promising first.
 
     >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))

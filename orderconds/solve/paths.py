@@ -1,14 +1,14 @@
-"""The exponentials of commutator-free methods: all coefficients free, or the method symmetric.
+"""The exponentials of commutator-free methods, with free coefficients or for symmetric methods.
 
-Take s stages and m exponentials in the update, and let bar exchange stages j and s + 1 - j. The method is
-symmetric if the update reads the same backwards under bar, and if stages i and s + 1 - i branch off it after
-k and m - k exponentials,
+Let a method have s stages and m exponentials in the update, and let bar exchange stages j and s + 1 - j. The
+method is symmetric under two conditions. Bar and reversal of the order of the exponentials leave the update
+unchanged. Stages i and s + 1 - i branch off the update after k and m - k exponentials,
 
     Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
     Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0,
 
-A step of length -h then undoes a step of length h: the path from y1 to stage s + 1 - i is that from y0 to
-stage i.
+A step of length -h is then the inverse of a step of length h: the exponentials that lead from y1 to stage s +
+1 - i are those that lead from y0 to stage i.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from orderconds.solve.spec import Spec
 
 Path = list[list[str]]
 Paths = tuple[list[Path], Path, list[str], list[Constraint]]
-"""Stages, update, all names, constraints."""
+"""The stages, the update, the names of all coefficients, and the constraints."""
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return stages and update with every coefficient free; an explicit method's first stage is y0.
+    """Return stages and update with every coefficient free; the first stage of an explicit method is y0.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update

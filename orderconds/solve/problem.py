@@ -79,7 +79,7 @@ class Problem:
 
     @cached_property
     def error(self) -> Tape:
-        """Return the residuals of the next order as a program; their 2-norm is the principal error."""
+        """Return a program for the residuals of the next order; their 2-norm is the principal error."""
         ring = Traces(len(self.ansatz.free))
         method = self.ansatz.method(ring.inputs, ring)
         return Tape(self.family.principal_residuals(method, ring, self.order + 1), len(self.ansatz.free))
@@ -94,7 +94,7 @@ class Problem:
 
     @cached_property
     def positive(self) -> tuple[int, ...]:
-        """Return the indices in ``coefficients`` of those that must be positive."""
+        """Return the indices in ``coefficients`` of the coefficients that must be positive."""
         names = self.ansatz.cells
         indices: list[int] = []
         for wish in self.spec.positive:
@@ -108,7 +108,7 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return by how much coefficients exceed their bounds, and the Jacobian."""
+        """Return the violations of the bounds on coefficients, and their Jacobian."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
@@ -124,13 +124,14 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the residuals and the excess over bounds, and their Jacobian, at many points."""
+        """Return the residuals and the violations of bounds, with their Jacobian, at many points."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)
 
     def starts(self, generator: np.random.Generator, count: int) -> Floats:
-        """Return random points, near equal weights and zero other coefficients."""
+        """Return random points near the point at which all weights are equal and other coefficients are
+        zero."""
         free = self.ansatz.free
         weights = [name for name in self.ansatz.cells if name[0] in "bg"]
         mean = np.array([1 / max(len(weights), 1) if name[0] in "bg" else 0.0 for name in free])
@@ -139,7 +140,7 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem, created once in a process.
+    """Return the problem; equal arguments in one process return the same object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

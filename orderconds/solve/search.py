@@ -1,8 +1,8 @@
 """Multistart: batches of random starts, each with its own seed, in one process, in several, or on a cluster.
 
-The result of a batch depends only on the problem, the seed and the number of the batch, and batches are read
-in their order. Therefore the number of processes does not change the result, nor does an interruption.
-Processes receive strings and numbers only, and compile their own programs.
+The result of a batch depends only on the problem, the seed and the number of the batch, and batches are
+evaluated in the order of their numbers. Therefore neither the number of processes nor an interruption changes
+the result. Processes receive strings and numbers only, and compile their own programs.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""How many solutions of a batch are kept, and how many are minimised."""
+"""The number of solutions of a batch that are kept, and the number that are minimised."""
 
 
 CHEAP = 4
@@ -41,12 +41,13 @@ CHEAP = 4
 
 
 SINGULAR = 1e6
-"""Added to the score of solutions with dependent gradients of the conditions, so that they come last."""
+"""A penalty on the score of solutions at which the gradients of the conditions are dependent; they come
+last."""
 
 
 @dataclass(frozen=True)
 class Search:
-    """A search: everything that its result depends on."""
+    """A search: all data on which its result depends."""
 
     family: str
     order: int
@@ -63,15 +64,15 @@ class Search:
 
 
 BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
-"""A batch as plain data: number, least norm, solutions; doubles as hexadecimal text."""
+"""A batch as plain data: number, least norm, solutions. Floating-point numbers are hexadecimal text."""
 
 
 @dataclass(frozen=True)
 class Batch:
     """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
 
-    The score is the principal error or, if that costs too much, the largest coefficient. ``best`` is
-    the least residual norm of all starts.
+    The score is the principal error or, if the error costs too much, the largest coefficient. ``best`` is the
+    least residual norm of all starts.
     """
 
     number: int
@@ -79,7 +80,7 @@ class Batch:
     solutions: tuple[tuple[float, tuple[float, ...]], ...] = ()
 
     def as_json(self) -> BatchRecord:
-        """Return plain data; doubles keep all their bits."""
+        """Return plain data that represent floating-point numbers exactly."""
         solutions = [(s.hex(), [x.hex() for x in p]) for s, p in self.solutions]
         return self.number, self.best.hex(), solutions
 
@@ -126,14 +127,15 @@ def _score(problem: Problem, point: Floats) -> float:
 
 @dataclass
 class Checkpoint:
-    """Finished batches on disk, written atomically; nothing is kept if the path is None."""
+    """Finished batches on disk, written atomically. If the path is None, nothing is written."""
 
     path: Path | None
     search: Search
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read the batches of an interrupted search; raises InputError for those of another search."""
+        """Read the batches of an interrupted search; raises InputError if the file belongs to another
+        search."""
         if self.path is None or not self.path.exists():
             return
         try:
@@ -196,11 +198,11 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield batches 0, 1, ... up to ``count`` in order; batches of the checkpoint are not computed again.
+    """Yield ``count`` batches 0, 1, ... in order; batches in the checkpoint are not computed again.
 
-    The first new batch runs in this process. For the others, more processes or the dask cluster at the
-    address ``cluster``, are started. Raises :class:`~orderconds.errors.InputError` for a cluster that does
-    not answer.
+    With several processes, the first new batch runs in this process and the others in further processes. With
+    ``cluster``, all new batches run on the dask cluster at this address. Raises
+    :class:`~orderconds.errors.InputError` for a cluster that does not answer.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]

@@ -18,14 +18,14 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""Starts in each structure, without and with minimisation of the principal error."""
+"""The number of starts for each structure, without and with minimisation of the principal error."""
 
 
 @dataclass
 class Outcome:
     """The outcome of a search: a method, a proof that there is none, or neither.
 
-    ``best`` is the least residual norm of all starts, ``tried`` describes each attempt in words.
+    ``best`` is the least residual norm of all starts. ``tried`` has a line of text about each attempt.
     """
 
     solution: Solution | None = None
@@ -97,7 +97,7 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the structures that the specification allows; raises InputError where there is none."""
+    """Return the structures that the specification allows; raises InputError if it allows none."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:

@@ -13,8 +13,9 @@ from orderconds.errors import InputError
 class Spec:
     """The specification of a method: the options of ``orderconds solve``.
 
-    ``exponentials`` are those of the update of a commutator-free method, ``inner`` those of each of its
-    stages. ``positive`` are names of coefficients, or of weights as ``b``; ``size`` bounds all coefficients.
+    ``exponentials`` is the number of exponentials in the update of a commutator-free method, ``inner`` the
+    number in each stage. ``positive`` are names of coefficients that must be positive; ``b`` means all
+    weights. ``size`` is a bound on the absolute values of all coefficients.
     """
 
     stages: int

@@ -1,8 +1,8 @@
 """A recorded program compiled for numpy: values and exact Jacobians at many points together.
 
-The operations that the outputs need are sorted into levels, each depending on earlier levels only, so that a
-level takes a few calls of numpy for any number of operations. The Jacobian is computed by forward
-differentiation: every operation carries its gradient.
+The operations that the outputs need are sorted into levels, each depending on earlier levels only. A few
+calls of numpy evaluate a level with any number of operations. The Jacobian is computed by forward
+differentiation: the gradient of each operation is computed with its value.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ class _Level:
     left: Places
     right: Places
     index: Places
-    """Which root."""
+    """The degree of a root operation."""
 
 
 class Tape:
-    """Outputs of a program as a function of its inputs, over doubles.
+    """The outputs of a program as a function of its inputs, in double precision.
 
     ``outputs`` are elements of one ring of traces with ``width`` inputs.
 
