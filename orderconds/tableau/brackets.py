@@ -1,7 +1,7 @@
 """The text of Lie algebra elements over numbered nodes: ``"[2,1]"``, ``"[a, [1, b]]"``, ``"S*S*S"``.
 
-A number is the field at that node, a name an element defined before, ``[x,y] = x y - y x``. Products are
-allowed only in methods for quadratic groups (Cayley).
+A number denotes the field at the node of that number, and a name denotes a Lie element defined earlier. The
+commutator is ``[x,y] = x y - y x``. Products are allowed only in methods for quadratic groups (Cayley).
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ Combination = tuple[tuple[Term, Element], ...]
 
 
 def parse(text: str, where: str) -> Term:
-    """Read a term; raises :class:`TableauError` for a malformed term; ``where`` is its place.
+    """Read a term; raise a :class:`TableauError` that names the place ``where`` if the term is malformed.
 
     >>> parse("[2,1]", "exponents")
     Bracket(left=1, right=0)
@@ -128,7 +128,7 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # The empty sum is zero, which has any length.
+    # The empty sum is zero, which counts as a product of any length.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that the method has exactly this order in ``family``, with ``cutoff`` if the family takes
-    one."""
+    """The claim that the method has exactly this order in ``family``; ``cutoff`` is None for a family without
+    a cut-off."""
 
     family: str
     cutoff: int | None
@@ -16,13 +16,13 @@ class OrderClaim:
 
     @property
     def label(self) -> str:
-        """The family as reports name it: ``vcg``, ``rkmk(1)``."""
+        """The label of the family in reports: ``vcg``, ``rkmk(1)``."""
         return self.family if self.cutoff is None else f"{self.family}({self.cutoff})"
 
 
 @dataclass(frozen=True)
 class Claims:
-    """The stated orders and properties; a check compares each with the computed one."""
+    """The stated orders and properties; a check compares each claim with the computed result."""
 
     orders: tuple[OrderClaim, ...] = ()
     properties: dict[str, bool] = field(default_factory=dict)

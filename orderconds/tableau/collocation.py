@@ -1,8 +1,8 @@
 """Gauss, Radau and Lobatto methods with any number of stages, computed exactly from their definitions.
 
 The nodes c are the roots of a polynomial M, given by Rodrigues' formula: the s-th Legendre polynomial or a
-relative of it. The weights integrate polynomials of degree below s. These rules determine A; l_j are the
-Lagrange polynomials of the nodes:
+related polynomial. The weights integrate polynomials of degree below s exactly. The matrix A follows from one
+of these rules, in which l_j are the Lagrange polynomials of the nodes:
 
 ==================  ======================================================================================
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
@@ -11,10 +11,10 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                of two of the others (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
-Two kinds have an embedded row for step-size control. It is the quadrature of order s - 1 that leaves out one
-node: the last for Radau IIA, the (first) middle one for Lobatto IIIA. It differs from b by a multiple of the
-stages' divided difference. Stages of collocation methods, and hence this estimate, stay accurate for stiff
-equations; those of methods of low stage order do not.
+Two kinds have an embedded row for step-size control. The row is the quadrature of order s - 1 that leaves out
+one node: the last node for Radau IIA, the (first) middle node for Lobatto IIIA. The two updates differ by a
+multiple of the stages' divided difference. The stages of collocation methods, and hence this estimate, stay
+accurate for stiff equations; the stages of methods of low stage order do not.
 
 No coefficient is typed in: nodes are algebraic numbers, and the rest is rational arithmetic with them.
 
@@ -44,8 +44,8 @@ Matrix = list[list[Algebraic]]
 class Nodes:
     """The nodes c, ascending, as numbers of one field, with the weights and Lagrange polynomials over them.
 
-    ``ends`` says how many of the ends 0 and 1 are nodes: M is the derivative of order s - ends of
-    x^(s - right) (x - 1)^(s - left), which has them as roots.
+    ``ends`` is the number of nodes among the ends 0 and 1 of the interval. M is the derivative of order
+    s - ends of x^(s - right) (x - 1)^(s - left), so the ends that are nodes are roots of M.
     """
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
@@ -83,9 +83,9 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature on the other nodes, zero for the one left out.
+        """Return the weights of the quadrature on the other nodes, with zero for the node left out.
 
-        They differ from b by a multiple of the leading coefficients of l_1, ..., l_s.
+        These weights differ from b by a multiple of the leading coefficients of l_1, ..., l_s.
 
         >>> Nodes(3, True, True).without(1)
         [Algebraic(1/2), Algebraic(0), Algebraic(1/2)]
@@ -124,7 +124,7 @@ class Nodes:
 
 
 def last(s: int) -> int:
-    """Return the place of the last node.
+    """Return the index of the last node.
 
     >>> last(3)
     2
@@ -133,7 +133,7 @@ def last(s: int) -> int:
 
 
 def middle(s: int) -> int:
-    """Return the place of the middle node, the first of two.
+    """Return the index of the middle node, for even s the first of the two middle nodes.
 
     >>> middle(3), middle(4)
     (1, 1)
@@ -159,9 +159,10 @@ def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Ca
 
 @dataclass(frozen=True)
 class Kind:
-    """Whether 0 and 1 are nodes, the rule for A, and the name; the order is 2s less one for each end.
+    """A kind of method: whether 0 and 1 are nodes, the rule for A, and the name.
 
-    ``left_out`` gives, by the number of stages, the node that the embedded row leaves out.
+    The order is 2s minus the number of ends that are nodes. ``left_out`` is a function that maps the number
+    of stages to the node that the embedded row leaves out.
     """
 
     left: bool
@@ -176,7 +177,7 @@ class Kind:
         return 2 if self.left and self.right else 1
 
     def order(self, s: int) -> int:
-        """Return the order of the method with s stages, that of its quadrature."""
+        """Return the order of the method with s stages, which is the order of its quadrature."""
         return 2 * s - self.left - self.right
 
 

@@ -18,8 +18,8 @@ COMPARED = 160
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Whether the coefficients agree in number and value, embedded rows included.
 
-    Balls agree if they meet and neither is much wider than the other: a written ball may be rounded
-    differently from the one that was read.
+    Two balls agree if they intersect and neither is much wider than the other. They need not be equal,
+    because writing a ball to a file may round it.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -46,7 +46,7 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Whether two enclosures meet, and neither is much wider than the other."""
+    """Whether two enclosures intersect, and neither is much wider than the other."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]
     return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

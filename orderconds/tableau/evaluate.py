@@ -1,8 +1,8 @@
 """Coefficients of one file evaluated in one ring: Q, the number field their radicals generate, or balls.
 
 The coefficients determine the ring: rationals stay rational; radicals and named roots build a number field,
-of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`; a ``~`` anywhere, or a larger degree, makes
-everything balls. Equal expressions in one file denote one number and share one element.
+of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. With a ``~`` anywhere, or a larger degree, all
+coefficients become balls. Equal expressions in one file denote one number and share one element.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """Where expressions are evaluated: a growing number field or balls."""
+    """The ring in which expressions are evaluated: a number field that grows with each root, or balls."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
         """Return a rational, or with a positive unit a ball around it."""
@@ -50,7 +50,7 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Evaluate expressions in the smallest ring that contains them all; keys are their places in the file.
+    """Evaluate expressions in the smallest ring that contains them all; keys are places in the file.
 
     ``numbers`` may refer to each other, in any order, without a cycle. Raises :class:`TableauError`.
 

@@ -52,7 +52,7 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """A tableau file: its keys and values, as read and as typed, and the method, claims and proof in them."""
+    """A tableau file: its keys and values, untyped (``data``) and typed (``entry``), and what they define."""
 
     data: Mapping[str, object]
     entry: Format
@@ -104,7 +104,7 @@ def meant_as_tableau(path: str | Path) -> bool:
 
 
 def parsed(text: str, where: str) -> Data:
-    """Return the keys and values of TOML text; ``where`` names it in messages.
+    """Return the keys and values of TOML text; ``where`` names the text in messages.
 
     >>> parsed('A = [[]]', "text")
     {'A': [[]]}
@@ -117,7 +117,7 @@ def parsed(text: str, where: str) -> Data:
         ) from None
     except RecursionError:
         raise TableauError("TOML nested too deep", where=where, expected="a table or list or two") from None
-    # Python reads no integer of more than some thousand digits, and no date outside the calendar.
+    # Python raises it for an integer of more than some thousand digits and for a date outside the calendar.
     except ValueError:
         raise TableauError(
             "an integer of thousands of digits, or an impossible date",
@@ -148,7 +148,7 @@ def read(data: Mapping[str, object], where: str) -> File:
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
-    """Return the typed file, its format chosen by ``family``."""
+    """Return the typed file, in the format that the key ``family`` names."""
     family = data.get("family")
     if not isinstance(family, str) or family not in FORMATS:
         given = "no family" if family is None else f"family = {family!r}"
@@ -174,7 +174,7 @@ def _each(
 
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
-    """Turn an error of msgspec into one with the place, the value and the expectation."""
+    """Turn an error message of msgspec into a message with the place, the value and the expectation."""
     summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")
@@ -274,7 +274,7 @@ def _decimal(text: str, where: str) -> Constant:
 
 
 def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
-    """Return the ``[proof]`` of the file, its names verified."""
+    """Return the ``[proof]`` of the file after verifying the names in it."""
     given = entry.proof
     if given is None:
         return None

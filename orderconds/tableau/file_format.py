@@ -1,8 +1,8 @@
 """The common part of all tableau formats: keys, claims, proofs, and rows of coefficients.
 
 A format is read in two steps, because the ring of a tableau depends on all its coefficients:
-``coefficients`` yields the text of every coefficient with its place, and ``build`` takes their values. Places
-are named as in the file, entries counted from 1.
+``coefficients`` yields the text of every coefficient with its place, and ``build`` receives the value at each
+place. Places are named as in the file, with entries counted from 1.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The keys that every format has; ``numbers`` holds :data:`Number`, ``claims`` :data:`Claim`."""
+    """The keys that every format has; ``numbers`` maps names to :data:`Number`, ``claims`` to :data:`Claim`."""
 
     name: str
     family: str
@@ -75,7 +75,7 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return the keys that arrays with these names leave out."""
+        """Return values for the keys that are missing if a tableau is given by arrays with these names."""
         return {}
 
     def coefficients(self) -> Places:

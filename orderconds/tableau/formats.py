@@ -156,8 +156,8 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials applied to stage ``from`` (counted from 1; default y0); the first acts
-    first."""
+    """A product of exponentials applied to stage ``from`` (counted from 1; default y0); the first exponential
+    acts first."""
 
     exp: list[list[Coefficient]] = []
     start: int | None = field(default=None, name="from")
@@ -253,7 +253,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that rows are no longer than s and that the product starts from one of the stages before it."""
+    """Check that rows are no longer than s and that the product starts from y0 or from an earlier stage."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:
@@ -280,9 +280,10 @@ def _identically_zero(where: str, expected: str) -> TableauError:
 
 
 def _low_storage(A: Row, B: Row, ring: Ring) -> CommutatorFree:
-    """Expand a 2N scheme: stage i + 1 is one exponential, of B_i K_i, on stage i.
+    """Expand a 2N scheme: stage i + 1 is the exponential of B_i K_i applied to stage i.
 
-    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j; ``register`` is the sum, F_i is not multiplied by one.
+    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. ``register`` has the coefficients of the sum over j < i. The
+    coefficient 1 of F_i is not stored.
     """
     s = len(B)
     register: list[Element] = []

@@ -51,7 +51,7 @@ class Name(Struct, frozen=True, cache_hash=True):
 class Chain(Struct, frozen=True, cache_hash=True):
     """Operands joined from left to right by ``operators``, which are all ``+ -`` or all ``* /``.
 
-    The chain is flat, so that the depth of an expression is that of its parentheses.
+    Because the chain is flat, the depth of an expression is the depth of its parentheses.
     """
 
     operators: tuple[str, ...]
@@ -101,7 +101,7 @@ SUM, SIGN, PRODUCT, POWER, ATOM = range(5)
 
 
 def _level(x: Expression) -> int:
-    """Return how tightly an expression binds."""
+    """Return the precedence of an expression."""
     if isinstance(x, Chain):
         minus = x.operators == ("-",) and x.operands[0] == ZERO
         return SIGN if minus else SUM if x.operators[0] in "+-" else PRODUCT
@@ -111,7 +111,7 @@ def _level(x: Expression) -> int:
 
 
 def _parts(x: Expression, least: int) -> Iterator[str]:
-    """Yield the text of x, in parentheses if it binds less tightly than ``least``."""
+    """Yield the text of x, in parentheses if the precedence of x is below ``least``."""
     level = _level(x)
     if level < least:
         yield from ("(", *_parts(x, SUM), ")")
@@ -136,7 +136,7 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 
 def _constant(x: Constant) -> str:
-    """Return the text of a constant: a decimal if it is finite, else a fraction."""
+    """Return the text of a constant: a decimal if its expansion is finite, else a fraction."""
     unit = x.unit or next(
         (Fraction(1, 10**n) for n in range(MAX_TEXT) if 10**n % x.value.denominator == 0), None
     )

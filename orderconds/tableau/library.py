@@ -15,7 +15,7 @@ def root() -> Path:
     """Return the folder of tableau files.
 
     It is ``tableaux/`` of the source tree when the package sits beside a ``pyproject.toml`` named orderconds,
-    else the copy that the wheel carries.
+    else the copy in the installed package.
 
     >>> root().is_dir()
     True

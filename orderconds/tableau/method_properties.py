@@ -16,7 +16,7 @@ Verdict = bool | None
 
 
 def _all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Conjunction with unknowns: False wins, then None."""
+    """Return the conjunction: False if any verdict is False, else None if any is None, else True."""
     unknown = False
     for verdict in verdicts:
         if verdict is False:
@@ -147,8 +147,8 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Whether a step of length -h undoes one of length h (HLW V.3).
 
-    For an adjoint pair, alpha_{s+1-i} = beta_i. A splitting reads the same backwards. For a Magnus method see
-    :mod:`orderconds.tableau.reversal`.
+    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. A splitting must read the same backwards. For
+    a Magnus method see :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -91,7 +91,7 @@ class PartitionedRungeKutta:
 class Stage:
     """A product of exponentials acting on stage ``start`` (None: on y0).
 
-    ``exponentials`` are rows of length s; row beta is exp(h sum_j beta_j k_j); the first row acts first.
+    ``exponentials`` are rows of length s. A row beta denotes exp(h sum_j beta_j k_j). The first row acts first.
     """
 
     start: int | None
@@ -119,12 +119,12 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return all exponentials between y0 and ``stage``, those of the stages it starts from first."""
+        """Return all exponentials between y0 and ``stage``, beginning with those of the earlier stages."""
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 
     def same_update(self, other: Stage, ring: Ring) -> bool:
-        """Whether ``other`` is proved to be the update for any fields, so that their difference is zero.
+        """Whether ``other`` and the update are proved to be equal for all fields.
 
         Zero exponents are removed, and neighbours with proportional exponents, which commute, are combined.
         Reduced products are equal for all fields only if their exponents are equal (Chen 1958, on piecewise
@@ -138,7 +138,7 @@ class CommutatorFree:
         )
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the tableau of the same method on an abelian group: exponents add up."""
+        """Return the tableau of the same method on an abelian group, where exponents add up."""
 
         def total(stage: Stage) -> Row:
             zero = (ring.zero,) * self.s
@@ -149,7 +149,7 @@ class CommutatorFree:
 
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
-    """Return a product of exponentials without zero exponents, commuting neighbours combined."""
+    """Return a product of exponentials without zero exponents, with commuting neighbours combined."""
     kept: list[Row] = []
     for row in rows:
         if kept and _proportional(kept[-1], row, ring):
@@ -168,8 +168,8 @@ def _proportional(x: Row, y: Row, ring: Ring) -> bool:
 class Composition:
     """A composition of one basic method with steps gamma_1 h, ..., gamma_s h, the first applied first.
 
-    ``base`` is ``"symmetric-2"``: any symmetric method of order 2; read as a Runge-Kutta method it is the
-    implicit midpoint rule.
+    ``base`` is ``"symmetric-2"``: the basic method is any symmetric method of order 2. If the composition is
+    read as a Runge-Kutta method, the basic method is the implicit midpoint rule.
     """
 
     base: str

@@ -1,9 +1,9 @@
 """Whether a commutator-free method is symmetric: read backwards it is the same method.
 
 Exchange stages j and s + 1 - j. A step of length -h from y1 undoes a step of length h from y0 under two
-conditions: the update reads the same backwards, and the exponentials from y1 to stage s + 1 - i are those
-from y0 to stage i with opposite signs. Neighbouring exponentials that are multiples of each other count as
-one.
+conditions: the update reads the same backwards, and the exponentials from y1 to stage s + 1 - i are the
+exponentials from y0 to stage i with opposite signs. Neighbouring exponentials whose exponents are multiples
+of each other count as one exponential.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return a product of exponentials with neighbours that are multiples of each other added up."""
+    """Return a product of exponentials in which proportional neighbouring exponents are added up."""
     reduced: list[Row] = []
     for row in rows:
         total = row

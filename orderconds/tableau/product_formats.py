@@ -41,11 +41,11 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return the base that goes with the steps."""
+        """Return the base that the names of the steps determine."""
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
-        """Check that the steps are those of the base, and that each alpha has its beta."""
+        """Check that the base allows the given steps, and that alpha and beta have the same length."""
         pair = self.base == "adjoint-pair"
         for key, row in (("gamma", self.gamma), ("alpha", self.alpha), ("beta", self.beta)):
             if (row is None) is (pair is (key != "gamma")):
@@ -82,7 +82,7 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "splitting"``: the flows of named parts in turn; ``rkn`` is V with [V,[V,[V,T]]] = 0."""
+    """``family = "splitting"``: flows of named parts; ``rkn`` names the part V if [V,[V,[V,T]]] = 0."""
 
     parts: list[str]
     step: list[tuple[str, Coefficient]]
@@ -127,7 +127,7 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "magnus"``: nodes c and exponents, tables of brackets over nodes counted from 1.
+    """``family = "magnus"``: nodes c, and exponents as tables of brackets. Nodes are counted from 1.
 
     ``elements`` names Lie elements, to which later elements and the exponents may refer; ``map`` is ``exp``
     or ``cay``.
@@ -206,7 +206,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # only brackets lie in every Lie algebra
+        # Brackets lie in every Lie algebra; products need not, so they are verified.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

@@ -82,10 +82,10 @@ class AdjointComposition:
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Return the splitting with Phi the flow of part 0 then that of part 1, Phi* the reverse.
+        """Return the splitting in which Phi is the flow of part 0, then of part 1, and Phi* the reverse.
 
-        Neighbouring flows of one part are joined. It has the order of the composition (McLachlan, SIAM J.
-        Sci. Comput. 16 (1995) 151).
+        Neighbouring flows of one part are joined. The splitting has the order of the composition (McLachlan,
+        SIAM J. Sci. Comput. 16 (1995) 151).
         """
         steps: list[tuple[int, Element]] = []
         for x, y in zip(self.alpha, self.beta, strict=True):
@@ -104,8 +104,8 @@ MOST_WORDS = 10_000
 class Magnus:
     """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
 
-    ``exponents`` hold one combination each, the first acting first; ``elements`` are Lie elements, to which
-    later elements and the exponents refer. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1
+    ``exponents`` are combinations of brackets, of which the first acts first. ``elements`` are Lie elements,
+    to which later elements and the exponents may refer. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1
     (1 + x/2).
 
     >>> from orderconds.ring import QQ

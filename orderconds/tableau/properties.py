@@ -86,7 +86,7 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 
 
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
-    """Composed midpoints are symplectic and diagonally implicit for all steps.
+    """Return the properties of composed midpoints, symplectic and diagonally implicit for all steps.
 
     The composition is symmetric if the steps read the same backwards.
     """
@@ -100,7 +100,7 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """First same as last: the first stage is the start value, the last one the update."""
+    """Whether a method is first-same-as-last: the first stage is the start value, the last is the update."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

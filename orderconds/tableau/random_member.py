@@ -1,6 +1,6 @@
 """A file's method with random numbers in place of its rounded decimals and its radicals, over Q.
 
-An identity that holds there holds for all values of the decimals, up to a negligible probability: a false
+An identity that holds for them holds for all values of the decimals, up to a negligible probability: a false
 identity between rational functions of degree at most D holds at a random point, with 2^128 values for each
 coordinate, with probability at most D / 2^128 (Schwartz 1980; Zippel 1979). The numbers come from a digest of
 the file. Hence nobody can construct a file for which the test is wrong. Arithmetic is exact, not modulo

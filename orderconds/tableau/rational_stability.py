@@ -1,7 +1,7 @@
 """A- and L-stability for rational coefficients, with flint's polynomials and certified roots.
 
-The same criteria as in :mod:`orderconds.tableau.stability`, but fast enough for methods with a hundred
-stages.
+The criteria are those of :mod:`orderconds.tableau.stability`. The computation here is fast enough for methods
+with a hundred stages.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Whether P/Q is A-stable and L-stable; None if a pole is on the axis or too near to decide.
+    """Whether P/Q is A-stable and L-stable; None if a pole is on the imaginary axis or too near it to decide.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))
@@ -51,7 +51,7 @@ def _modulus(p: fmpq_poly) -> fmpq_poly:
 
 
 def _nowhere_negative(E: fmpq_poly) -> bool:
-    """Whether E(x) >= 0 for x >= 0: flint's real roots have the imaginary part zero, exactly."""
+    """Whether E(x) >= 0 for x >= 0. Flint returns real roots with an imaginary part of exactly zero."""
     if E == 0:
         return True
     if E.leading_coefficient() < 0:

@@ -54,8 +54,8 @@ class Tableau:
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return the same method with coefficients in another ring.
 
-        ``convert`` maps one coefficient; without it the embedding of this ring in ``ring`` is used. Raises
-        TypeError if there is none (:func:`orderconds.ring.embed.embedding`).
+        ``convert`` maps one coefficient. By default it is the embedding of the tableau's ring in ``ring``.
+        Raises TypeError if there is no embedding (:func:`orderconds.ring.embed.embedding`).
         """
         if convert is None:
             from orderconds.ring.embed import embedding
@@ -86,7 +86,7 @@ class Tableau:
         """Return the method in the first of these formats to which it can be converted, or None.
 
         A tableau has the format of its file. A composition also has the format ``rk`` (composed midpoints, or
-        Euler methods for an adjoint pair), and one of an adjoint pair the format ``splitting``.
+        Euler methods for an adjoint pair). A composition of an adjoint pair has the format ``splitting``, too.
         """
         method = self.method
         for wanted in formats:
@@ -97,8 +97,8 @@ class Tableau:
         return None
 
     def abelian(self) -> RungeKutta:
-        """Return the Runge-Kutta tableau of this method on an abelian group; for a pair, that of its first
-        part.
+        """Return the Runge-Kutta tableau of this method on an abelian group; for a partitioned pair, the
+        tableau of its first part.
 
         Raises :class:`TableauError` for a splitting or a Magnus method.
         """

@@ -3,7 +3,7 @@
 The reverse step has -A_{s+1-i} at node i. If the nodes are symmetric about 1/2, it undoes the step under this
 condition: substituting -A_{s+1-i} for A_i in exponent k gives the negative of exponent k counted from the
 end. A combination of nodes may be odd or even under this substitution. The parity of a bracket or product
-follows from those of its factors. Thus a single odd exponent is recognised without expanding nested brackets;
+follows from the parities of its factors. Thus a single odd exponent is recognised without expanding nested brackets;
 other exponents are compared as combinations of products of nodes.
 """
 
@@ -17,7 +17,7 @@ from orderconds.tableau.products import Magnus
 
 
 def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
-    """Return the verdict; None if balls are too wide, or brackets too many to expand.
+    """Whether a method is symmetric; None if balls are too wide, or brackets too many to expand.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

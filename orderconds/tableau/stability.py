@@ -88,7 +88,7 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 
 
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
-    """Return the same for composed midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
+    """Return the result of :func:`stability` for midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
     |R| = 1 on the axis and at infinity. A negative step gives a pole in the left half plane, unless a
     positive step cancels it.
@@ -128,7 +128,7 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract the cost of an operation, in pairs of bits."""
+        """Subtract the cost of an operation, in products of two bits."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
@@ -141,7 +141,7 @@ def _bits(x: Element) -> int:
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Count the work of ``count`` products of these numbers; it is quadratic in their length."""
+    """Count the work of ``count`` products of these numbers, which may be quadratic in their length."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -249,7 +249,7 @@ def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
 
 
 def _modulus(p: Sequence[Element], ring: Ring) -> Polynomial:
-    """Return |p(iy)|^2 as a polynomial in y^2: the square of the real part, y^2 times that of the rest."""
+    """Return |p(iy)|^2 = (Re p)^2 + y^2 (Im p / y)^2 as a polynomial in y^2."""
     real = [x if k % 2 == 0 else -x for k, x in enumerate(p[0::2])]
     imaginary = [x if k % 2 == 0 else -x for k, x in enumerate(p[1::2])]
     square, rest = _product(real, real, ring), [ring.zero, *_product(imaginary, imaginary, ring)]

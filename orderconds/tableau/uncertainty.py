@@ -10,9 +10,9 @@ from orderconds.tableau.record import Tableau
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:
-    """Return the largest radius among the coefficients that a format of ``bits`` bits cannot hide.
+    """Return the largest radius of those coefficients that are less accurate than a format of ``bits`` bits.
 
-    The radius counts if the ball is wider than one rounding to ``bits`` bits. The result is a decimal of two
+    A coefficient counts if its ball is wider than one rounding to ``bits`` bits. The result is a decimal of two
     digits, or an empty text if all coefficients are exact or narrow enough.
 
     >>> from orderconds.tableau import find

@@ -50,9 +50,10 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """The equations that the decimals of a file solve. ``printed`` are the numbers printed in the source.
+    """The equations that the decimals of a file solve approximately.
 
-    The equations are solved for ``unknowns``; the decimals ``pinned`` are exact numbers.
+    The equations are solved for ``unknowns``; the decimals ``pinned`` are exact numbers. ``printed`` are the
+    numbers printed in the source.
     """
 
     conditions: str
@@ -130,4 +131,4 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        return 0 if size is None else int(size(x))  # jets and residues do not grow
+        return 0 if size is None else int(size(x))  # a ring without sizes: jets, residues

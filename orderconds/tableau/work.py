@@ -3,8 +3,8 @@
 Evaluations are counted for the stages that enter the update. The first stage of an explicit
 first-same-as-last method counts only in the first step, and an implicit method counts one sweep of its
 iteration. Equal exponents count as one exponential. Brackets are those of dexpinv at each stage, without
-simplification; dexpinv at zero needs none. For a Magnus method they are its different commutators, and an
-exponential may be a Cayley transform.
+simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
+commutators in its exponents, and a Cayley transform counts as an exponential.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Field evaluations, exponentials and brackets of one step; the latter two are None for methods that are
-    not on groups."""
+    """Field evaluations, exponentials and brackets of one step; exponentials and brackets are None for methods
+    that are not on groups."""
 
     evaluations: int
     exponentials: int | None = None
@@ -51,7 +51,7 @@ def evaluations(tableau: Tableau) -> Work | None:
 
 
 def commutator_free_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a commutator-free step; a Butcher tableau has one stage in each exponential.
+    """Return the cost of a commutator-free step; a Butcher tableau is read as a Crouch-Grossman method.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> commutator_free_work(heun)

@@ -31,7 +31,7 @@ def dumps(tableau: Tableau) -> str:
     """Return the tableau as TOML text.
 
     Coefficients from a file keep their text, names, decimals and proof. Other coefficients are written in
-    full; balls have the digits that are certain to one unit in the last place (``~``).
+    full; a ball is written with the digits that are correct to one unit in the last place (``~``).
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\n[numbers]\\na = "0.50~"\\n'
@@ -156,7 +156,7 @@ class _Radicals:
 
 
 def _named_roots(tableau: Tableau) -> Data:
-    """Return the named numbers to which texts of the field refer."""
+    """Return the named numbers that the texts of field elements refer to."""
     return {
         name: {"minpoly": list(minpoly), "near": near}
         for name, minpoly, near in getattr(tableau.ring, "named_roots", ())
