@@ -71,7 +71,6 @@ MODULES = {
         "put_off": "deferred_flows",
         "pieces": "outlined functions",
         "trees": "repeated_trees",
-        "arguments": "shared_angles",
         "fewest": "minimal_brackets",
         "variants": "column_choice",
         "frames": "carried_momentum",

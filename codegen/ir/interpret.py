@@ -61,7 +61,6 @@ def interpret(
         return _composed(program, problem, domain, inputs, limit, newton, near)
     expected = {} if solutions is None else solutions
     env: Env = {v: inputs[v.name] for v in program.inputs}
-
     computed = getattr(domain, "computed", None)
 
     def run(assign: Assign) -> None:
@@ -77,8 +76,7 @@ def interpret(
             # near is a queue: each block removes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
-            # Fixed-point iteration comes first: where it contracts it is accurate to rounding, and needs no
-            # difference quotients.
+            # Where fixed-point iteration contracts it is accurate to rounding, without difference quotients.
             patience = getattr(domain, "patience", limit) if newton else limit
             try:
                 _iterate(statement, env, domain, run, min(limit, patience), expected)

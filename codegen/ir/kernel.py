@@ -99,7 +99,7 @@ class Loop:
 
     The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
     in units of the largest unknown, at which an iteration may stagnate. ``close`` is the largest change after
-    which a contraction is trusted to finish. ``limit`` is the largest number of sweeps. ``read_anew`` says
+    which a contraction is trusted to finish. ``limit`` is the largest number of sweeps. ``only_unknowns_read`` says
     that only the unknowns are read after the loop, so the last change may be larger.
     """
 
@@ -112,7 +112,7 @@ class Loop:
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
-    read_anew: bool = False
+    only_unknowns_read: bool = False
 
     @property
     def solver(self) -> str:
@@ -131,7 +131,7 @@ class Loop:
         """
         # If values after the loop are recomputed from the last unknowns, their error is the rate times the
         # last change.
-        if self.read_anew and not (self.newton is not None and self.newton.residuals):
+        if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
         return self.tolerance if first_order else self.tolerance / 16

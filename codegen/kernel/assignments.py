@@ -69,7 +69,7 @@ class Assignments:
                 tuple(inside),
                 images,
                 newton=matrix,
-                read_anew=recomputed,
+                only_unknowns_read=recomputed,
             )
             self.body.append(loop)
         # Last: outputs may read body values of every loop.

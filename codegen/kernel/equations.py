@@ -75,13 +75,7 @@ def compared(
         return None
     space = residuals[0].space
     inside = {v for assign in block.body for v in assign.targets}
-    known = [
-        x
-        for v, value in env.items()
-        if v not in inside
-        for x in flatten(v.kind, value)
-        if x.op in ("add", "sub")
-    ]
+    known = _sums_outside(env, inside)
     many = len(entered.unknowns) > MANY
     later = _read_after(block, program) if many else frozenset()
     free = _independent(known, entered.unknowns) if many else []
@@ -122,6 +116,12 @@ def compared(
         changes=changes,
         kept=tuple(kept),
     )
+
+
+def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
+    """Return the sums among the values that are computed outside a block."""
+    values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
+    return [x for x in values if x.op in ("add", "sub")]
 
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:

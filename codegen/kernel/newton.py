@@ -2,7 +2,7 @@
 
 The first order suffices for short steps: one correction then reduces the error by a factor of O(h^2). The
 first-order matrix contains derivatives at h = 0 only, so it is cheap enough to compute in every step.
-Inverses of small matrices are written out by cofactors.
+Inverses of small matrices are expanded by cofactors.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.jacobian import jacobian
 
 SMALL = 3
-"""Up to this size the inverse of a matrix is written out.
+"""Up to this size the inverse of a matrix is expanded by cofactors.
 
 A 3 x 3 inverse has 9 cofactors of 3 operations each. A 4 x 4 inverse would have 16 of 14 operations, more
 than elimination takes."""
@@ -96,7 +96,7 @@ def _cofactor(rows: Rows, i: int, j: int) -> Expr:
     n, space = len(rows), rows[0][0].space
     if n == 1:
         return space.one
-    # For n = 3, cyclic indices include the sign of a cofactor; for n = 2 the sign is written out.
+    # For n = 3, cyclic indices include the sign of a cofactor; for n = 2 the sign is explicit.
     a, b = ((i + k) % n for k in (1, n - 1))
     c, d = ((j + k) % n for k in (1, n - 1))
     if n == 2:

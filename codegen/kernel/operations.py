@@ -71,8 +71,8 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
     """
     lines = []
-    for block, found in counts.items():
-        each = ", ".join(f"{n} {name}" for name, n in found.items()) or "none"
+    for block, numbers in counts.items():
+        each = ", ".join(f"{n} {name}" for name, n in numbers.items()) or "none"
         if block == START:
             lines.append(f"{each} an initial guess, in the first step of a run")
         elif block == STEP:
@@ -89,16 +89,16 @@ def costs(kernel: Kernel) -> list[str]:
     lines = sentences(operations(arrange(kernel)))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
-        there, back = (operations(arrange(made))[STEP] for made in turned)
+        there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)
         # mu + (after - before): two additions for each component.
         added = {"add": 2 * len(turned[1].outputs)}
         # A run transforms the momentum forth and back at its beginning, and back once more at its end.
-        spelled = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
-        first, last = (line.removesuffix(" a step") for line in spelled)
+        texts = [sentences({STEP: n})[0] for n in (_plus(there, back), _plus(back, added))]
+        first, last = (line.removesuffix(" a step") for line in texts)
         lines.append(f"{first} where a run begins, {last} where it ends")
-    for made in kernel.deferred.kernels if kernel.deferred is not None else ():
-        (once,) = sentences(operations(arrange(made)))
-        lines.append(f"{once.removesuffix(' a step')} once in a run of steps")
+    for each_kernel in kernel.deferred.kernels if kernel.deferred is not None else ():
+        (line,) = sentences(operations(arrange(each_kernel)))
+        lines.append(f"{line.removesuffix(' a step')} once in a run of steps")
     return lines
 
 
@@ -118,15 +118,15 @@ def _counted(
         else:
             roots.append(statement.value)
     for root in roots:
-        total = _plus(total, _spelled(root))
+        total = _plus(total, _operations_in_text(root))
     # Arithmetic operations first, then calls in alphabetical order.
     first = ("add", "mul", "div")
     return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
 
 
-def _spelled(root: Expr) -> dict[str, int]:
+def _operations_in_text(root: Expr) -> dict[str, int]:
     """Count the operations in the text of one expression, where a shared node is repeated for each reader."""
-    found: dict[int, dict[str, int]] = {}
+    counts: dict[int, dict[str, int]] = {}
     for node in walk([root]):
         match node.op:
             case "const" | "sym" | "neg":
@@ -142,9 +142,9 @@ def _spelled(root: Expr) -> dict[str, int]:
                 own = {op: 1}
         for arg in node.args:
             # Added for each reader, because the printed text repeats a subexpression without a name.
-            own = _plus(own, found[arg.id])
-        found[node.id] = own
-    return found[root.id]
+            own = _plus(own, counts[arg.id])
+        counts[node.id] = own
+    return counts[root.id]
 
 
 def _plus(a: dict[str, int], b: dict[str, int]) -> dict[str, int]:

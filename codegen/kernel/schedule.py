@@ -106,10 +106,10 @@ class Arrangement:
     def functions(self) -> tuple[str, ...]:
         """Return the functions called, sorted: scalar ones and sets of Stumpff functions."""
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
-        made = {function.name for function, _ in self.outlined}
+        outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
         # Outlined functions belong to the kernel; the target has no snippet for them.
-        called |= {name for name in names if name.partition(".")[0] not in made}
+        called |= {name for name in names if name.partition(".")[0] not in outlined}
         for _, inner in self.outlined:
             called |= set(inner.functions())
         return tuple(sorted(called))
@@ -197,13 +197,13 @@ def _iteration(
     images = tuple(inner.rewrite(e) for e in loop.images)
     body += inner.take()
     kept = tuple(let.name for let in loop.body if let.name in later)
-    made: tuple[Simple, ...] = ()
+    entering: tuple[Simple, ...] = ()
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
         # A leading matrix is computed before the loop and must not read body values.
-        made, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
-    return Iteration(loop, number, starts, tuple(body), images, kept, made, matrix)
+        entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
+    return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
 
 def _values(statement: Simple) -> tuple[Expr, ...]:

@@ -311,11 +311,11 @@ def _outlined(
     # One flat list, so that a tree that occurs in two blocks is found.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
-    found = outline.run(flat, owners)
-    if found is None:
+    shorter = outline.run(flat, owners)
+    if shorter is None:
         return None, ()
     # The same order as the flat list: the iterator hands the rewritten roots back.
-    new = iter(found)
+    new = iter(shorter)
 
     def take(n: int) -> tuple[Expr, ...]:
         return tuple(next(new) for _ in range(n))
@@ -327,10 +327,10 @@ def _outlined(
         matrix = tuple(take(len(row)) for row in block.matrix)
         changed.append(replace(block, starts=starts, images=images, matrix=matrix))
     changed = [replace(b, kept=tuple((key, next(new)) for key, _ in b.kept)) for b in changed]
-    for old, made in zip(flat, found, strict=True):
+    for old, rewritten in zip(flat, shorter, strict=True):
         if old.id in hints:
             # Rewritten expressions keep the names of the old ones.
-            hints.setdefault(made.id, hints[old.id])
+            hints.setdefault(rewritten.id, hints[old.id])
     schedule = Assignments(changed, ends, hints, name)
     schedule.run()
     functions = []
@@ -357,9 +357,9 @@ def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
     """Return the kernel with the samples of run-time inputs that it reads."""
     # Passes may have removed every reader of a sample; the caller is asked only for those that are read.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
-    found = [
+    samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))
         for t, symbols in domain.samples.values()
     ]
-    samples = tuple(sample for sample in found if read.intersection(sample.symbols))
-    return replace(kernel, inputs=scene.inputs if samples else (), samples=samples)
+    needed = tuple(sample for sample in samples if read.intersection(sample.symbols))
+    return replace(kernel, inputs=scene.inputs if needed else (), samples=needed)

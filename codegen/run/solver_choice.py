@@ -171,12 +171,12 @@ class Candidate:
         """Return what the trials say about a block."""
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
-        found = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
+        text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
         if self.robust:
-            return found
+            return text
         if not self.far.converged:
-            return f"{found}; does not converge in a step of {LONGER} h"
-        return f"{found}; takes {self.far.most} sweeps in a step of {LONGER} h"
+            return f"{text}; does not converge in a step of {LONGER} h"
+        return f"{text}; takes {self.far.most} sweeps in a step of {LONGER} h"
 
 
 def counted(trial: Trial, k: int) -> str:
@@ -341,9 +341,9 @@ class _Selection:
 
     def choices(self, kernel: Kernel, reasons: list[str]) -> tuple[Choice, ...]:
         """Return the choice for each block of the kernel."""
-        found = []
+        choices = []
         for k, (loop, reason) in enumerate(zip(kernel.loops, reasons, strict=True)):
             figures = {s: c.text(k) for s, c in self.candidates.items()} | self.left_out
             compared = tuple(f"{METHODS[s]}: {text}" for s, text in figures.items())
-            found.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))
-        return tuple(found)
+            choices.append(Choice(loop.label, len(loop.unknowns), loop.solver, reason, compared))
+        return tuple(choices)

@@ -121,8 +121,8 @@ class StepCost:
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:
         """Return the amounts of a step."""
         total = of_step(self.kernel, self.work)
-        for k, (n, made) in enumerate(zip(sweeps, matrices, strict=True)):
-            total += self.block(k, n, made)
+        for k, (n, m) in enumerate(zip(sweeps, matrices, strict=True)):
+            total += self.block(k, n, m)
         return total
 
     def block(self, k: int, sweeps: float, matrices: float) -> Amounts:

@@ -161,7 +161,7 @@ def test_names_are_assigned_once_and_before_use(kernel):
             for row in statement.newton.matrix:
                 read(row)
             known &= outside
-        if statement.read_anew:
+        if statement.only_unknowns_read:
             known -= {x.name for x in statement.body}
     read(kernel.outputs)
 
