@@ -145,6 +145,7 @@ class Family(ABC):
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of this order and cost less than an independent set.
+
         By default these are the independent set.
         """
         return self.conditions(order)
@@ -192,7 +193,9 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of one order whose 2-norm measures a method's error.  By default these are the
+        """Return the residuals of one order whose 2-norm measures a method's error.
+
+        By default these are the
         residuals of the independent conditions.
         """
         return self.residuals(method, ring, self.conditions(order))
@@ -232,6 +235,7 @@ class Family(ABC):
 
     def work(self, tableau: Tableau) -> Work | None:
         """Return the field evaluations, exponentials and brackets of a step, or None if they are not counted.
+
         By default only the evaluations are counted.
         """
         from orderconds.tableau.work import evaluations

@@ -97,7 +97,9 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the coefficients that occur in formulas, with zeros for missing entries.  These are alpha_iJj
+    """Return the coefficients that occur in formulas, with zeros for missing entries.
+
+    These are alpha_iJj
     and beta_Jj, their sums over exponentials a_ij and b_j, and c_i = sum_j a_ij.
 
     >>> from orderconds.ring import QQ

@@ -1,4 +1,4 @@
-"""Crouch-Grossman methods: exp(h b_s k_s) ... exp(h b_1 k_1) y0, stages alike with a_ij (HLW IV.8.1).
+"""Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
 Stage i has the same form with a_ij instead of b_j. The exponential of the first stage acts first, in the
 stages and in the update. Exponentials with coefficient zero are left out.

@@ -69,8 +69,8 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree, with a relation if another choice of the root
-    implies it.
+    """Return the condition ``weight = 1/gamma`` of each tree; with ``switching``, dependent conditions have
+    relations.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -103,7 +103,9 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return the sum over ``indices`` of ``factors`` times the stage value of a tree at the last index.  The
+    """Return the sum over ``indices`` of ``factors`` times the stage value of a tree at the last index.
+
+    The
     formula is built directly: equal subtrees have equal factors.
     """
     bound = list(indices)
