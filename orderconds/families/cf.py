@@ -72,7 +72,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the paths to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -59,7 +59,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the paths to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -16,8 +16,8 @@ Result = TypeVar("Result")
 
 
 class Memo(Generic[Result]):
-    """The results of ``compute(method, ring)`` for the last two methods, for example one method exactly and
-    in balls.
+    """The results of ``compute(method, ring)`` for the last two methods, such as one method over an exact
+    ring and over balls.
 
     Methods are compared by identity.
 

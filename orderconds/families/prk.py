@@ -1,4 +1,5 @@
-"""Partitioned Runge-Kutta methods: one condition a rooted tree with vertices of two colours (HLW III.2.2).
+"""Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
+III.2.2).
 
 A single tableau is read as a pair of two equal tableaux.
 """

@@ -1,4 +1,4 @@
-"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, where brackets vanish.
+"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, for which some brackets vanish.
 
 The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone therefore commute.
 These are V, [V,[T,V]] and all iterates of x o y = [x,[T,y]] on V. The relation of lowest weight is
@@ -204,7 +204,7 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return the elements of this weight in the ideal of the commutators of functions of q alone."""
+    """Return the commutators of two iterates of :func:`_potentials`, of weight at most ``order``."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket
