@@ -107,8 +107,10 @@ class NystroemFamily(Family):
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return the same order in this family, and at most order 4 as a general splitting. The relation
-        [V,[V,[V,T]]] = 0 concerns only words of four or more letters, and the order is even."""
+        """Return the same order in this family, and at most order 4 as a general splitting.
+
+        The relation [V,[V,[V,T]]] = 0 concerns only words of four or more letters, and the order is even.
+        """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -1,4 +1,4 @@
-"""Symplectic Runge-Kutta methods, b_i a_ij + b_j a_ji = b_i b_j: conditions belong to free trees.
+"""Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Conditions belong to free trees.
 
 A free tree is superfluous, and has no condition, if an edge divides it into two equal halves (Sanz-Serna and
 Abia 1991; HLW VI.7.1, Theorem 7.3).
