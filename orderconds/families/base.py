@@ -79,7 +79,7 @@ class Family(ABC):
     bounds_others: ClassVar[bool] = False
     """Whether ``check`` computes the order in this family to bound the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """Families in which a 2N scheme has the same order as in this one."""
+    """Families in which the order of a 2N scheme is equal to its order in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -315,7 +315,8 @@ class Family(ABC):
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return the orders, by label, of a symmetric method that meets the conditions up to ``order``."""
+        """Return the orders, by label, of a symmetric method that satisfies the conditions up to
+        ``order``."""
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:

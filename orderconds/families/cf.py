@@ -134,7 +134,7 @@ def _word(
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # For one letter the order of the exponentials does not matter, only their sums.
+        # Exponentials of one letter commute: only the sum of their coefficients matters.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

@@ -105,8 +105,8 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # Exponentials of one letter commute, so the coefficient of t^k is that of t to the power k, divided
-        # by k!.
+        # Exponentials of one letter commute. The coefficient of the word t^k is therefore the k-th power of
+        # the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

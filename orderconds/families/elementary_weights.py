@@ -121,7 +121,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # Leaves first, as people write: b_i c_i a_ij c_j.
+    # Factors of leaves come first, as usual in print: b_i c_i a_ij c_j.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

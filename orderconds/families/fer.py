@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Methods with exponents of commutators only, except the last exponent, which has none.
+    """Methods in which the last exponent has no commutators, and all other exponents have only commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)

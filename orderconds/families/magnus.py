@@ -67,7 +67,8 @@ class MagnusFamily(WordFamily):
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return the family of exponentials, or that of Cayley transforms."""
+        """Return this family for methods with exponentials, or ``cayley`` for methods with Cayley
+        transforms."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod

@@ -86,8 +86,8 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family of free trees for a symplectic pair with b = bhat, all non-zero (HLW VI.7,
-        Theorem 7.4)."""
+        """Return the family of free trees, with the method, for a symplectic pair with b = bhat, all non-zero
+        (HLW VI.7, Theorem 7.4)."""
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))

@@ -4,8 +4,8 @@
 
 - *symmetry*: a symmetric method of odd order n - 1 has order n (HLW II.3, Theorem 3.2);
 - *substitution*: the conditions of another family may imply all of order n and cost less. For a symplectic
-  pair with b = bhat those of free trees with directed edges imply those of all rooted trees of two colours
-  (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
+  pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all rooted
+  trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
 - *a cut of dexpinv* changes only values of trees with long words (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified exactly for each tableau. For tableaux over balls only the last

@@ -160,8 +160,8 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
-    r"""Return the scaled value of a group-like series on a word of trees as a polynomial in those on Lyndon
-    words.
+    r"""Return the scaled value of a group-like series on a word of trees as a polynomial in its scaled values
+    on Lyndon words.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -140,7 +140,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """The index sums of coefficients of words; i is None for the step."""
+    """The index sums of coefficients of words; i is a stage, or None for the step."""
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff
@@ -190,9 +190,9 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The power 0 of u is 1, which has a coefficient only on the empty word.
+                # u^0 = 1 has a non-zero coefficient only on the empty word.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # As in the series: u^(k-m) x u^m reads the word of u^m first.
+                    # As in the series, the word of u^m comes first in u^(k-m) x u^m.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))

@@ -168,7 +168,7 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # In a stage A acts before B, so that A and B after it may come from the same stage.
+            # A acts before B in each stage. An A and a later B may therefore belong to the same stage.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -191,7 +191,7 @@ def two_part_formula(word: Word) -> Formula:
         i = fresh()
         return product(*[index_sum((i,), (), coefficient("a", i))] * len(word))
     *gaps, tail = "".join("AB"[letter] for letter in word).split("B")
-    runs: list[tuple[int, int]] = []  # A^gap before B^length
+    runs: list[tuple[int, int]] = []  # pairs (gap, length): A^gap, then B^length
     for gap in map(len, gaps):
         if gap or not runs:
             runs.append((gap, 1))

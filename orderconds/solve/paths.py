@@ -8,7 +8,7 @@ unchanged. Stages i and s + 1 - i branch off the update after k and m - k expone
     Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0,
 
 A step of length -h is then the inverse of a step of length h: the exponentials that lead from y1 to stage s +
-1 - i are those that lead from y0 to stage i.
+1 - i are equal to the exponentials that lead from y0 to stage i.
 """
 
 from __future__ import annotations
