@@ -1,11 +1,10 @@
-"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i acts last and F_2 has only
-brackets.
+"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), with F_1 = sum_i b_i A_i, which acts last.
 
 Conditions on single letters are the conditions of a quadrature rule for F_1. Conditions on longer Lyndon
 words compare F_2 = sum_{ij} phi_ij A_j A_i + ..., the logarithm of the other factors, with the logarithm of
 exp(-F_1) Y (Fer 1958; Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
-Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). Up to order six this is Fer's F_2; F_3 begins with
-weight seven.
+Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). F_2 contains only brackets. Up to order six it is
+equal to Fer's F_2, since F_3 begins with weight seven.
 """
 
 from __future__ import annotations

@@ -67,8 +67,7 @@ class MagnusFamily(WordFamily):
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return this family for methods with exponentials, or ``cayley`` for methods with Cayley
-        transforms."""
+        """Return ``magnus`` for methods with exponentials, ``cayley`` for methods with Cayley transforms."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod

@@ -1,6 +1,6 @@
 """Conditions that need not be evaluated, because theorems derive them from earlier results of a check.
 
-``check`` evaluates orders 1, 2, ...; at order n all lower conditions hold. Then
+``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
 
 - *symmetry*: a symmetric method of odd order n - 1 has order n (HLW II.3, Theorem 3.2);
 - *substitution*: the conditions of another family may imply all of order n and cost less. For a symplectic

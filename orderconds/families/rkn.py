@@ -3,7 +3,7 @@
 The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone therefore commute.
 These are V, [V,[T,V]] and all iterates of x o y = [x,[T,y]] on V. The relation of lowest weight is
 [V,[V,[V,T]]] = 0. Conditions are the combinations of words over T and V that vanish on the ideal of these
-commutators: Their numbers at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
+commutators. Their numbers at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
 Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 

@@ -1,8 +1,8 @@
 """Recognise numbers known to many digits as elements of one number field, by lattice reduction.
 
 If a real number x is near a root of a polynomial with small integer coefficients, the lattice spanned by
-(e_k, N x^k), with N large, has a short vector (Lenstra, Lenstra and Lovasz 1982). The result is a guess,
-which the caller has to verify in the field.
+(e_k, N x^k), with N large, has a short vector (Lenstra, Lenstra and Lovasz 1982). The result is a guess. The
+caller has to verify it in the field.
 """
 
 from __future__ import annotations
