@@ -1,10 +1,11 @@
 """The claimable families of a tableau: its file should state an order in each of them.
 
-A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``, and with non-zero weights ``sprk``, ``vcg`` and
-``vrkmk`` (any cut-off of ``rkmk`` and ``vrkmk`` is a claim); a commutator-free method claims ``rk``, ``cf``
-and, with non-zero weights, ``vcf``. A pair claims ``prk``; a symplectic pair claims ``sprk_separable``
-instead. A family is not included if its order follows from the order in another family, as ``prk`` for an
-``rk`` tableau. The decision is a method of each family (:meth:`orderconds.families.Family.claimable`).
+A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
+and ``vrkmk``. A claim with any cut-off of ``rkmk`` or ``vrkmk`` suffices. A commutator-free method claims
+``rk``, ``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``; a symplectic pair claims
+``sprk_separable`` instead. A family is not included if its order follows from the order in another family, as
+``prk`` for an ``rk`` tableau. The decision is a method of each family
+(:meth:`orderconds.families.Family.claimable`).
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ class Limits:
 
 @dataclass
 class Meter:
-    """A counter for the conditions of one check, which reports when a limit is reached.
+    """A counter for the conditions of one check; it reports when a limit is reached.
 
     >>> meter = Meter(Limits(conditions=10))
     >>> meter.count(8)
@@ -75,7 +75,7 @@ def resident_megabytes() -> float:
 def _largest_megabytes() -> float:
     try:
         import resource
-    except ImportError:  # Windows
+    except ImportError:  # there is no module resource on Windows
         return 0.0
     import sys
 

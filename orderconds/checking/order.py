@@ -177,7 +177,7 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # For balls a theorem proves no more than that their digits support an order.
+        # For balls, a theorem proves only that the digits support an order.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

@@ -158,7 +158,7 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families whose orders bound those of others, without the families in ``labels``.
+    """Return the families whose orders bound orders in other families, without the families in ``labels``.
 
     A plain array that is a composition of midpoints is also read as a composition.
     """

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 class ActionFamily(Family):
     """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact, one for each g-valued action tree t.
 
-    The conditions of order n are those of the trees with n copies of H. ``conditions`` selects independent
+    The conditions of order n belong to the trees with n copies of H. ``conditions`` selects independent
     conditions by ranks of their values at random methods. ``decisive_conditions`` needs neither ranks nor
     NumPy.
     """
@@ -71,8 +71,8 @@ class ActionFamily(Family):
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Return the printed left-hand side of each dependent tree as a polynomial in those of independent
-        trees.
+        """Return the printed left-hand side of each dependent tree as a polynomial in the left-hand sides of
+        independent trees.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}

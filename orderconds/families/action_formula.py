@@ -136,7 +136,7 @@ class ExponentialsFormula(ActionFormula):
         """Return a word's coefficient in the exponentials strictly between two places (None: no bound)."""
         if not word:
             return one()
-        lengths = reversed(list(compositions(len(word))))  # begin with all places different
+        lengths = reversed(list(compositions(len(word))))  # first the sum over distinct places
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
@@ -297,7 +297,7 @@ class MuntheKaasFormula(ActionFormula):
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:
         letters = len(before) + len(behind)
         for q, m, n in self._terms(letters):
-            # The power 0 of X is 1, which has a coefficient only on the empty word.
+            # X^0 = 1 has a non-zero coefficient only on the empty word.
             if m <= len(before) and n <= len(behind) and bool(m) is bool(before) and bool(n) is bool(behind):
                 inner = product(self._power(stage, m, before), self._power(stage, n, behind))
                 if isinstance(inner, Total):

@@ -79,7 +79,7 @@ class Family(ABC):
     bounds_others: ClassVar[bool] = False
     """Whether ``check`` computes the order in this family to bound the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """Families in which a 2N scheme has the same order as in this one."""
+    """Families in which the order of a 2N scheme is equal to its order in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
@@ -145,6 +145,7 @@ class Family(ABC):
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of this order and cost less than an independent set.
+
         By default these are the independent set.
         """
         return self.conditions(order)
@@ -192,7 +193,9 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of one order whose 2-norm measures a method's error.  By default these are the
+        """Return the residuals of one order whose 2-norm measures a method's error.
+
+        By default these are the
         residuals of the independent conditions.
         """
         return self.residuals(method, ring, self.conditions(order))
@@ -232,6 +235,7 @@ class Family(ABC):
 
     def work(self, tableau: Tableau) -> Work | None:
         """Return the field evaluations, exponentials and brackets of a step, or None if they are not counted.
+
         By default only the evaluations are counted.
         """
         from orderconds.tableau.work import evaluations
@@ -311,7 +315,8 @@ class Family(ABC):
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return the orders, by label, of a symmetric method that meets the conditions up to ``order``."""
+        """Return the orders, by label, of a symmetric method that satisfies the conditions up to
+        ``order``."""
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:

@@ -72,7 +72,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the paths to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -97,7 +97,9 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the coefficients that occur in formulas, with zeros for missing entries.  These are alpha_iJj
+    """Return the coefficients that occur in formulas, with zeros for missing entries.
+
+    These are alpha_iJj
     and beta_Jj, their sums over exponentials a_ij and b_j, and c_i = sum_j a_ij.
 
     >>> from orderconds.ring import QQ
@@ -132,7 +134,7 @@ def _word(
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # For one letter the order of the exponentials does not matter, only their sums.
+        # Exponentials of one letter commute: only the sum of their coefficients matters.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

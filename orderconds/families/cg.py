@@ -1,4 +1,4 @@
-"""Crouch-Grossman methods: exp(h b_s k_s) ... exp(h b_1 k_1) y0, stages alike with a_ij (HLW IV.8.1).
+"""Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
 Stage i has the same form with a_ij instead of b_j. The exponential of the first stage acts first, in the
 stages and in the update. Exponentials with coefficient zero are left out.
@@ -59,7 +59,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the paths to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -105,8 +105,8 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # Exponentials of one letter commute, so the coefficient of t^k is that of t to the power k, divided
-        # by k!.
+        # Exponentials of one letter commute. The coefficient of the word t^k is therefore the k-th power of
+        # the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
         first = alone or index_sum((i,), (), product(row(i), _stage(letters[0], i)))

@@ -1,9 +1,9 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi.
 
 Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the field itself. Letter k denotes X_k and has weight k. Its
-value is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint Phi*_{beta h}. The exact flow has 1/n! on the
-word of n letters 1, and zero on all others (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357
-(1999) 1079).
+value is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint Phi*_{beta h}. The exact flow has the value
+1/n! on the word of n letters 1, and zero on all other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans.
+R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations

@@ -69,8 +69,8 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree, with a relation if another choice of the root
-    implies it.
+    """Return the condition ``weight = 1/gamma`` of each tree; with ``switching``, dependent conditions have
+    relations.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -103,7 +103,9 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return the sum over ``indices`` of ``factors`` times the stage value of a tree at the last index.  The
+    """Return the sum over ``indices`` of ``factors`` times the stage value of a tree at the last index.
+
+    The
     formula is built directly: equal subtrees have equal factors.
     """
     bound = list(indices)
@@ -119,7 +121,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # Leaves first, as people write: b_i c_i a_ij c_j.
+    # Factors of leaves come first, as usual in print: b_i c_i a_ij c_j.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

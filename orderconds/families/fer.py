@@ -1,9 +1,10 @@
-"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), with brackets only in F_2. F_1 = sum_i b_i A_i acts last.
+"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), with F_1 = sum_i b_i A_i, which acts last.
 
-Conditions on letters are those of a quadrature for F_1. Conditions on longer Lyndon words compare the
-logarithm F_2 = sum_{ij} phi_ij A_j A_i + ... of the other factors with that of exp(-F_1) Y (Fer 1958;
-Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3; Blanes, Casas, Oteo and
-Ros, J. Phys. A 31 (1998) 259). Up to order six this is Fer's F_2; F_3 begins with weight seven.
+Conditions on single letters are the conditions of a quadrature rule for F_1. Conditions on longer Lyndon
+words compare F_2 = sum_{ij} phi_ij A_j A_i + ..., the logarithm of the other factors, with the logarithm of
+exp(-F_1) Y (Fer 1958; Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
+Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). F_2 contains only brackets. Up to order six it is
+equal to Fer's F_2, since F_3 begins with weight seven.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Methods with exponents of commutators only, except the last exponent, which has none.
+    """Methods in which the last exponent has no commutators, and all other exponents have only commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -51,11 +52,11 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """No tableau: the order is that of ``magnus``."""
+        """Return None: the order is that of ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method that is no product of Fer's kind."""
+        """Raise :class:`~orderconds.errors.InputError` for a method that is not a product of this form."""
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
@@ -71,7 +72,7 @@ class FerFamily(MagnusFamily):
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the sum of b_i c_i^(k-1) for a letter, else of phi_{ij...} c_i^(k_1-1) ... over nodes."""
+        """Return the sum over nodes of b_i c_i^(k-1) for a letter k, else of phi_{ij...} c_i^(k_1-1) ...."""
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -81,7 +82,8 @@ class FerFamily(MagnusFamily):
         return lambda word: last(word) if len(word) == 1 else rest(word)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return random quadratures with random brackets, nested to the left, at random nodes before them."""
+        """Return methods at random nodes: random brackets, nested to the left, act before a random
+        quadrature."""
         c = tuple(ring.random(generator) for _ in range(order))
         terms = []
         for depth in range(2, order + 1):

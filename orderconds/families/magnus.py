@@ -1,9 +1,10 @@
 """Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h).
 
 Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ...; in printed conditions omega_{ij...} is the
-coefficient of the product in which A_i acts first. Expanded in X_k, A(t) = X_1 + t X_2 + ..., it must agree
-with the Magnus expansion at every Lyndon word over letters k of weight k (Iserles, Munthe-Kaas, Noersett and
-Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of exponentials, Omega is the logarithm.
+coefficient of the product in which A_i acts first. With A(t) = X_1 + t X_2 + ..., the expansion of Omega in
+the X_k must agree with the Magnus expansion on every Lyndon word over letters k of weight k (Iserles,
+Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of exponentials, Omega
+is the logarithm.
 """
 
 from __future__ import annotations
@@ -66,12 +67,12 @@ class MagnusFamily(WordFamily):
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return the family of exponentials, or that of Cayley transforms."""
+        """Return ``magnus`` for methods with exponentials, ``cayley`` for methods with Cayley transforms."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Methods that use the family's map."""
+        """Return the family for methods that use its map from the algebra to the group."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
@@ -92,7 +93,8 @@ class MagnusFamily(WordFamily):
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value of a Lie element on a word as a linear combination of those on Lyndon words."""
+        """Return the value of a Lie element on a word as a linear combination of its values on Lyndon
+        words."""
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -117,7 +119,7 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return the linear part of a word's polynomial in Lyndon words: its value on a Lie element.
+    """Return the linear part of a word's polynomial in Lyndon words, which is the value of a Lie element.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

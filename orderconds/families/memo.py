@@ -1,6 +1,7 @@
 """A memo of the series of one method.
 
-A check evaluates orders 1, 2, ... of the same method, and values of larger trees use those of smaller ones.
+A check evaluates orders 1, 2, ... of one method. Values on larger trees are computed from values on smaller
+trees.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ Result = TypeVar("Result")
 
 
 class Memo(Generic[Result]):
-    """The results of ``compute(method, ring)`` for the last two methods: one exact, one in balls.
+    """The results of ``compute(method, ring)`` for the last two methods, such as one method over an exact
+    ring and over balls.
 
     Methods are compared by identity.
 

@@ -1,7 +1,7 @@
 """Runge-Kutta-Munthe-Kaas methods with the fewest brackets, as compiled for ``rkmk`` without a cut-off.
 
-The conditions are those of ``rkmk``; the left-hand sides are values of the compiled program,
-from its own Lie-Butcher series. Hence the order is that of the compiled program.
+The conditions are equal to those of ``rkmk``, but their left-hand sides are values of the compiled program,
+from the Lie-Butcher series of the program. Hence the computed order is the order of the program.
 """
 
 from __future__ import annotations

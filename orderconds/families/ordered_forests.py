@@ -1,10 +1,11 @@
 """Families on ordered forests: conditions are the values on Lyndon words of ordered trees.
 
 The step of a Lie group method and the exact flow are group-like, so their values on Lyndon words generate all
-others by shuffles (see ``words.lyndon``). Letters are ordered by falling size, ties as enumerated.
+others by shuffles (see ``words.lyndon``). Letters are ordered by decreasing size; letters of equal size are
+in the order of enumeration.
 
-Each condition is multiplied by the factorials of the lengths of its word and of the words below its
-vertices, so that it reads sum_i b_i c_i^2 = 1/3 and not 1/2 sum_i b_i c_i^2 = 1/6.
+Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
+branches at each vertex. For example, sum_i b_i c_i^2 = 1/3 is printed and not 1/2 sum_i b_i c_i^2 = 1/6.
 """
 
 from __future__ import annotations
@@ -46,11 +47,12 @@ class OrderedForestFamily(Family):
         """Return the index sum of ``scale(forest)`` times the value on a forest."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one a Lyndon word over ordered trees."""
+        """Return the conditions of this order, one for each Lyndon word over ordered trees."""
         return self._of(lyndon_forests(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one an ordered forest, dependent ones with their relations."""
+        """Return the conditions of this order, one for each ordered forest, dependent ones with their
+        relations."""
         return with_relations(
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )
@@ -82,7 +84,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return the product of the factorials of the numbers of branches, at every vertex and in the word.
+    r"""Return the factorial of the number of trees, times the factorials of the numbers of branches at
+    vertices.
 
     >>> scale(b"\0\1\1\0")
     4
@@ -103,7 +106,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word of branches in a forest, the forest itself among them.
+    r"""Return the length of the longest word of branches in a forest; the forest itself counts as such a
+    word.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

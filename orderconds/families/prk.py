@@ -1,4 +1,5 @@
-"""Partitioned Runge-Kutta methods: one condition a rooted tree with vertices of two colours (HLW III.2.2).
+"""Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
+III.2.2).
 
 A single tableau is read as a pair of two equal tableaux.
 """
@@ -73,7 +74,8 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """A pair that is not symplectic; a symplectic one has conditions of its own."""
+        """Return the family for a pair that is not symplectic; other families have the conditions of
+        symplectic pairs."""
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None
@@ -84,7 +86,8 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return free trees for a symplectic pair with b = bhat, all non-zero (HLW VI.7, Theorem 7.4)."""
+        """Return the family of free trees, with the method, for a symplectic pair with b = bhat, all non-zero
+        (HLW VI.7, Theorem 7.4)."""
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))
@@ -95,7 +98,7 @@ class PartitionedFamily(Family):
 
 
 def as_pair(method: Method) -> PartitionedRungeKutta:
-    """Return a pair of tableaux; for a single tableau, twice the same.
+    """Return a pair of tableaux; a single tableau is repeated.
 
     >>> as_pair(RungeKutta(((0,),), (1,))).b_hat
     (1,)
@@ -106,7 +109,7 @@ def as_pair(method: Method) -> PartitionedRungeKutta:
 
 
 def rooted_weight(tree: BicolouredTree) -> Formula:
-    r"""Return a coloured tree's elementary weight as an index sum, the root's colour choosing b or bhat.
+    r"""Return a coloured tree's elementary weight as an index sum, with b or bhat for the colour of the root.
 
     >>> from orderconds.formula import named
     >>> named(rooted_weight(b"\1\2")).text()

@@ -36,7 +36,7 @@ class SameWeightsFamily(PartitionedFamily):
     implies: ClassVar[Mapping[str, str]] = {}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one a rooted tree with edges of two kinds."""
+        """Return the conditions of this order, one for each rooted tree with edges of two kinds."""
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
@@ -46,7 +46,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """No tableau: the order is that of the family of all pairs."""
+        """Return None: the order is that in the family of all pairs."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

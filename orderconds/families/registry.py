@@ -53,7 +53,7 @@ def register(family: FamilyClass) -> FamilyClass:
 
     It may be used as a decorator. An installed package uses the entry-point group ``orderconds.families``
     instead. Raises :class:`~orderconds.errors.InputError` for a class without name, description or formats,
-    and for a name that is taken.
+    and for a name that another family has.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -94,7 +94,7 @@ def register(family: FamilyClass) -> FamilyClass:
 
 
 def unregister(name: str) -> None:
-    """Forget a family that :func:`register` added; built-in families stay.
+    """Remove a family that :func:`register` added. Built-in families cannot be removed.
 
     >>> unregister("rk")
     Traceback (most recent call last):
@@ -137,7 +137,7 @@ def position(name: str) -> int:
 
 
 def family_class(name: str) -> type[Family]:
-    """Return the class of a family by its name; entry points are scanned only for names that are not known.
+    """Return the class of a family by its name; entry points are scanned only for unknown names.
 
     Raises :class:`~orderconds.errors.UnknownName` for any other name.
 
@@ -145,7 +145,7 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        import_module(BUILT_IN[name])  # which registers it
+        import_module(BUILT_IN[name])  # the import registers the family
     kind = _registered.get(name) or _installed(name)
     if kind is None:
         import difflib
@@ -161,7 +161,8 @@ def family_class(name: str) -> type[Family]:
 
 
 def _installed(name: str) -> type[Family] | None:
-    """Return the family of an installed package, registered."""
+    """Register the family ``name`` of an installed package and return its class; None if there is no such
+    family."""
     from importlib import metadata
 
     for entry in metadata.entry_points(group=ENTRY_POINT_GROUP, name=name):

@@ -1,9 +1,9 @@
 """Relations of dependent conditions: polynomials in the left-hand sides of independent ones.
 
-Two laws make conditions dependent. The root of a tree of a symplectic method moves across an edge by
-phi(u o v) = phi(u) phi(v) - phi(v o u) (HLW VI.7.1). Values on words of a group-like series multiply by
-shuffles, a(u) a(v) = a(u sh v), so those on Lyndon words determine all others (Reutenauer, Free Lie Algebras,
-Thm 6.1).
+Two laws make conditions dependent. For a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u), which
+moves the root of a tree across an edge (HLW VI.7.1). The values of a group-like series on words multiply by
+shuffles, a(u) a(v) = a(u sh v). Values on Lyndon words therefore determine all others (Reutenauer, Free Lie
+Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import shuffle
 
 Polynomial = dict[tuple[Any, ...], Fraction]
-"""Monomials in conditions, each the sorted encodings of its factors, with their coefficients."""
+"""A polynomial in left-hand sides: coefficients by monomial. A monomial is the sorted tuple of its factors'
+encodings."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
 """For each edge at the root of a tree u o v: u, v and v o u."""
@@ -70,7 +71,7 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """The weights of rooted trees of a symplectic method as polynomials in those of ``independent(n)``.
+    """The weights of rooted trees of a symplectic method as polynomials in the weights of ``independent(n)``.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING
     >>> from orderconds.trees.levels import parse, text
@@ -110,7 +111,7 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions with relations, except the independent ones.
+    """Return the conditions; each dependent one has a relation.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -126,7 +127,7 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the key by which trees are ordered as letters: falling size, then as enumerated.
+    """Return the sort key of trees as letters: decreasing size, then the order of enumeration.
 
     >>> from orderconds.trees.levels import parse, text
     >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
@@ -159,7 +160,8 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
-    r"""Return a group-like value on a word of trees as a polynomial in those on Lyndon words, with scales.
+    r"""Return the scaled value of a group-like series on a word of trees as a polynomial in its scaled values
+    on Lyndon words.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -1,4 +1,5 @@
-"""Runge-Kutta methods: one condition a rooted tree, its elementary weight = 1/gamma (HLW III.1, Thm 1.5)."""
+"""Runge-Kutta methods: one condition, elementary weight = 1/gamma, for each rooted tree (HLW III.1, Thm
+1.5)."""
 
 from __future__ import annotations
 
@@ -50,7 +51,8 @@ class RungeKuttaFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one a rooted tree; they are independent (HLW III.1, Ex. 5)."""
+        """Return the conditions of this order, one for each rooted tree; they are independent (HLW III.1, Ex.
+        5)."""
         return _conditions(self.name, order)
 
     @cached_property
@@ -65,12 +67,13 @@ class RungeKuttaFamily(Family):
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau (A, b); for other formats, that of the method on an abelian group."""
+        """Return the tableau (A, b); for other formats, the tableau of the method on an abelian group."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Butcher tableaux, commutator-free methods and compositions of midpoints have a classical order."""
+        """Return the family for Butcher tableaux, commutator-free methods and compositions of midpoint
+        rules."""
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:

@@ -1,8 +1,8 @@
-"""Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``; without r it is not cut.
+"""Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``. Without r there is no cut.
 
-The conditions are values of the series of the method on Lyndon words, without assumptions on the order. The
-computed order is min(p, R + 2), where p is the Runge-Kutta order and R = r for r = 0 and odd r, R = r + 1 for
-even r >= 2, since B_{r+1} = 0.
+The left-hand sides are values of the series of the method on Lyndon words; no theorem on the order is
+assumed. The computed order is min(p, R + 2), where p is the Runge-Kutta order and R = r for r = 0 and odd r,
+R = r + 1 for even r >= 2, since B_{r+1} = 0.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Tableaux (A, b)."""
+        """Return the family for tableaux (A, b)."""
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
@@ -93,11 +93,13 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return those of :meth:`conditions` that do not follow from the others and from lower ones.
+        """Return the conditions in :meth:`conditions` that do not follow from others of this or of lower
+        order.
 
-        Their number is that of rooted trees, 1, 1, 2, 4, 9 ..., because dexpinv transforms the problem to a
-        vector space. At order R + 3 there is one more, which no tableau meets. Computed by ranks (imports
-        NumPy) up to order :data:`RANKED`; beyond it all of :meth:`conditions`.
+        Their number is the number of rooted trees, 1, 1, 2, 4, 9, ..., because dexpinv transforms the problem
+        to a vector space. At order R + 3 there is one more condition, which no tableau satisfies. Up to order
+        :data:`RANKED` they are computed by ranks (imports NumPy). Beyond this order all of :meth:`conditions`
+        are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -120,8 +122,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
     def highest_order(self, limit: int) -> int:
         """Return the highest order that this cut of dexpinv allows, R + 2, but at most ``limit``.
 
-        Beyond it the values of every tableau obey a relation that the exact flow's do not: there is one
-        essential condition more than there are rooted trees. Computed by ranks (imports NumPy).
+        At the next order the values of every tableau satisfy a relation that the values of the exact flow
+        violate. There is then one essential condition more than there are rooted trees. The order is computed
+        by ranks (imports NumPy).
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -137,7 +140,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """The index sums of coefficients of words; i is None for the step."""
+    """The index sums of coefficients of words; i is a stage, or None for the step."""
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff
@@ -187,9 +190,9 @@ class _Words:
         for place, tree in enumerate(word):
             for q, m, n in dexpinv_terms(longest):
                 behind = len(word) - 1 - place
-                # The power 0 of u is 1, which has a coefficient only on the empty word.
+                # u^0 = 1 has a non-zero coefficient only on the empty word.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # As in the series: u^(k-m) x u^m reads the word of u^m first.
+                    # As in the series, the word of u^m comes first in u^(k-m) x u^m.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))

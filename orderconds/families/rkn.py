@@ -1,10 +1,10 @@
-"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, where brackets vanish.
+"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, for which some brackets vanish.
 
-The bracket of functions of degrees i and j in p has degree i + j - 1, so that functions of q alone commute:
-V, [V,[T,V]] and all iterates of x o y = [x,[T,y]] on V. The consequence of lowest weight is [V,[V,[V,T]]] =
-0. Conditions are the combinations of words over T and V that vanish on the ideal of these commutators: 2, 1,
-2, 2, 4, 5, 10, 14, 25, ... of them at order 1, 2, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151;
-McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone therefore commute.
+These are V, [V,[T,V]] and all iterates of x o y = [x,[T,y]] on V. The relation of lowest weight is
+[V,[V,[V,T]]] = 0. Conditions are the combinations of words over T and V that vanish on the ideal of these
+commutators. Their numbers at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
+Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -60,7 +60,8 @@ class NystroemFamily(Family):
     unknowns = "splitting"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a splitting that does not say which part is V."""
+        """Raise :class:`~orderconds.errors.InputError` for a splitting whose file does not name the part
+        V."""
         if expect(method, Splitting).rkn is None:
             raise InputError(
                 "a splitting without rkn",
@@ -74,7 +75,7 @@ class NystroemFamily(Family):
         return tuple(map(self._condition, independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return those of a basis of all combinations, dependent ones with their relations."""
+        """Return the conditions of a basis of all combinations, dependent ones with their relations."""
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
     def evaluate(
@@ -101,13 +102,15 @@ class NystroemFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Splittings whose file names the part V."""
+        """Return the family for splittings whose file names the part V."""
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return the same order, as a splitting up to 4: [V,[V,[V,T]]] = 0 concerns words of four letters and
-        more, and the order is even."""
+        """Return the same order in this family, and at most order 4 as a general splitting.
+
+        The relation [V,[V,[V,T]]] = 0 concerns only words of four or more letters, and the order is even.
+        """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -150,7 +153,8 @@ def text(functional: Functional) -> str:
 
 
 def formula(functional: Functional) -> Formula:
-    """Return the index sum of the scaled combination: a_i, b_i the steps of T, V, c_i = a_1 + ... + a_i.
+    """Return the index sum of the scaled combination, with steps a_i of T, b_i of V, and c_i = a_1 + ... +
+    a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
@@ -178,7 +182,7 @@ def functionals(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def independent(order: int) -> tuple[Functional, ...]:
-    """Return the combinations that are independent modulo products of lower ones.
+    """Return the combinations that are independent modulo products of combinations of lower order.
 
     >>> [text(functional) for functional in independent(4)]
     ['TTTV', 'TTVV']
@@ -202,7 +206,7 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return the commutators of functions of q alone, to this weight."""
+    """Return the commutators of two iterates of :func:`_potentials`, of weight at most ``order``."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket
@@ -239,7 +243,7 @@ def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fra
 
 
 def relation(functional: Functional) -> Polynomial:
-    """Write a scaled combination as a polynomial in independent ones, themselves scaled, by linear algebra.
+    """Return a scaled combination as a polynomial in scaled independent combinations, by linear algebra.
 
     >>> relation((((1, 0), 1),))
     {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}

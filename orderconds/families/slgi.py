@@ -1,6 +1,7 @@
-"""Symplectic Lie group integrators of Marthinsen's thesis, Section 2.5; with one stage the theta-method.
+"""Symplectic Lie group integrators of Marthinsen's thesis, Section 2.5. With one stage they are
+theta-methods.
 
-They are equal to ``vrkmk(0)``, VRKMK without brackets in dexpinv. Their order is at most two
+The methods are equal to ``vrkmk(0)``, that is, VRKMK without brackets in dexpinv. Their order is at most two
 (H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, thesis, NTNU Trondheim, 2014).
 """
 
@@ -41,7 +42,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """No tableau: the order is that of ``vrkmk(0)``."""
+        """Return None: the order is that of ``vrkmk(0)``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
@@ -49,5 +50,5 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order under ``vrkmk(0)``, or what the order without brackets implies."""
+        """Return the order in ``vrkmk(0)``, or the bound that follows from the order without brackets."""
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

@@ -1,7 +1,8 @@
-"""Splittings: products of the flows of A, B, ... whose sum is the field; conditions are words over A, B, ...
+"""Splittings: products of the flows of fields A, B, ... with sum A + B + ...; conditions belong to words over
+A, B, ...
 
-One step is ... exp(b_1 h B) exp(a_1 h A), A acting first in each stage; the exact flow exp(h (A + B)) has the
-value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
+One step is ... exp(b_1 h B) exp(a_1 h A), where A acts first in each stage. The exact flow exp(h (A + B)) has
+the value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings in ``parts`` parts; letters 0, 1, ... are the parts in the order of the file, A, B, ....
+    """Splittings in ``parts`` parts; letters 0, 1, ... denote the parts A, B, ... in the order of the file.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -62,7 +63,7 @@ class SplittingFamily(WordFamily):
         self.parts = parts
 
     def label(self) -> str:
-        """Return ``splitting``, with the number of parts where it is not two."""
+        """Return ``splitting``, with the number of parts if it is not two."""
         return self.name if self.parts == 2 else f"{self.name}({self.parts})"
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -110,14 +111,15 @@ class SplittingFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Splittings, and compositions of an adjoint pair."""
+        """Return the family for splittings, and for compositions of an adjoint pair."""
         method = tableau.method
         if isinstance(method, AdjointComposition):
             return cls()
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order of a Runge-Kutta-Nystroem splitting up to 3: brackets vanish from order 4 on."""
+        """Return the order as a Runge-Kutta-Nystroem splitting, but at most 3: brackets vanish only from
+        order 4 on."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -125,7 +127,7 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the family of Nystroem splittings with option --rkn."""
+        """Return the label of Nystroem splittings if the option --rkn is set."""
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
@@ -146,7 +148,7 @@ class SplittingFamily(WordFamily):
         return StageForm(names, method)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return splittings with random steps, a stage more than the conditions of ``order``."""
+        """Return splittings with random steps; there is one stage more than conditions of ``order``."""
         stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
         steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
         return Splitting(tuple(map(self.text, self.words(1))), tuple(steps))
@@ -166,7 +168,7 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # In a stage A acts before B, so that A and B after it may come from the same stage.
+            # A acts before B in each stage. An A and a later B may therefore belong to the same stage.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -178,7 +180,8 @@ def splitting_formula(word: Word) -> Formula:
 
 
 def two_part_formula(word: Word) -> Formula:
-    """Return the same for two parts, with c_i = a_1 + ... + a_i: a run of A between b_i and b_j is c_j - c_i.
+    """Return the index sum for two parts, with c_i = a_1 + ... + a_i; A between b_i and b_j has the factor
+    c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -188,7 +191,7 @@ def two_part_formula(word: Word) -> Formula:
         i = fresh()
         return product(*[index_sum((i,), (), coefficient("a", i))] * len(word))
     *gaps, tail = "".join("AB"[letter] for letter in word).split("B")
-    runs: list[tuple[int, int]] = []  # A^gap before B^length
+    runs: list[tuple[int, int]] = []  # pairs (gap, length): A^gap, then B^length
     for gap in map(len, gaps):
         if gap or not runs:
             runs.append((gap, 1))
@@ -219,15 +222,16 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield the ways in which runs of these lengths fall into blocks of one stage, with multinomials."""
+    """Yield the divisions of runs of these lengths into blocks of one stage, each with its multinomial
+    factor."""
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 
 
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
-    """Return the coefficients a, b, ... in formulas, with zeros for missing parts of a stage.
+    """Return the coefficients a, b, ... that occur in formulas, with zeros for missing parts of a stage.
 
-    For two parts, ``c`` are the sums a_1 + ... + a_i.
+    For two parts, ``c`` has the sums a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

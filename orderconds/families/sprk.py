@@ -1,7 +1,8 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
-Conditions belong to free trees with directed edges, since b_i ahat_ij = b_i b_j - b_j a_ji allows to move the
-root across an edge, up to products of conditions of lower order (Abia and Sanz-Serna 1993; HLW VI.7).
+The relation b_i ahat_ij = b_i b_j - b_j a_ji moves the root of a tree across an edge, up to products of
+conditions of lower order. Conditions therefore belong to free trees with directed edges (Abia and Sanz-Serna
+1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from orderconds.trees.directed import (
 )
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
-"""The weight of every rooted tree as a polynomial in those of free trees."""
+"""The weight of every rooted tree as a polynomial in the weights of free trees."""
 
 
 @register
@@ -59,7 +60,7 @@ class SymplecticPartitionedFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of this order, one a free tree with directed edges."""
+        """Return the independent conditions of this order, one for each free tree with directed edges."""
         return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -69,7 +70,7 @@ class SymplecticPartitionedFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return elementary weights of a tableau (A, b); the ring can divide."""
+        """Return elementary weights of a tableau (A, b), over a ring with division."""
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 
@@ -84,19 +85,20 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Tableaux (A, b) without zero weights."""
+        """Return the family for tableaux (A, b) without zero weights."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the tableau is symmetric: its conjugate is, too."""
+        """Whether the tableau is symmetric; the conjugate is then also symmetric."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return an order that the order p under ``rk`` and simplifying assumptions give, without trees.
+        """Return a lower bound of the order, from the order p in ``rk`` and simplifying assumptions.
 
-        If ahat = a, it is p. Otherwise C(m) and D(m) of a with B(2m) give C(m) and D(m) of ahat, by its
-        definition; trees with edges of both kinds then simplify as those with one do in Butcher's theorem,
-        since c = chat, and the order is at least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
+        If ahat = a, the order is p. Otherwise suppose B(2m), and C(m), D(m) for a. By the definition of ahat,
+        C(m) and D(m) then hold for ahat, and c = chat. Trees with edges of both kinds therefore simplify like
+        trees with one kind in Butcher's theorem, and the order is at least min(p, 2m + 1) (Jay 1996, for
+        Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

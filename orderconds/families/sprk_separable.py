@@ -1,8 +1,8 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
-Only trees whose neighbours differ in colour occur, and b_i ahat_ij + bhat_j a_ji = b_i bhat_j lets the root
-move, so that conditions belong to free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b and bhat
-may differ, as in methods written from splittings.
+Only trees occur in which neighbouring vertices differ in colour. The relation b_i ahat_ij + bhat_j a_ji = b_i
+bhat_j moves the root of a tree across an edge. Conditions therefore belong to free trees (Abia and Sanz-Serna
+1993; HLW VI.7.2). The weights b and bhat may differ, as in pairs that are equivalent to splittings.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from orderconds.trees.bicoloured import alternating, alternating_free_trees, mov
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees))
-"""The weight of every rooted tree as a polynomial in those of free trees."""
+"""The weight of every rooted tree as a polynomial in the weights of free trees."""
 
 
 @register
@@ -50,7 +50,8 @@ class SeparableFamily(Family):
     search_limit = 10
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of this order, one a free tree with alternating colours."""
+        """Return the independent conditions of this order, one for each free tree with alternating
+        colours."""
         return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -79,7 +80,7 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Symplectic pairs."""
+        """Return the family for symplectic pairs."""
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
         return cls() if pair else None
@@ -89,14 +90,14 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the form of single tableaux, whose conjugates divide by weights."""
+        """Return the form of single tableaux; the computation of their conjugates divides by weights."""
         return tableau_form(stages, explicit, divides=True)
 
 
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
-    Balls that contain zero are accepted; the conditions then hold to the given digits.
+    Differences that are balls around zero are accepted; the relation then holds to the given digits.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

@@ -13,13 +13,13 @@ from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
 
 Name = tuple[str, tuple[str, ...]]
-"""The letter and the indices of a coefficient, as ``("a", ("2", "1"))``."""
+"""The name of a coefficient: its letter and its indices, as ``("a", ("2", "1"))``."""
 
 
 class StageForm(Struct, frozen=True):
     """Names of coefficients, and a function from their values in a ring to the method.
 
-    ``divides``: whether the family divides by the coefficients b.
+    ``divides`` is true if the family divides by the coefficients b.
     """
 
     names: tuple[Name, ...]

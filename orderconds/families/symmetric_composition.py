@@ -1,7 +1,7 @@
 """Symmetric compositions of a symmetric method of order two: words over letters 1, 3, 5, ... of odd weight.
 
-A step is equal to its adjoint, so its logarithm has only odd weights, and conditions of even order follow
-from lower ones (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+A step is equal to its adjoint. Its logarithm therefore has only terms of odd weight, and conditions of even
+order follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 @register
 class SymmetricCompositionFamily(CompositionFamily):
-    """Compositions with steps gamma_1, ..., gamma_s that read the same backwards, of a symmetric method.
+    """Compositions of a symmetric method with palindromic step sizes gamma_1, ..., gamma_s.
 
     >>> for n in (1, 2, 3, 4):
     ...     for condition in SymmetricCompositionFamily().conditions(n):
@@ -58,7 +58,8 @@ class SymmetricCompositionFamily(CompositionFamily):
     bounds_others = False
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless steps of a symmetric base are symmetric."""
+        """Raise :class:`~orderconds.errors.InputError` unless the basic method and the step sizes are
+        symmetric."""
         expected = "base symmetric-2 and steps that read the same backwards"
         if not isinstance(method, Composition):
             raise InputError("base adjoint-pair", where=f"family {self.name}", expected=expected)
@@ -76,11 +77,11 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the Lyndon words over odd letters; none where the order is even."""
+        """Return the Lyndon words over odd letters; there are none if the order is even."""
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Write the value on a word as a polynomial in those on Lyndon words of odd weight."""
+        """Return the value on a word as a polynomial in the values on Lyndon words of odd weight."""
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
@@ -88,7 +89,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the form of symmetric compositions, by the first half of the steps."""
+        """Return the form of symmetric compositions; the coefficients are the first half of the step
+        sizes."""
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
         return StageForm(
@@ -97,7 +99,7 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Compositions of symmetric methods whose steps read the same backwards."""
+        """Return the family for compositions of symmetric methods with palindromic step sizes."""
         method = tableau.method
         if not isinstance(method, Composition):
             return None
@@ -108,7 +110,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return symmetric compositions with random steps, as many as conditions up to ``order`` and more."""
+        """Return symmetric compositions with random steps, at least as many as conditions up to ``order``."""
         steps = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         half = [ring.random(generator) for _ in range(steps)]
         return Composition("symmetric-2", (*half, *half[:-1][::-1]))

@@ -1,7 +1,7 @@
-"""Symplectic Runge-Kutta methods, b_i a_ij + b_j a_ji = b_i b_j: conditions belong to free trees.
+"""Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Conditions belong to free trees.
 
-Free trees that an edge divides into two equal halves are superfluous (Sanz-Serna and Abia 1991; HLW
-VI.7.1, Theorem 7.3).
+A free tree is superfluous, and has no condition, if an edge divides it into two equal halves (Sanz-Serna and
+Abia 1991; HLW VI.7.1, Theorem 7.3).
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from orderconds.trees.levels import Tree, text
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
-"""The weight of every rooted tree as a polynomial in those of essential free trees."""
+"""The weight of every rooted tree as a polynomial in the weights of free trees that are not superfluous."""
 
 
 @register
@@ -46,7 +46,7 @@ class SymplecticFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of this order, one a free tree that is not superfluous."""
+        """Return the independent conditions of this order, one for each free tree that is not superfluous."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:

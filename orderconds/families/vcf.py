@@ -1,9 +1,8 @@
 """Variational commutator-free methods: VCG with several stages in one exponential.
 
-The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0``,
-``X_iJ = h sum_j alpha_iJj xi_j``, the update alike with beta_Jj, and ``b_i = sum_J beta_Ji``: a
-generalisation suggested in Section 3.5 of Bogfjellmo and Marthinsen. Order 3 is possible without negative
-weights.
+The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ =
+h sum_j alpha_iJj xi_j``. The update has the same form with beta_Jj, and ``b_i = sum_J beta_Ji``. Section 3.5
+of Bogfjellmo and Marthinsen suggests this generalisation. Order 3 is possible without negative weights.
 """
 
 from __future__ import annotations
@@ -33,9 +32,10 @@ if TYPE_CHECKING:
 
 @register
 class VariationalCommutatorFree(ActionFamily):
-    """The family ``vcf``; ``update`` and ``stage`` are the numbers of exponentials for counting conditions.
-    Without them the numbers are large enough for all conditions to be independent: one for each elementary
-    Hamiltonian. A Runge-Kutta tableau is read with one stage in each exponential.
+    """The family ``vcf``; ``update`` and ``stage`` are the numbers of exponentials of the random methods that
+    determine which conditions are independent. By default these numbers are so large that there is one
+    independent condition for each elementary Hamiltonian. A Runge-Kutta tableau is read with one stage in
+    each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -66,7 +66,7 @@ class VariationalCommutatorFree(ActionFamily):
         )
 
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the series of random methods with full exponentials."""
+        """Return the series of random methods; every stage enters each of their exponentials."""
         stages = max(order - 1, 2)
         numbers = [self.stage or max(2, order - 3)] * stages + [self.update or max(3, order - 2)]
         rows = [
@@ -81,14 +81,15 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Commutator-free methods without zero weights; of a tableau (A, b) the order is that of ``vcg``."""
+        """Return the family for commutator-free methods without zero weights. The order of a tableau is that
+        of ``vcg``."""
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the paths to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -1,7 +1,7 @@
 """Variational Crouch-Grossman methods: a Butcher tableau on T*G, one exponential for each coefficient.
 
-Equations (3.18), (3.19) of Bogfjellmo and Marthinsen. Order 3 gives the six conditions of their Proposition
-3.5.7; the action series gives every order.
+Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the method. The six conditions of order 3 are
+in their Proposition 3.5.7. The action series yields the conditions of every order.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ class VariationalCrouchGrossman(ActionFamily):
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the paths to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:

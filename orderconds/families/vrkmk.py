@@ -1,8 +1,8 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``vrkmk(r)``.
 
-Equation (3.16) of Bogfjellmo and Marthinsen. The order is computed from the series of the method. It is
-min(p, R + 2), with p the order as a symplectic partitioned method and R as for RKMK. This is sharper than
-Theorem 3.5.3; the tests confirm R + 2.
+Equation (3.16) of Bogfjellmo and Marthinsen defines the method. The order is computed from the series of the
+method. It is min(p, R + 2), where p is the order as a symplectic partitioned method and R is defined as for
+RKMK. This result is sharper than Theorem 3.5.3; the tests confirm it.
 """
 
 from __future__ import annotations

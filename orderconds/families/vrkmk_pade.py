@@ -1,8 +1,8 @@
 """VRKMK with the inverse of a truncated dexp, instead of a truncated dexp^{-1}: ``vrkmk_pade(r)``.
 
 The stage velocities solve dexp_(r),X_i v_i = xi_i (Marthinsen's thesis, Section 3.4.1, alternative approach).
-The conditions are those of every variational family; the left-hand sides come from the method's own action
-series.
+Conditions have the same form as in every variational family. The left-hand sides are computed from the action
+series of this method.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """The family of tableaux (A, b), all b_i non-zero, with dexp cut after the power ``cutoff``.
 
-    Without a cutoff the whole of dexp is inverted, which is ``vrkmk`` without a cut.
+    Without a cut-off, dexp is inverted exactly, and the family is equal to ``vrkmk`` without a cut-off.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -74,9 +74,9 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order up to 2: no theorem about this cut is used beyond."""
+        """Return the order, but at most 2: no theorem about the cut of dexp is used for higher orders."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None: no theorem about this cut is used."""
+        """Return None: no theorem about the cut of dexp is used."""
         return None

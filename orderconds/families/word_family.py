@@ -1,7 +1,8 @@
 """Families whose conditions are values on words over a graded alphabet.
 
-Values of a group-like series multiply over shuffles, so that those on Lyndon words determine all and are
-independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). Words are written in the order of action.
+The values of a group-like series on words multiply by shuffles. Values on Lyndon words therefore determine
+all others, and are independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The letters of a word
+are in the order of action.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class WordFamily(Family):
-    """A family with one condition a word over letters of positive weight."""
+    """A family with one condition for each word over letters of positive weight."""
 
     trees = "graded"
 
@@ -74,7 +75,7 @@ class WordFamily(Family):
         return " ".join(map(str, word))
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value on a word as a polynomial in those on independent words."""
+        """Return the value on a word as a polynomial in the values on independent words."""
         return {tuple(sorted(monomial)): value for monomial, value in in_lyndon_words(word).items()}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -82,7 +83,7 @@ class WordFamily(Family):
         return tuple(map(self._condition, self.independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return every word's condition of exactly this order, dependent ones with their relations."""
+        """Return the conditions of all words of exactly this order, dependent ones with their relations."""
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
     @cached_property
@@ -97,7 +98,7 @@ class WordFamily(Family):
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return the same polynomial for scaled left-hand sides."""
+        """Return :meth:`polynomial` for scaled left-hand sides."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

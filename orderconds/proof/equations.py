@@ -4,15 +4,15 @@ Without a reduction the equations are all independent conditions of one family. 
 fewer equations. The assumptions of a reduction are verified exactly, from the formulas in the file and not
 from its decimals:
 
-``symmetric``    a palindromic composition of a symmetric method: its order is even, and only conditions of
-odd order are needed, one for each Lyndon word in the letters 1, 3, 5,
-                 ... (HLW V.3.1-3.2). Midpoints composed are the method with the composed tableau, in every
-                 family whose step is that of the tableau's midpoints one after the other (Bogfjellmo and
-                 Marthinsen, Lemma 3.5.4). A Magnus method on s Gauss nodes sees A(t) through the polynomial
-                 that agrees with it there, which changes the flow of Y' = A(t) Y by h^(2s + 1), being
-                 orthogonal to lower degrees: up to order 2s the letters 1, ..., s suffice (Iserles and
-                 Norsett 1999).
-``low-storage``  a 2N scheme: on a group it has the order that it has on a vector space (see below).
+``symmetric``    a palindromic composition of a symmetric method. The order is even, and only conditions of
+                 odd order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
+                 A composition of midpoint rules is equal to the method with the composed tableau, in every
+                 family whose step consists of these midpoint steps, one after the other (Bogfjellmo and
+                 Marthinsen, Lemma 3.5.4). A Magnus method on s Gauss nodes depends only on the polynomial
+                 that interpolates A(t) at the nodes. The interpolation error is orthogonal to lower degrees
+                 and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to order 2s, the letters 1, ..., s
+                 therefore suffice (Iserles and Norsett 1999).
+``low-storage``  a 2N scheme. Its order on a group is equal to its order on a vector space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
                  Wanner, Theorem II.7.4).
 ``spelling``     coefficients given by formulas in others define a sub-family, in which some of the
@@ -175,7 +175,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     try:
         ring, values = evaluate(nodes, exact, symbolic.where)
-    except TableauError:  # nodes that depend on a decimal
+    except TableauError:  # a node depends on a decimal
         return None
     return method.s if gauss_nodes(list(values.values()), ring) else None
 

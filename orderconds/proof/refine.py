@@ -61,7 +61,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # A box shows which equations are constant; a point does not.
+        # The constant equations are recognised over a box, not at a point.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)

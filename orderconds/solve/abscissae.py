@@ -1,10 +1,9 @@
-"""Tableaux with equal abscissae, c_i = chat_i = m_i, where m_i is the time at which the update passes stage
-i.
+"""Tableaux with equal abscissae, c_i = chat_i = m_i; the update passes stage i at the time m_i.
 
 A stage of a variational method on a group has three abscissae: c_i for the position q, chat_i for the forces
-on the momentum, and m_i, at which Ad* carries the momentum through the update,
+on the momentum, and m_i for the transport of the momentum by Ad* through the update:
 
-    1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j,
+    1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
 
 For Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i
 x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0, and likewise for

@@ -81,7 +81,7 @@ def _place(name: str) -> tuple[bool, bool, str, list[int]]:
 
 
 def renamed(ansatz: Ansatz, name: str) -> Ansatz:
-    """Return the same ansatz with another name in its file.
+    """Return a copy of ``ansatz`` whose file contains the name ``name``.
 
     >>> from orderconds.solve.parametrise import ansatz
     >>> from orderconds.solve.spec import Spec

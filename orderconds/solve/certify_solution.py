@@ -316,7 +316,7 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # Choose the shorter of two forms: every coefficient in full, or with names for repeated numbers.
+        # Choose the shorter of two texts: with each coefficient in full, or with names for repeated numbers.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, problem.ansatz.family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)

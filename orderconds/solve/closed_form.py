@@ -1,8 +1,8 @@
 """Recognise numbers known to many digits as elements of one number field, by lattice reduction.
 
 If a real number x is near a root of a polynomial with small integer coefficients, the lattice spanned by
-(e_k, N x^k), with N large, has a short vector (Lenstra, Lenstra and Lovasz 1982). The result is a guess,
-which the caller has to verify in the field.
+(e_k, N x^k), with N large, has a short vector (Lenstra, Lenstra and Lovasz 1982). The result is a guess. The
+caller has to verify it in the field.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # A random vector is about as long as the root of the determinant; a true relation is much shorter.
+    # Random shortest vectors have a length near a root of the determinant; true relations are much shorter.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None

@@ -17,7 +17,7 @@ TIMEOUT = 3
 
 
 def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
-    """Yield ``work(job)`` for each job, in order; ``address`` is that of the scheduler.
+    """Yield ``work(job)`` for each job, in order; ``address`` is the address of the scheduler.
 
     If a worker dies, another worker repeats its job. Raises InputError if the scheduler does not answer.
     """

@@ -87,7 +87,7 @@ def infeasible(problem: Problem) -> Infeasible | None:
     ring = LaurentPolynomials(names) if problem.family.needs_nonzero_weights else Polynomials(names)
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
-    except (AttributeError, ArithmeticError, TypeError, ValueError):  # no monomials
+    except (AttributeError, ArithmeticError, TypeError, ValueError):  # no Laurent polynomials
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]

@@ -403,8 +403,8 @@ LAYOUTS = {
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
     """Return the ansatz of a family, by its label, for a specification.
 
-    Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that the family
-    cannot meet.
+    Raises :class:`~orderconds.errors.InputError` for options that contradict each other or that no method of
+    the family satisfies.
 
     >>> example = ansatz("rk", Spec(stages=2, explicit=True, fix=("a21=1/2",)))
     >>> example.free, example.body[2]

@@ -1,14 +1,14 @@
 """The exponentials of commutator-free methods, with free coefficients or for symmetric methods.
 
 Let a method have s stages and m exponentials in the update, and let bar exchange stages j and s + 1 - j. The
-method is symmetric under two conditions. Bar and reversal of the order of the exponentials leave the update
-unchanged. Stages i and s + 1 - i branch off the update after k and m - k exponentials,
+method is symmetric under two conditions. First, reversing the order of the exponentials and applying bar does
+not change the update. Second, stages i and s + 1 - i branch off the update after k and m - k exponentials,
 
     Q_i = exp(X_r) ... exp(X_1) exp(Y_k) ... exp(Y_1) y0,
-    Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0,
+    Q_{s+1-i} = exp(-bar X_r) ... exp(-bar X_1) exp(Y_{m-k}) ... exp(Y_1) y0.
 
 A step of length -h is then the inverse of a step of length h: the exponentials that lead from y1 to stage s +
-1 - i are those that lead from y0 to stage i.
+1 - i are equal to the exponentials that lead from y0 to stage i.
 """
 
 from __future__ import annotations
