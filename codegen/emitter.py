@@ -104,8 +104,9 @@ def compile_method(
     ``parameters`` stay run-time arguments, or are folded at a given value (``alpha=1/2``). All other
     parameters are folded at the scene's values. ``inputs`` are signals that become run-time inputs. ``frame``
     is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the solver of
-    implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded method,
-    ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName, TableauError.
+    implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded
+    method, ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName,
+    TableauError.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -165,7 +166,7 @@ def emit(
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
-    ``FAMILY:TABLEAU`` or ``TABLEAU``. Every external name starts with ``prefix``, by default scene and method.
+    ``FAMILY:TABLEAU`` or ``TABLEAU``. External names begin with ``prefix``, by default scene and method.
     ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
     inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
     control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,

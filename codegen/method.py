@@ -146,7 +146,7 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families with error estimates by an embedded row: their stages do not depend on the weights."""
+    """Return the families for which an embedded row can estimate the error: those with fixed stages."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
-    """Return the conditions of a derivation as polynomials in the entries of a tableau with ``stages`` stages.
+    """Return a derivation's conditions as polynomials in the entries of a tableau with ``stages`` stages.
 
     The tableau is full, or with ``explicit`` strictly lower triangular. Raises
     :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by stages alone.
