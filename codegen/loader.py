@@ -73,7 +73,7 @@ class Statistics:
 
 @dataclass(frozen=True)
 class _Begun:
-    """The checked arguments of a call: state, its numbers, parameter values, inputs, statistics."""
+    """The checked arguments of a call: state, state as numbers, parameter values, inputs, statistics."""
 
     state: State
     numbers: list[float]
@@ -240,7 +240,7 @@ class Integrator(ABC):
     def _call(
         self, begun: _Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        """Run and return the final state and the rows."""
+        """Run and return the final state and the rows of the trajectory."""
 
     @abstractmethod
     def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:

@@ -17,7 +17,7 @@ from orderconds.formula.notation import latex_fraction
 
 @dataclass(frozen=True)
 class OrderCondition:
-    """The condition that a method's value on ``tree`` equals ``rhs``, the exact flow's.
+    """The condition that a method's value on ``tree`` equals ``rhs``, the value of the exact flow.
 
     ``family`` is the label of the family (``rkmk(1)``), ``order`` the grade, ``tree`` the canonical text of
     the tree or word. ``source`` is the formula, or a function that builds it on demand. ``key``

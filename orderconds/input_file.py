@@ -28,7 +28,7 @@ def read_bytes(
 ) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes.
 
-    Raises ``error``, an InputError, that names the path and what was ``expected``.
+    Raises an InputError of the class ``error``, which names the path and what was ``expected``.
 
     >>> read_bytes(os.devnull)
     Traceback (most recent call last):
@@ -91,7 +91,7 @@ def _require_regular(status: os.stat_result, own: bool) -> None:
 
 
 def reason(problem: OSError) -> str:
-    """Return the operating system's description of an error, in lower case for use inside a message.
+    """Return the operating system's description of an error, with a small first letter.
 
     >>> reason(FileNotFoundError(errno.ENOENT, "No such file or directory"))
     'no such file or directory'

@@ -26,7 +26,7 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in order.
 
-    ``processes`` is the number of worker processes, by default that of the processors. A single job runs in
+    ``processes`` is the number of worker processes, by default the number of processors. A single job runs in
     this process. If the iteration ends early, for whatever reason, the workers are terminated. An error of a
     job is raised here, and InputError if a worker was killed.
 

@@ -31,10 +31,10 @@ if TYPE_CHECKING:
 @click.option("--positive", multiple=True, metavar="NAME", help="A coefficient, or b for all weights.")
 @click.option("--size", metavar="X", help="No coefficient is larger than X in absolute value.")
 @click.option(
-    "--exponentials", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in the update."
+    "--exponentials", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: number in the update."
 )
 @click.option(
-    "--inner", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in each stage."
+    "--inner", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: number in each stage."
 )
 @click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
 @click.option(
