@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
 @click.argument("kind")
 @click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="The number of vertices.")
-@click.option("--count", is_flag=True, help="Print only the number of trees, from a generating function.")
-@click.option("--draw", is_flag=True, help="Draw each tree.")
+@click.option("--count", is_flag=True, help="Print only the count, from a generating function.")
+@click.option("--draw", is_flag=True, help="Draw each tree or word.")
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show a drawing, the elementary differential and the order condition of each tree.",
+    help="Show a drawing, the elementary differential and the order condition of each tree or word.",
 )
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII signs only.")
 @click.option("--svg", type=FILE, metavar="FILE", help="Write all drawings to this file as SVG.")
