@@ -26,7 +26,7 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True)
 class Artifact:
-    """One module in one target: ``files`` maps names to texts, ``manifest`` is its entry in the manifest."""
+    """One module in one target: ``files`` maps names to texts, ``manifest`` is the module's entry."""
 
     files: Mapping[str, str]
     manifest: Mapping[str, Any]

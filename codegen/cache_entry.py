@@ -1,8 +1,8 @@
 """The cache: files that are computed once, each beside a digest of its content.
 
-An entry answers only if it is a regular file of the user and its content has the digest; any other is
-computed again. The folder has mode 0700 and belongs to the user: who can write to it can have code run.
-Where there is no such folder, a temporary one serves until the process ends.
+An entry is used only if it is a regular file of the user and its content has the digest. Otherwise it is
+computed again. The folder has mode 0700 and belongs to the user, because compiled code in it is executed. If
+no such folder can be had, a temporary folder is used until the process ends.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ SETTLED = 60.0
 def cache_directory() -> Path:
     """Return the folder of the cache: $XDG_CACHE_HOME/orderconds, else ~/.cache/orderconds.
 
-    It is made where it is missing. Where it cannot be made, or belongs to another user, a warning says so
-    once, and the folder is a temporary one.
+    The folder is created if it is missing. If it cannot be created or belongs to another user, a warning is
+    logged once and a temporary folder is returned.
     """
     base = os.environ.get("XDG_CACHE_HOME", "")
     try:
         folder = (Path(base) if os.path.isabs(base) else Path.home() / ".cache") / "orderconds"
-    except RuntimeError:  # no HOME, and a user without a home folder
+    except RuntimeError:  # HOME is not set, and the user has no home folder
         return temporary_directory("there is no home folder")
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -51,10 +51,10 @@ def cache_directory() -> Path:
 
 
 def _require_private(folder: Path) -> None:
-    """Raise an OSError unless the folder is the user's alone; close it to others where it was open."""
+    """Remove other users' access to the folder; raise an OSError if it does not belong to the user alone."""
     if not hasattr(os, "geteuid"):
         return
-    for status in (folder.lstat(), folder.stat()):  # a link, too, is the user's
+    for status in (folder.lstat(), folder.stat()):  # a symbolic link must be the user's, too
         if status.st_uid != os.geteuid():
             raise PermissionError(1, "a folder of another user")
     if folder.stat().st_mode & 0o077:
@@ -78,12 +78,12 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    if os.getpid() == owner:  # and not a worker process that was forked
+    if os.getpid() == owner:  # a forked worker process must not remove it
         shutil.rmtree(folder, ignore_errors=True)
 
 
 def recall(entry: Path) -> bytes | None:
-    """Return the content of an entry; None where it is missing, damaged, too large, or not the user's.
+    """Return the content of an entry; None if it is missing, damaged, too large, or not the user's.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     entry = Path(folder) / "x"
@@ -101,7 +101,7 @@ def recall(entry: Path) -> bytes | None:
 
 
 def keep(entry: Path, content: bytes) -> None:
-    """Write an entry and its digest, each whole or not at all; an OSError says why that cannot be done."""
+    """Write an entry and its digest, each atomically; raise OSError if one of them cannot be written."""
     entry.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
     write_files({_digest_file(entry): _digest(content) + b"\n", entry: content}, private=True)
 
@@ -116,9 +116,9 @@ def _digest(content: bytes) -> bytes:
 
 @contextmanager
 def working_directory(folder: Path) -> Iterator[Path]:
-    """Make a folder for intermediate files inside the cache; it goes at the end, however that comes.
+    """Create a folder for intermediate files inside the cache, and remove it at the end in any case.
 
-    What killed processes have left is removed first.
+    Folders and files that killed processes have left are removed first.
     """
     _sweep(folder)
     temporary = tempfile.TemporaryDirectory(dir=folder, prefix=WORKING, ignore_cleanup_errors=True)
@@ -131,7 +131,7 @@ def _sweep(folder: Path) -> None:
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:
-                continue  # one that has just been made is not locked yet
+                continue  # a new folder may not be locked yet
             if is_temporary(path.name):
                 path.unlink()
             elif path.name.startswith(WORKING) and path.is_dir():

@@ -58,7 +58,7 @@ HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 class Optimised:
     """A method on a scene, ready to be interpreted: the program before and after each pass.
 
-    ``problem`` is the scene in the form that the method's family takes.
+    ``problem`` is the scene in the form that the method's family requires.
     """
 
     scene: Problem
@@ -73,7 +73,7 @@ class Optimised:
 class Compiled(Optimised):
     """A method on a scene, ready to be printed: with the kernel.
 
-    ``solvers`` are the solvers of the implicit blocks; ``asked`` is the option that was given.
+    ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
     """
 
     kernel: Kernel
@@ -101,11 +101,12 @@ def compile_method(
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
-    ``parameters`` stay run-time arguments, or are folded at the value given (``alpha=1/2``); all others are
-    folded at the scene's values; ``inputs`` are signals that become run-time inputs, ``frame`` is the frame
-    of momenta (:func:`codegen.scene.momentum_frame.with_frame`); ``solver`` is for implicit blocks
-    (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded method,
-    ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName, TableauError.
+    ``parameters`` stay run-time arguments, or are folded at a given value (``alpha=1/2``). All other
+    parameters are folded at the scene's values. ``inputs`` are signals that become run-time inputs. ``frame``
+    is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the solver of
+    implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded
+    method, ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName,
+    TableauError.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -164,14 +165,13 @@ def emit(
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
-    ``scene`` is a name of the gallery, the path of a Python file, or a problem; ``method`` is
-    ``FAMILY:TABLEAU`` or ``TABLEAU``; ``prefix`` starts every external name, by default scene and method;
-    ``precision`` is ``double`` or ``single``; ``inputs`` are signals of the scene that become run-time
-    inputs, ``frame`` is the frame of momenta, ``space`` or ``body``; ``adaptive`` adds a run with step
-    control, ``jacobian`` the derivative of a step; ``solver``, for implicit blocks, is ``newton``,
-    ``simplified-newton``,
-    ``fixed-point`` or ``auto``, the cheapest. Errors as :func:`compile_method`, UnknownName for a target,
-    InputError for a prefix that C cannot take.
+    ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
+    ``FAMILY:TABLEAU`` or ``TABLEAU``. External names begin with ``prefix``, by default scene and method.
+    ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
+    inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
+    control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,
+    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. Errors: those of
+    :func:`compile_method`, UnknownName for a target, InputError for a prefix that is no name in C.
     """
     printer_of(target)
     known_precision(precision)
@@ -234,7 +234,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    options += [f"--parameter {p}={value}" for p, value in scene.fixed]  # of an input its default
+    options += [f"--parameter {p}={value}" for p, value in scene.fixed]  # for an input: its default
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
 
@@ -352,7 +352,7 @@ def bare(name: str) -> str:
 
 
 def quoted(word: str) -> str:
-    """Quote a word that a shell would read otherwise.
+    """Quote a word if a shell would otherwise interpret characters in it.
 
     >>> quoted("rkmk(2):rk4"), quoted("linear_oscillator+u")
     ("'rkmk(2):rk4'", 'linear_oscillator+u')
@@ -361,7 +361,7 @@ def quoted(word: str) -> str:
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
-    """Return SCENE_FAMILY_TABLEAU_, without the family where the tableau's name says it.
+    """Return SCENE_FAMILY_TABLEAU_, without the family if the tableau's name starts with it.
 
     A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
     """
@@ -375,8 +375,8 @@ def default_prefix(scene: Problem, method: Method) -> str:
 def prefix_of(name: str, hint: str = "") -> str:
     """Return a prefix that ends in one underscore; an InputError if it is no identifier of C and Python.
 
-    The prefix names the files too, so it may not be a keyword, under which Python imports nothing, nor a
-    header or module that emitted code includes.
+    The prefix names the files too, so it may not be a keyword, because Python cannot import such a
+    file, nor the name of a header or module that emitted code includes.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

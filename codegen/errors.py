@@ -10,4 +10,4 @@ class SceneError(InputError):
 
 
 class MethodError(InputError):
-    """A method that cannot serve a scene, or a method name that cannot be read."""
+    """A method that cannot be used on a scene, or a method name that cannot be read."""

@@ -16,8 +16,8 @@ from pathlib import Path
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
     """Hold the lock of an existing folder; ``shared`` is for readers, which exclude writers only.
 
-    Yields whether the lock is held: it is not where the file system has no locks, nor, without ``wait``,
-    where another process holds it.
+    Yields whether the lock is held. It is not held if the file system has no locks, nor, without ``wait``,
+    if another process holds it.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:
@@ -25,7 +25,7 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     ...         held, again
     (True, False)
     """
-    if sys.platform == "win32":  # without flock; a rename is still whole or not at all
+    if sys.platform == "win32":  # it has no flock; renames are atomic even without locks
         yield False
         return
     import fcntl

@@ -73,7 +73,7 @@ class Statistics:
 
 @dataclass(frozen=True)
 class _Begun:
-    """The checked arguments of a call: state, its numbers, parameter values, inputs, statistics."""
+    """The checked arguments of a call: state, state as numbers, parameter values, inputs, statistics."""
 
     state: State
     numbers: list[float]
@@ -179,9 +179,9 @@ class Integrator(ABC):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the derivative of one step, rows of the variations that the module's head names.
+        """Return the derivative of one step; the module's header names the variations in its rows.
 
-        TypeError for a module without it (``emit --jacobian``); StepFailed as :meth:`step`.
+        TypeError for a module without a Jacobian (``emit --jacobian``); StepFailed as :meth:`step`.
         """
         if not self.interface.variations:
             raise TypeError("this module has no derivative of its step; emit it with --jacobian")
@@ -228,7 +228,7 @@ class Integrator(ABC):
         return [float(values[name]) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Add the counts of emitted code to the caller's."""
+        """Add the counts of emitted code to the caller's statistics."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -240,7 +240,7 @@ class Integrator(ABC):
     def _call(
         self, begun: _Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        """Run and return the final state and the rows."""
+        """Run and return the final state and the rows of the trajectory."""
 
     @abstractmethod
     def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:

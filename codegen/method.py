@@ -91,8 +91,8 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method if ``adaptive`` is set; :class:`MethodError` if there is none.
 
-        It shares the stages, so the stages of the family must not depend on the weights. The fewest brackets
-        are chosen for the weights, so a family that is compiled with them needs a cut-off.
+        The embedded method shares the stages, so the stages of the family must not depend on the weights. A
+        smallest set of brackets depends on the weights, so a family that uses such sets needs a cut-off.
         """
         if not self.adaptive:
             return None
@@ -146,17 +146,17 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families whose stages do not depend on the weights: an embedded row estimates the error."""
+    """Return the families for which an embedded row can estimate the error: those with fixed stages."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are those the scene can take.
 
-    Without a family the tableau's claims decide: the highest order wins, and among equals the family named
-    first in ``families``. ``rkmk`` without a cut-off is written with the fewest brackets where the tableau is
-    explicit and exact; elsewhere, and for ``vrkmk``, the least cut-off with the highest claimed order is
-    taken. :class:`MethodError` for what cannot be read, and where nothing is claimed that decides.
+    If the text names no family, the family with the highest claimed order is chosen, and among equal orders
+    the first in ``families``. ``rkmk`` without a cut-off is compiled with the fewest brackets if the tableau
+    is explicit and exact. Otherwise, and for ``vrkmk``, the cut-off is the least one with the highest claimed
+    order. :class:`MethodError` for a text that cannot be read, and if no claim determines the choice.
     """
     match = PATTERN.fullmatch(text.strip())
     if match is None:
@@ -176,10 +176,10 @@ def parse(text: str, families: Sequence[str]) -> Method:
             where=text,
             expected=f"one for {' or '.join(cutting)} only, as rkmk(2):rk4",
         )
-    # A tableau of exponentials has no A and b to read, even where it claims the order of its sums as rk.
+    # A commutator-free tableau has no A and b, even if it claims an order in rk (for its sums of exponents).
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
-    claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # splitting(3)
+    claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # as splitting(3)
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
         return Method(family, tableau, int(cutoff))

@@ -1,8 +1,8 @@
 """Derive, prove and compile Lie group integrators.
 
-A method is a tableau plus a family; a family says how the tableau becomes a series; comparing that series
-with the exact flow gives the order conditions. ``orderconds`` is the symbolic side; ``codegen`` turns a
-method and a scene into code and is never imported from here.
+A method is a tableau plus a family. The family determines the series of the method, and a comparison of this
+series with the exact flow gives the order conditions. ``orderconds`` is the symbolic side. ``codegen`` turns
+a method and a scene into code and is never imported from here.
 
 Conventions
 -----------

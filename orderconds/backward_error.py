@@ -1,8 +1,8 @@
-"""Modified equations of a method: the vector field that it solves exactly, as a truncated series in h.
+"""Modified equations of a method: the vector field whose flow it follows exactly, as a truncated series in h.
 
 A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
-terms of its series say how the numerical solution differs from the exact one over long times; those of a
-symplectic method form a modified Hamiltonian, which the method conserves (Hairer, Lubich and Wanner,
+terms of f~ describe how the numerical solution differs from the exact solution over long times. For a
+symplectic method they form a modified Hamiltonian, which the method conserves (Hairer, Lubich and Wanner,
 *Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary differentials along
 frozen fields and their commutators (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
@@ -48,8 +48,8 @@ def default_families() -> tuple[str, ...]:
 class Term:
     """One term of a series: h^(order - 1) times ``coefficient`` times the function ``name``.
 
-    ``tree`` is a tree in brackets. For a commutator it is the Lyndon word of ordered trees whose standard
-    bracketing the commutator is.
+    ``tree`` is a tree in brackets. If the term is a commutator, ``tree`` is the Lyndon word of ordered trees
+    whose standard bracketing equals the commutator.
     """
 
     order: int
@@ -60,7 +60,7 @@ class Term:
 
 @dataclass(frozen=True)
 class ModifiedEquation:
-    """The modified field of a method up to h^(order - 1), and its Hamiltonian where it has one.
+    """The modified field of a method up to h^(order - 1), and its Hamiltonian if there is one.
 
     ``family`` is the label of the family in which the method was read. ``terms`` leave out coefficients that
     are known to be zero. ``hamiltonian`` is None unless the field is a B-series of Hamiltonian form.
@@ -98,7 +98,7 @@ def modified_equation(
     """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
 
     ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``).
-    Without it the first of :func:`default_families` that reads the tableau is used. With ``modifying`` the
+    The default is the first of :func:`default_families` that can read the tableau. With ``modifying`` the
     result is the equation to which the method must be applied to follow the exact flow, for B-series only.
 
     Raises :class:`~orderconds.errors.InputError` for another family, for a tableau that the family does not
@@ -130,7 +130,7 @@ def modified_equation(
 
 
 def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
-    """Return the label of the family and the series of a step in it."""
+    """Return the label of the family and the series of a step in this family."""
     for name in default_families() if family is None else (family,):
         candidate = families.get(name)
         method = tableau.read_as(candidate.formats)
@@ -173,12 +173,12 @@ def _ordered(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _place(tree: Tree) -> tuple[int, bytes]:
-    """Return the place of a tree in the alphabet of Lyndon words: larger trees first, then taller ones."""
+    """Return the sort key of a tree in the alphabet of Lyndon words: larger trees first, then taller ones."""
     return -len(tree), bytes(255 - level for level in tree)
 
 
 def _hamiltonian(field: VectorField, order: int) -> tuple[Term, ...] | None:
-    """Return the terms of the modified Hamiltonian, None where the field has none."""
+    """Return the terms of the modified Hamiltonian, or None if the field has no Hamiltonian."""
     try:
         terms = modified_hamiltonian(field, order)
     except InputError:

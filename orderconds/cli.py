@@ -1,7 +1,7 @@
 """The command-line program: a click group that loads each command when it is called.
 
-Built-in commands are known by name. Those of other packages (``codegen`` ships emit, converge, report and
-regenerate) come from the entry-point group ``orderconds.commands``, scanned only when a name is not built in.
+Built-in commands are known by name. Commands of other packages (``codegen`` has emit, converge and others)
+come from the entry-point group ``orderconds.commands``, which is scanned only if a name is not built in.
 
 Exit statuses are those of :mod:`orderconds.exit_status`.
 """
@@ -70,7 +70,7 @@ class Program(click.Group):
         return [*BUILT_IN, *others]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
-        """Import and return one command; None when nobody offers it."""
+        """Import and return one command; None if no package has it."""
         if name in BUILT_IN:
             command = importlib.import_module(BUILT_IN[name][0]).command
         else:
@@ -175,7 +175,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # click omits this hint if an option lacks its value
+        error.ctx = error.ctx or ctx  # click sets no context if an option lacks its value
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()
@@ -218,7 +218,7 @@ def main() -> NoReturn:
     gc.set_threshold(100_000, 20, 20)
     catch_signals()
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a terminal without the letters of a name is no error
+        if isinstance(stream, io.TextIOWrapper):  # a terminal that cannot show a letter is no error
             stream.reconfigure(errors="backslashreplace")
     try:
         program.main()

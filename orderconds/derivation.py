@@ -47,7 +47,8 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     """Derive the independent order conditions of ``family`` up to ``order``; with ``every`` the conditions of
     all trees.
 
-    ``options`` are the family's own, as ``cutoff`` of RKMK; they may also be part of the name: ``"rkmk(1)"``.
+    ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
+    in ``"rkmk(1)"``.
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
     :class:`~orderconds.errors.InputError` for an order below 1, or beyond the highest that the family has.
 

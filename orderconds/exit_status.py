@@ -101,8 +101,8 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print an error's message, and its record where a document is due."""
-        with contextlib.suppress(OSError):  # a full or closed stream keeps the exit status
+        """Print an error's message; with ``--json`` print its record if no document has been printed."""
+        with contextlib.suppress(OSError):  # a full or closed stream must not change the exit status
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):
@@ -176,13 +176,13 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # nohup and the like have the program ignore a signal.
+        # A signal that the caller ignores, as nohup does, stays ignored.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 
 
 def current_run() -> Run:
-    """Return the run that the present command belongs to; a new one outside a command.
+    """Return the run that the present command belongs to; outside a command return a new run.
 
     >>> current_run().documents
     0

@@ -28,7 +28,7 @@ def read_bytes(
 ) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes.
 
-    Raises ``error``, an InputError, that names the path and what was ``expected``.
+    Raises an InputError of the class ``error``, which names the path and what was ``expected``.
 
     >>> read_bytes(os.devnull)
     Traceback (most recent call last):
@@ -38,7 +38,7 @@ def read_bytes(
         return content_of(path, limit=limit)
     except OSError as problem:
         raise error(reason(problem), where=str(path), expected=expected) from None
-    except ValueError:  # a null character, or half of a surrogate pair
+    except ValueError:  # the path has a null character or half a surrogate pair
         raise error("no name of a file", where=ascii(str(path)), expected=expected) from None
 
 
@@ -49,7 +49,7 @@ def read_text(
     limit: int = MAX_BYTES,
     error: type[InputError] = InputError,
 ) -> str:
-    """Return the text of a regular file in UTF-8; errors as :func:`read_bytes`.
+    """Return the text of a regular file in UTF-8; the errors are those of :func:`read_bytes`.
 
     >>> read_text(__file__).partition(":")[0]
     '\"\"\"Reading files that a user names'
@@ -61,15 +61,15 @@ def read_text(
 
 
 def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -> bytes:
-    """Return the content of a regular file of at most ``limit`` bytes; an OSError says why not.
+    """Return the content of a regular file of at most ``limit`` bytes; raise OSError for any other file.
 
-    With ``own`` the file must belong to the user and must not be a symbolic link: no other user can replace
-    it.
+    With ``own`` the file must belong to the user and must not be a symbolic link, so no other user can
+    replace the file.
 
     >>> len(content_of(__file__)) > 1000
     True
     """
-    _require_regular(os.stat(path, follow_symlinks=not own), own)  # opening some devices has effects
+    _require_regular(os.stat(path, follow_symlinks=not own), own)  # opening a device may have effects
     # Without O_NONBLOCK, a pipe that takes the file's place meanwhile would block the call.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
@@ -91,7 +91,7 @@ def _require_regular(status: os.stat_result, own: bool) -> None:
 
 
 def reason(problem: OSError) -> str:
-    """Return the operating system's words for an error, as a message continues with them.
+    """Return the operating system's description of an error, with a small first letter.
 
     >>> reason(FileNotFoundError(errno.ENOENT, "No such file or directory"))
     'no such file or directory'

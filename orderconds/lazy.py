@@ -22,10 +22,10 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Let the names of an imported package load from their modules on first use; ``dir`` lists them unloaded.
+    """Let the names of an imported package load from their modules on first use; ``dir`` loads nothing.
 
-    ``names`` gives those of each of its modules. A module must not have the name of one of them: the import
-    system would put the module in its place.
+    ``names`` maps each module of the package to the names that it defines. No module may have one of these
+    names: the import system would replace the object of this name by the module.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)

@@ -1,6 +1,6 @@
 """Write files atomically: under a temporary name, to the disk, and then under the final name.
 
-A process that is killed may leave temporary files; :func:`is_temporary` knows them by their names.
+A process that is killed may leave temporary files; :func:`is_temporary` recognises their names.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
     """Write files under temporary names; when all are on the disk, rename them in the order given.
 
-    A file that is replaced keeps its permissions; a new one gets those of the process, or with ``private``
-    is readable by the user alone. A symbolic link is replaced, never written through. An OSError leaves no
-    temporary file.
+    A replaced file keeps its permissions. A new file gets the default permissions of the process, or with
+    ``private`` is readable by the user alone. A symbolic link is replaced, never written through. After an
+    error no temporary file remains.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write_files({Path(folder) / "x": b"text"})
@@ -32,7 +32,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
     written: dict[Path, str] = {}
     try:
         for path, content in contents.items():
-            # The name alone may be as long as the file system allows.
+            # The full name with a suffix could be longer than the file system allows.
             start = f".{path.name[:40]}."
             handle, written[path] = tempfile.mkstemp(dir=path.parent, prefix=start, suffix=SUFFIX)
             with os.fdopen(handle, "wb") as stream:
@@ -50,7 +50,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
 
 
 def is_temporary(name: str) -> bool:
-    """Return whether a file's name is that of a temporary file of :func:`write_files`.
+    """Whether a name has the form of the temporary files of :func:`write_files`.
 
     >>> is_temporary(".rigid.c.k3_x91ab" + SUFFIX), is_temporary(".rigid.c")
     (True, False)

@@ -26,9 +26,9 @@ def in_processes(
 ) -> Iterator[Result]:
     """Yield ``work(job)`` for each job, in order.
 
-    ``processes`` is the number of worker processes, by default that of the processors. A single job runs in
-    this process. When the iteration ends early, for whatever reason, the workers are terminated. Raises what
-    a job raises, and InputError if a worker was killed.
+    ``processes`` is the number of worker processes, by default the number of processors. A single job runs in
+    this process. If the iteration ends early, for whatever reason, the workers are terminated. An error of a
+    job is raised here, and InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -44,8 +44,8 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            with suppress(ConnectionError):  # a worker that has died since its last answer
-                connection.send(())  # forked processes hold each other's connections, so closing says nothing
+            with suppress(ConnectionError):  # if the worker has died after its last answer
+                connection.send(())  # closing would not end it: forked processes share connections
     except BaseException:
         for worker in workers.values():
             worker.terminate()
@@ -59,7 +59,7 @@ def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
     import multiprocessing
 
     ours, theirs = multiprocessing.Pipe()
-    # A daemon is terminated when the interpreter exits, even where nobody closes the iteration.
+    # A daemon is terminated when the interpreter exits, even if the iteration was never closed.
     worker = multiprocessing.Process(target=_serve, args=(theirs, work), daemon=True)
     worker.start()
     theirs.close()

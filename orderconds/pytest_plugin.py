@@ -3,7 +3,7 @@
 Without a flag the plugin does nothing. ``--orderconds-complete`` requires a claim for every family that a
 tableau can claim and ``--orderconds-certified`` a proof of every order, as ``orderconds check`` does. A
 tableau that claims nothing is skipped, with a reason. Files ``*.toml`` without the keys of a tableau
-(``pyproject.toml``) are left alone, unless they are named one by one.
+(``pyproject.toml``) are skipped, unless they are named one by one.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class TableauItem(pytest.Item):
     """All claims of one tableau file."""
 
     def runtest(self) -> None:
-        """Check the file; :class:`ClaimFails` with the text that the command prints."""
+        """Check the file; raise :class:`ClaimFails` with the text that ``orderconds check`` prints."""
         from orderconds.checking import check
 
         complete, certified = (bool(self.config.getoption(flag)) for flag in FLAGS[1:])

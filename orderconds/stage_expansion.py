@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
-    """Return the same conditions as polynomials in the entries of a tableau with ``stages`` stages.
+    """Return a derivation's conditions as polynomials in the entries of a tableau with ``stages`` stages.
 
     The tableau is full, or with ``explicit`` strictly lower triangular. Raises
     :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by stages alone.
@@ -50,8 +50,8 @@ def polynomials(
 ) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
     """Return a ring of polynomials, its variables, and the left-hand sides as elements of the ring.
 
-    The engine itself is run over that ring: polynomials, or Laurent polynomials for a family that divides by
-    weights. Raises :class:`~orderconds.errors.InputError` as :func:`expand_stages` does.
+    The engine itself is run over this ring. It is a ring of polynomials, or of Laurent polynomials for a
+    family that divides by weights. Raises :class:`~orderconds.errors.InputError` as :func:`expand_stages`.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain", is_flag=True, help="Print the program after each pass, and the parts that were left out."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON record a module.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
     scene: str,
     method: str,

@@ -57,7 +57,7 @@ def command(
 
     problem = scenes.load(scene)
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
-    if not 1e-300 <= abs(h) <= 1e300:  # NaN is not
+    if not 1e-300 <= abs(h) <= 1e300:  # also true for NaN
         raise InputError(
             f"the step size {h:g}", where="--h", expected="a number between 1e-300 and 1e300 in size"
         )
@@ -79,7 +79,7 @@ def command(
 
 
 def show(run: LongRun) -> None:
-    """Print one run: its quantities, the distance after the run back, and the symplectic defect."""
+    """Print one run: its quantities, the error after the run back to the start, and the symplectic defect."""
     click.echo(f"{run.method} on {run.scene}, {run.steps} steps of {run.h:g}")
     rows = [
         [

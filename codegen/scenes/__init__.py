@@ -46,11 +46,11 @@ _REGISTERED: dict[str, tuple[Problem, str]] = {}
 
 
 def register(name: str, scene: Problem, about: str = "") -> Problem:
-    """Make a scene known under a name, to every command of this process, and return it under that name.
+    """Register a scene under a name for all commands of this process, and return the scene with this name.
 
-    ``about`` describes it in reports. A second scene of the same name replaces the first. :class:`SceneError`
-    for an object that is no scene, for a name of the gallery, and for one that is no identifier. A scene in a
-    Python file needs no registration: its path is its name.
+    ``about`` describes the scene in reports. A second scene of the same name replaces the first.
+    :class:`SceneError` for an object that is no scene, for a name of the gallery, and for a name that is no
+    identifier. A scene in a Python file needs no registration: the path of the file is its name.
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
@@ -103,7 +103,7 @@ def _load(name: str) -> Problem:
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
     """Return the stiff variants that the file of a gallery scene defines, none for any other scene.
 
-    A scene of the user that has the name of a gallery scene has none.
+    A user's scene has no variants, even if it has the name of a gallery scene.
     """
     if scene.name not in GALLERY:
         return ()
@@ -145,7 +145,7 @@ def _line(name: str, path: Path, error: BaseException) -> str:
 def about(name: str) -> str:
     """Return the description of a scene: the docstring of its file, '' without one.
 
-    ``name`` is one that :func:`load` takes. A registered scene has the description that it was given.
+    ``name`` is a name that :func:`load` accepts. A registered scene has the description that it was given.
     """
     name = name.removesuffix(EXTENDED)
     if name in _REGISTERED:

@@ -34,7 +34,7 @@ class Snippet:
 def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     """Return every snippet; all targets use the same names.
 
-    The shorter polynomials near zero are for doubles. In single precision the long one is as short.
+    Only double precision has shorter polynomials near zero. In single precision the full one is as short.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     listed.append(Snippet("largest", "largest", ("fabs",)))
@@ -113,8 +113,9 @@ def needed(
 ) -> Needed:
     """Return the helpers and library functions that a module of a target needs, and no others.
 
-    ``functions`` are the functions that the module calls. ``sweeps`` says that it calls them in sweeps over
-    equations: a call there would spill many live values, so C may inline all branches of Stumpff functions.
+    ``functions`` are the functions that the module calls. ``sweeps`` is true if it calls them in sweeps over
+    equations. A call in a sweep would spill many live values, so C may inline all branches of Stumpff
+    functions.
     ``wide`` is the common number of rows of all inverted matrices, 0 if they differ or are large; C unrolls a
     row of this length. ``widest`` is the largest number of rows; C reserves this much memory.
     ``chain`` is the number of angles that depend on one another (:func:`codegen.snippets.stumpff.limit`).

@@ -1,10 +1,11 @@
 """Stumpff functions for z >= 0: their branches, and the coefficients of the polynomials.
 
 c_k(z) = sum_j (-z)^j/(2j+k)!, so c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, c_2 = (1 - cos sqrt z)/z and
-c_3 = (sqrt z - sin sqrt z)/z^(3/2). Up to a switch each is its Taylor polynomial, a shorter one where z is
-small, as it is in most steps; above it a closed form without cancellation: c_2 = c_1(z/4)^2/2, and
-c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of them shares one sine and cosine. Errors stay within two units
-in the last place, plus the effect of half a unit in sqrt z. Beyond :func:`limit` the value is NaN.
+c_3 = (sqrt z - sin sqrt z)/z^(3/2). Below a switch, each function is evaluated by its Taylor polynomial, and
+by a shorter polynomial if z is small, as it is in most steps. Above the switch a closed form without
+cancellation is used: c_2 = c_1(z/4)^2/2, and c_3 = (1 - c_1)/z only where c_1 < 1/2. A set of Stumpff
+functions shares one sine and cosine. Errors stay within two units in the last place, plus the effect of half
+a unit in sqrt z. Beyond :func:`limit` the value is NaN.
 """
 
 from __future__ import annotations
@@ -39,9 +40,9 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     and about eight times as much in the field there. Along a ``chain`` of angles
     (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain 8^(chain-1) 2^-bits; the bound on it is
     2^-LEFT. The stages of a long chain rotate by fractions of the step's angle and lose no more digits than
-    those of a short one, so that 2^(bits/6) is always allowed. No angle is larger than 2^(2 bits/5): a
-    carried momentum loses twice as many digits as the angle has, because sums grow with its square. A step
-    with a larger angle reports a state that is not finite.
+    those of a short chain. Hence an angle of 2^(bits/6) is always allowed. No angle may exceed 2^(2 bits/5):
+    a rotated momentum loses twice as many digits as the angle has, because sums grow with the square of the
+    angle. A step with a larger angle reports a state that is not finite.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]
@@ -52,9 +53,9 @@ def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
 
 
 def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return the Taylor coefficients of c_k whose terms reach an eighth of the last of ``bits`` at ``last``.
+    """Return the Taylor coefficients of c_k whose terms at z = ``last`` reach an eighth of the last bit.
 
-    ``last`` is the switch unless given.
+    By default ``last`` is the switch to the closed form.
 
     >>> coefficients(1)[:3], len(coefficients(1)), len(coefficients(1, SMALL))
     ((Fraction(1, 1), Fraction(-1, 6), Fraction(1, 120)), 9, 6)
@@ -71,12 +72,13 @@ def coefficients(k: int, last: Fraction | int | None = None, bits: int = 53) -> 
 
 
 def economised(k: int, last: Fraction, bits: int = 53) -> tuple[Fraction, ...]:
-    """Return the shortest polynomial for c_k up to ``last`` that errs by a sixteenth of the last bit at most.
+    """Return the shortest polynomial for c_k up to ``last`` with an error of at most 1/16 of the last bit.
 
-    From its Taylor polynomial multiples of Chebyshev polynomials are taken, stretched so that they vanish at
-    zero, where the value stays exact: of all polynomials with one leading term these are the least. Their
-    error is as large everywhere, and of one sign where a motion is steady: half a bit, which would do for one
-    value, makes the norm of a quaternion drift by 4e-12 in 64,000 steps.
+    Multiples of Chebyshev polynomials are subtracted from the Taylor polynomial. They are stretched so that
+    they vanish at zero, where the value stays exact. Among the polynomials with a given leading term, they
+    have the smallest maximum. The error of the result is equally large everywhere, and in a steady motion it
+    always has the same sign. Half a bit would suffice for a single value, but makes the norm of a quaternion
+    drift by 4e-12 in 64,000 steps.
 
     >>> [len(economised(1, last)) for last in (TINY, SMALL)]
     [4, 6]

@@ -71,7 +71,8 @@ def command(
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
-    name from the library. A claim is an equality. If a limit ends the search, the order is a lower bound.
+    name from the library. A claimed order must equal the order found. If a limit ends the search, the order
+    found is a lower bound.
 
     Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
@@ -195,7 +196,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str]) -> Iterator[str]:
     """Yield each argument, a directory replaced by the tableau files below it in sorted order.
 
-    Other TOML files there (``pyproject.toml``) are left alone.
+    Other TOML files below a directory, such as ``pyproject.toml``, are skipped.
     """
     from orderconds.tableau.file import meant_as_tableau
 
@@ -283,7 +284,7 @@ def _row(family: FamilyOrder) -> tuple[str, ...]:
 
 
 def _print_failing(family: FamilyOrder) -> None:
-    """Return lines with the conditions that fail at the next order, and their residuals."""
+    """Print the conditions that fail at the next order, and their residuals."""
     n = family.order + 1
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"

@@ -107,7 +107,7 @@ def _print_json(derivation: Derivation, explain: bool) -> None:
 
 
 def _print_latex(derivation: Derivation, explain: bool) -> None:
-    r"""Print one ``align*`` environment (package amsmath), trees and relations as comments."""
+    r"""Print one ``align*`` environment (package amsmath), with trees and relations as comments."""
     from orderconds.explain.kinds import named_by
     from orderconds.formula.equations import aligned
     from orderconds.formula.notation import latex_fraction

@@ -50,7 +50,7 @@ def kinds_offered() -> list[str]:
 
 
 def listing(kind: str) -> Callable[[], Records]:
-    """Return the function that lists one kind; entry points are scanned only if it is not built in.
+    """Return the function that lists one kind; entry points are scanned only if the kind is not built in.
 
     >>> next(iter(listing("families")()))["name"]
     'rk'

@@ -1,4 +1,4 @@
-"""``orderconds modified``: the modified equation of a method, which its steps follow exactly."""
+"""``orderconds modified``: the modified equation of a method, whose flow the steps follow exactly."""
 
 from __future__ import annotations
 

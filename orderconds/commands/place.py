@@ -33,9 +33,9 @@ FILE = Place("file", "leave the option out for stdout")
 
 
 def put(path: str, content: bytes) -> None:
-    """Write a file under another name and rename it; write directly to devices and pipes.
+    """Write a file under a temporary name and rename it; write directly to devices and pipes.
 
-    Raises :class:`~orderconds.errors.InputError` if that fails.
+    Raises :class:`~orderconds.errors.InputError` if writing fails.
 
     >>> import os
     >>> put(os.devnull, b"gone")

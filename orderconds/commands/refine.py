@@ -18,8 +18,8 @@ from orderconds.commands.place import FILE, put
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Digits, pins and proof on stdout as JSON.")
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
-    """Solve the equations that the [proof] of FILE names, from the decimals ("0.8177~") that stand in it, and
-    write the file again with more digits, the pins that were needed, and the old digits on record.
+    """Solve the equations that the [proof] of FILE names, from the rounded decimals ("0.8177~") of the file.
+    Write the file again with more digits, the pins that were needed, and a record of the old digits.
 
     Exits with 0 if interval arithmetic proves the new digits, 1 if not, 2 for a file that cannot be read.
     """

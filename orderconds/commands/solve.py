@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 )
 @click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; minimising 1024]")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
-@click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one a processor]")
+@click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one for each processor]")
 @click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
 @click.option("--name", default="found", show_default=True, help="The tableau's name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")

@@ -103,7 +103,7 @@ def row(name: str) -> tuple[str, ...]:
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Return the sort key: highest order first, and among equals families on groups."""
+    """Return the sort key: highest order first, and among equal orders families on groups first."""
     from orderconds import families
 
     family = families.get(claim.label)

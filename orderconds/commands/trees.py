@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
 @click.argument("kind")
-@click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="How many vertices.")
-@click.option("--count", is_flag=True, help="Print only their number, from a generating function.")
-@click.option("--draw", is_flag=True, help="Draw each.")
+@click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="The number of vertices.")
+@click.option("--count", is_flag=True, help="Print only the count, from a generating function.")
+@click.option("--draw", is_flag=True, help="Draw each tree or word.")
 @click.option(
     "--explain",
     is_flag=True,
-    help="Show a drawing, the elementary differential and the order condition of each.",
+    help="Show a drawing, the elementary differential and the order condition of each tree or word.",
 )
 @click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII signs only.")
 @click.option("--svg", type=FILE, metavar="FILE", help="Write all drawings to this file as SVG.")

@@ -96,7 +96,7 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Lift every value once, so that shared elements stay shared."""
+    """Lift every element once, so equal expressions still share one element."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 

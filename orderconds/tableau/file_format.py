@@ -56,7 +56,7 @@ Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The keys that every format has; ``numbers`` maps names to :data:`Number`, ``claims`` to :data:`Claim`."""
+    """The keys that every format has; ``numbers`` maps to :data:`Number`, ``claims`` to :data:`Claim`."""
 
     name: str
     family: str

@@ -91,7 +91,8 @@ class PartitionedRungeKutta:
 class Stage:
     """A product of exponentials acting on stage ``start`` (None: on y0).
 
-    ``exponentials`` are rows of length s. A row beta denotes exp(h sum_j beta_j k_j). The first row acts first.
+    ``exponentials`` are rows of length s. A row beta denotes exp(h sum_j beta_j k_j). The first row acts
+    first.
     """
 
     start: int | None

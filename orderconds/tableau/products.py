@@ -105,8 +105,8 @@ class Magnus:
     """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
 
     ``exponents`` are combinations of brackets, of which the first acts first. ``elements`` are Lie elements,
-    to which later elements and the exponents may refer. ``transform`` is ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1
-    (1 + x/2).
+    to which later elements and the exponents may refer. ``transform`` is ``"exp"``, or ``"cay"``
+    for cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)

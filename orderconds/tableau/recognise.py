@@ -12,8 +12,8 @@ def as_composition(tableau: Tableau) -> Tableau | None:
     """Return a tableau (A, b) as a composition of midpoints with steps b_i, or None if it is not one.
 
     A tableau is such a composition if a_ij = b_j for j < i, a_ii = b_i/2 and a_ij = 0 for j > i (Bogfjellmo
-    and Marthinsen, Lemma 3.5.4). Rounded decimals need to agree only up to their last digits; conclusions are
-    then supported by these digits.
+    and Marthinsen, Lemma 3.5.4). Rounded decimals need to satisfy these equations only up to their last
+    digits; the composition then agrees with the tableau to these digits.
 
     >>> from orderconds.tableau import find
     >>> jump = Tableau.load(find("triple_jump"))

@@ -86,7 +86,8 @@ class Tableau:
         """Return the method in the first of these formats to which it can be converted, or None.
 
         A tableau has the format of its file. A composition also has the format ``rk`` (composed midpoints, or
-        Euler methods for an adjoint pair). A composition of an adjoint pair has the format ``splitting``, too.
+        Euler methods for an adjoint pair). A composition of an adjoint pair has the format ``splitting`` as
+        well.
         """
         method = self.method
         for wanted in formats:

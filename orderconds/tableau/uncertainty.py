@@ -12,8 +12,8 @@ from orderconds.tableau.record import Tableau
 def uncertainty(tableau: Tableau, bits: int) -> str:
     """Return the largest radius of those coefficients that are less accurate than a format of ``bits`` bits.
 
-    A coefficient counts if its ball is wider than one rounding to ``bits`` bits. The result is a decimal of two
-    digits, or an empty text if all coefficients are exact or narrow enough.
+    A coefficient counts if its ball is wider than one rounding to ``bits`` bits. The result is a decimal of
+    two digits, or an empty text if all coefficients are exact or narrow enough.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

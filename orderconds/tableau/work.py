@@ -22,8 +22,8 @@ from orderconds.tableau.record import Tableau
 
 @dataclass(frozen=True)
 class Work:
-    """Field evaluations, exponentials and brackets of one step; exponentials and brackets are None for methods
-    that are not on groups."""
+    """Field evaluations, exponentials and brackets of one step. Exponentials and brackets are None for
+    methods that are not on groups."""
 
     evaluations: int
     exponentials: int | None = None
