@@ -1,11 +1,10 @@
 """Splittings: words of exact flows of a Hamiltonian's parts, on T*G.
 
-If a tableau has as many parts as the scene, it names the flows of the parts directly.
-A tableau for two parts A,
-B also applies to a scene with more parts: it is written as a composition with coefficients beta_1, alpha_1,
-... of Phi and its adjoint Phi*. Phi is the product of the flows of all summands, and Phi* has the same flows
-in the opposite order. The composition keeps the order of the splitting for any basic method Phi (McLachlan,
-SIAM J. Sci. Comput. 16 (1995) 151).
+If a tableau has as many parts as the scene, it names the flows of the parts directly. A tableau for two parts
+A, B also applies to a scene with more parts: it is written as a composition with coefficients beta_1,
+alpha_1, ... of Phi and its adjoint Phi*. Phi is the product of the flows of all summands, and Phi* has the
+same flows in the opposite order. The composition keeps the order of the splitting for any basic method Phi
+(McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
