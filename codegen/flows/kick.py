@@ -40,7 +40,7 @@ class Kick(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a part that does not depend on mu as a kick."""
+    """Return a kick for a part that does not depend on mu, else None."""
     if not formula.orbit.vanish(formula.by_mu):
         return None
     n = force(formula.root.space, formula.problem.group, formula.qs, formula.by_q)

@@ -63,7 +63,7 @@ class Linear(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a quadratic part on T*R^n as a linear flow; L is J times the Hessian."""
+    """Return a linear flow for a quadratic part on T*R^n, where L is J times the Hessian; else None."""
     if not formula.problem.group.abelian:
         return None
     origin = (CONSTANTS.rational(0),) * len(formula.qs)
@@ -96,7 +96,7 @@ def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequenc
 
 
 def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
-    """Return factor c_k; ``argument`` None is zero, where c_k = 1/k!."""
+    """Return factor times c_k(argument); ``argument`` None means zero, where c_k = 1/k!."""
     value: S = d.rational(1, max(k, 1)) if argument is None else d.call(f"stumpff{k}", argument)
     return factor * value
 

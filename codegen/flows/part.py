@@ -1,4 +1,4 @@
-"""Parts of a Hamiltonian: the formula of one, and the exact flows recognised in it."""
+"""Parts of a Hamiltonian: the formula of a part, and the exact flows recognised in the formula."""
 
 from __future__ import annotations
 
@@ -21,12 +21,13 @@ from orderconds.ring.protocol import Element
 Matrix = list[list[Fraction]]
 
 CONSTANTS = SeriesDomain(QQ, 0)
-"""Exact rational numbers as a domain: power series of degree zero."""
+"""The domain of exact rational numbers, as power series of degree zero."""
 
 
 @dataclass(frozen=True)
 class Summand:
-    """Flows by name that commute: their composition is the exact flow of a part, or of a summand of it."""
+    """Flows by name that commute; their composition is the exact flow of a part, or of a summand of a
+    part."""
 
     flows: tuple[tuple[str, Flow], ...]
 
@@ -40,7 +41,7 @@ class Summand:
 class Part:
     """A part of a Hamiltonian as the sum of summands with exact flows.
 
-    Without any, no closed form is known, and ``reason`` says why.
+    Without summands no closed form is known, and ``reason`` says why.
     """
 
     name: str
@@ -55,7 +56,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Formula:
-    """The formula of one part, for the kinds of flow to examine."""
+    """The formula of one part, which the kinds of flow examine."""
 
     problem: Problem
     name: str

@@ -42,14 +42,15 @@ def squares(B: Matrix) -> list[Square]:
 
 
 def shifted(B: Matrix, a: Fraction) -> list[list[Fraction]]:
-    """Return B - a, a times the identity."""
+    """Return B - a I, where I is the identity matrix."""
     return [[x - (a if i == j else 0) for j, x in enumerate(row)] for i, row in enumerate(B)]
 
 
 def isotropic_part(B: Matrix) -> Fraction:
     """Return a number a such that B - a is the sum of few squares with small coefficients.
 
-    It is the double eigenvalue of a 3 x 3 matrix if there is one, else the middle entry of a diagonal matrix.
+    The number a is the double eigenvalue of a 3 x 3 matrix if there is one, else the middle entry of a
+    diagonal matrix.
 
     >>> isotropic_part([[Fraction(2), Fraction(0)], [Fraction(0), Fraction(2)]])
     Fraction(2, 1)
@@ -63,6 +64,6 @@ def isotropic_part(B: Matrix) -> Fraction:
         for k in range(n):
             for j in range(n):
                 if len({i, j, k}) == 3 and B[j][k]:
-                    # B - a has rank one only if its 2 x 2 minors vanish: this one determines a.
+                    # B - a has rank one only if its 2 x 2 minors vanish; this minor determines a.
                     candidates.append(B[i][i] - B[i][j] * B[i][k] / B[j][k])
     return min(candidates, key=lambda a: (len(squares(shifted(B, a))), candidates.index(a)))

@@ -1,7 +1,8 @@
 """Recognition: the exact flows of a Hamiltonian's parts, from their formulas alone.
 
-Each kind of flow examines a part and answers with its flows, with the reason why it has none, or with None
-for a part of another kind. V(q) is a kick. On T*R^n a function of the momentum alone is a drift, and a
+Each kind of flow examines a part. The result is a part with its flows, a part with the reason why it has
+none, or None for a part of another kind. V(q) is a kick. On T*R^n a function of the momentum alone is a
+drift, and a
 quadratic function of both is a linear flow if its matrix squares to a diagonal. On other groups a quadratic
 function of the momentum in the body or in space is a sum of rotations (:mod:`codegen.flows.top`).
 """
@@ -16,7 +17,8 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """Refuse a part that depends on the time; kicks may, and the scene may state its flow."""
+    """Refuse a part that depends on the time; only kicks, and flows that the scene states, may depend on
+    it."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 
@@ -28,7 +30,7 @@ KINDS: Sequence[Callable[[Formula], Part | None]] = (
     linear.recognise,
     top.recognise,
 )
-"""The first answer counts."""
+"""The kinds of flow in the order in which they examine a part; the first result other than None is used."""
 
 
 def recognise(problem: Problem) -> tuple[Part, ...]:

@@ -14,10 +14,11 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Turn(Flow):
-    """H = rate (e.P)^2/2 + offset e.P, P the momentum in the body or in space: a turn about the fixed axis e.
+    """H = rate (e.P)^2/2 + offset e.P, where P is the momentum in the body or in space: a turn about the
+    fixed axis e.
 
-    e.P is conserved, so the angle is tau (rate e.P + offset). In the body P = Ad*_q mu, q turns from the
-    right and mu is constant. In space P = mu and both turn from the left.
+    e.P is conserved, so the angle is tau (rate e.P + offset). In the body P = Ad*_q mu: the turn multiplies q
+    from the right, and mu is constant. In space P = mu: the turn acts on q and mu from the left.
     """
 
     axis: tuple[Fraction, ...]

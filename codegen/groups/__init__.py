@@ -71,11 +71,12 @@ Registered = TypeVar("Registered", bound="type[LieGroup] | type[Action]")
 
 
 def register(cls: Registered) -> Registered:
-    """Add a group or an action defined elsewhere to the listings and return it, so it is a decorator too.
+    """Add a group or an action defined elsewhere to the listings and return it, so it may be used as a
+    decorator.
 
     A scene may use a class that is not registered. A second class of the same name replaces the first.
-    :class:`SceneError` for another class, for one with abstract methods, and for the name of a class of this
-    package.
+    :class:`SceneError` is raised for a class of another kind, for a class with abstract methods, and for the
+    name of a class of this package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup
@@ -106,5 +107,5 @@ def listing() -> list[dict[str, str]]:
 
 
 def get(name: str) -> type[LieGroup]:
-    """Return the group class of that name; :class:`orderconds.errors.UnknownName` for another."""
+    """Return the group class of that name; :class:`orderconds.errors.UnknownName` for an unknown name."""
     return GROUPS.get(name)

@@ -1,7 +1,8 @@
 """Functions of one ad as quadratic polynomials, on an algebra with ad_x^3 = -z ad_x.
 
-Each function, each product of functions and each inverse is then 1 + b ad_x + c ad_x^2, with b and c
-functions of z. On so(3) z is x.x. The Stumpff functions c_k of z give the coefficients of exponentials.
+On such an algebra each function of ad_x, each product of functions and each inverse is 1 + b ad_x + c ad_x^2,
+where b and c are functions of z. On so(3), z = x.x. The Stumpff functions c_k of z give the coefficients of
+exponentials.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from codegen.ir.domain import Domain
 
 
 def ad_polynomial(d: Domain, word: Sequence[Factor], z: S) -> tuple[S, S]:
-    """Return b and c such that the product of the word's functions of t is 1 + b t + c t^2, t^3 = -z t.
+    """Return b and c such that the product of the word's functions of t is 1 + b t + c t^2, where t^3 = -z t.
 
-    exp(a t) dexp(s t) takes one step, as (exp((a + s) t) - exp(a t))/(s t); other factors are multiplied.
+    The product exp(a t) dexp(s t) is formed directly, as (exp((a + s) t) - exp(a t))/(s t). Other factors are
+    multiplied one after the other.
     """
     zero: S = d.rational(0)
     rates = [f.scale * f.power for f in word if f.function == "exp"]
@@ -40,7 +42,7 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S) -> tuple[S, S]:
 
 
 def _exponentials(d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S) -> tuple[S, S]:
-    """Return b and c of sum r exp(k t)/t^j over terms (k, r)."""
+    """Return b and c of the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``."""
     sums = []
     for power in (1 + j, 2 + j):
         weights: dict[Fraction, Fraction] = {}
@@ -62,7 +64,7 @@ def _single(d: Domain, factor: Factor, z: S) -> tuple[S, S]:
     s = factor.scale
     if factor.function == "dexp":
         return _exponentials(d, [(s, 1 / s)], 1, z)
-    # Horner's rule from the highest power down: t^k is a multiple of t for odd k and of t^2 for even k.
+    # Horner's rule goes down from the highest power: t^k is a multiple of t for odd k and of t^2 for even k.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
         weight = bernoulli_over_factorial(k) * s**k
@@ -74,7 +76,7 @@ def _single(d: Domain, factor: Factor, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return b and c of the inverse of 1 + b t + c t^2.
 
-    On the plane orthogonal to x, t^2 = -z: the function is the complex number 1 - c z + i b sqrt(z).
+    On the plane orthogonal to x, t^2 = -z, so the function is the complex number 1 - c z + i b sqrt(z).
     """
     one: S = d.rational(1)
     p = one - c * z

@@ -4,11 +4,11 @@ An element of the group is a flat tuple of ``size`` scalars, an element of the L
 flat tuple of ``dim`` scalars. The class docstring of a group says which coordinates these are. Conventions:
 left action, right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
 
-Each operation takes a domain first (:mod:`codegen.ir.domain`). It uses ``+ - * /`` on the scalars, constants
-from ``d.rational(p, q)`` and functions from ``d.call``. One implementation then serves floats, 40-digit
-numbers, power series in h, and expressions, whose evaluation is code generation.
+The first argument of each operation is a domain d (:mod:`codegen.ir.domain`). An operation uses ``+ - * /``
+on the scalars, constants from ``d.rational(p, q)`` and functions from ``d.call``. One implementation is then
+valid for floats, 40-digit numbers, power series in h, and expressions, whose evaluation is code generation.
 
-To define a group, inherit :class:`LieGroup` and write the five abstract methods. That is enough for fields:
+To define a group, inherit :class:`LieGroup` and write the five abstract methods. They are enough for fields:
 all families of field methods, emission, convergence. A Hamiltonian needs the coadjoint action as well
 (:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted code shorter or permit
 further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
@@ -35,8 +35,9 @@ class LieGroup(ABC):
     """A Lie group in coordinates.
 
     ``name`` is printed in messages and headers, ``dim`` is the dimension of the algebra, ``size`` is the
-    number of coordinates of an element. ``abelian`` promises that all brackets vanish. ``layout`` follows the
-    name in the description of the state and gives the order of the coordinates, as ``, row by row``.
+    number of coordinates of an element. ``abelian`` promises that all brackets vanish. ``layout`` describes
+    the order of the coordinates, as ``, row by row``. It is printed after the name in the description of the
+    state.
     """
 
     name: str
@@ -45,7 +46,8 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     provides: ClassVar[str] = "group operations"
-    """What a capability adds, for the message about a group without it."""
+    """What a capability adds to a group; it is printed in the message about a group without the
+    capability."""
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
@@ -59,14 +61,14 @@ class LieGroup(ABC):
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return exp(x) for x in the algebra: exp(0) = e, exp(s x) exp(t x) = exp((s + t) x).
 
-        It must be smooth at zero in every domain: write sin(t)/t as ``stumpff1(t^2)``.
+        The function must be smooth at zero in every domain: write sin(t)/t as ``stumpff1(t^2)``.
         """
 
     @abstractmethod
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return [x, y], bilinear and antisymmetric, with the Jacobi identity.
 
-        Its sign is that of exp(h x) exp(h y) exp(-h x) exp(-h y) = exp(h^2 [x, y] + O(h^3)).
+        The sign is determined by exp(h x) exp(h y) exp(-h x) exp(-h y) = exp(h^2 [x, y] + O(h^3)).
         """
 
     @abstractmethod
@@ -89,18 +91,19 @@ class LieGroup(ABC):
         return self.mul(d, self.exp(d, x), g)
 
     def variants(self) -> Sequence[LieGroup]:
-        """Return implementations of this group that differ in :meth:`expmul` only, the default one first.
+        """Return implementations of this group that differ only in :meth:`expmul`, the default one first.
 
         The compiler tries each of them and keeps the one with the shortest step.
         """
         return (self,)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group as one with a capability, None if it has not declared it."""
+        """Return this group as a group with a capability, None if it does not declare the capability."""
         return self if isinstance(self, capability) else None
 
     def require(self, capability: type[C], where: str = "") -> C:
-        """Return this group as one with a capability; :class:`SceneError` if it has not declared it."""
+        """Return this group as a group with a capability; :class:`SceneError` if it does not declare the
+        capability."""
         offered = self.offers(capability)
         if offered is None:
             raise SceneError(

@@ -1,8 +1,9 @@
-"""Capabilities: what some groups offer beyond the operations of every group.
+"""Capabilities: operations that some groups offer beyond the operations of every group.
 
-A group declares a capability by inheriting its class. Code that needs one asks ``group.offers(Capability)``,
-which is None for a group without it, or ``group.require(Capability)``, which raises a message that names it.
-A product has a capability if all its factors have it, so ask with these methods and not with ``isinstance``.
+A group declares a capability by inheriting its class. Code that needs a capability asks
+``group.offers(Capability)``, which is None for a group without it, or ``group.require(Capability)``, which
+raises an error that names it. A product has a capability if all its factors have it, so use these methods and
+not ``isinstance``.
 """
 
 from __future__ import annotations
@@ -24,11 +25,11 @@ if TYPE_CHECKING:
     import sympy
 
 Term = tuple[S, Sequence[Factor], Vector[S]]
-"""(f, W, v): the multiple f of the function W of ad_x applied to v."""
+"""(f, W, v): the term f W(ad_x) v, where f is a scalar and W a word of functions of ad_x."""
 
 
 class Coadjoint(LieGroup):
-    """The adjoint and coadjoint action: Hamiltonians on T*G and variational methods need them.
+    """The adjoint and coadjoint action, which Hamiltonians on T*G and variational methods need.
 
     <mu, x> is the dot product of coordinates; g is an element, x in the algebra, mu in its dual.
     """
@@ -62,8 +63,9 @@ class Coadjoint(LieGroup):
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
         """Return P*_(order)(x, y) mu: <P*(x, y) mu, z> = <mu, derivative of dexpinv_x y along z>.
 
-        That is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq. 3.16 of
-        H. Marthinsen's thesis). ad* is linear in its subscript, so the subscripts are summed over k first.
+        The result is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq.
+        3.16 of H. Marthinsen's thesis). ad* is linear in its subscript, so the subscripts are summed over k
+        first.
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -87,7 +89,7 @@ class Coadjoint(LieGroup):
 
 
 class RightTrivialisation(LieGroup):
-    """Tangent vectors as elements of the algebra: a Jacobian of a step needs it."""
+    """Tangent vectors as elements of the algebra, which the Jacobian of a step needs."""
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
 
@@ -97,13 +99,13 @@ class RightTrivialisation(LieGroup):
 
 
 class BodyFrame(Coadjoint):
-    """Left translations and the equations of the group: a Hamiltonian can be seen from the body."""
+    """Left translations and the equations of the group, which the body frame of a Hamiltonian needs."""
 
     provides: ClassVar[str] = "body frame"
 
     @abstractmethod
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return the equations of the group as replacements of products of two of its ``size`` symbols."""
+        """Return the equations of the group as rules that replace products of two of its ``size`` symbols."""
 
     @abstractmethod
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -136,17 +138,18 @@ class ClosedFormSeries(Coadjoint):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v): that of :meth:`series`, in fewer brackets.
+        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v), in fewer brackets than by calls of
+        :meth:`series`.
 
-        ``total`` returns the sum of f v over the terms with the given numbers, for a caller that has a
-        shorter formula for it.
+        ``total`` returns the sum of f v over the terms whose numbers it is given. A caller passes it if it
+        has a shorter formula for the sum.
         """
 
 
 class MatrixRepresentation(LieGroup):
     """A faithful representation by square matrices, row by row.
 
-    Elementary differentials of a scene are computed in it.
+    Elementary differentials of a scene are computed with these matrices.
     """
 
     provides: ClassVar[str] = "matrix representation"
@@ -169,7 +172,7 @@ class MatrixRepresentation(LieGroup):
 
 
 class MatrixElements(MatrixRepresentation):
-    """Elements are n x n matrices row by row, size = n^2; they act on columns of n scalars.
+    """Elements are n x n matrices row by row, size = n^2; the matrices act on columns of n scalars.
 
     The representation is the identity: velocity(x, g) = hat(x) g.
     """
@@ -235,11 +238,13 @@ class DirectProduct(LieGroup):
 
     @abstractmethod
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Return the coordinates of each factor, for an element or for one of the algebra or its dual."""
+        """Return the coordinates of each factor, for an element of the group, of the algebra, or of its
+        dual."""
 
 
 class CotangentBundle(LieGroup):
-    """The group is T*G for a group G, its ``base``; coordinates of G, then of the momentum."""
+    """The group is T*G for a group G, its ``base``; the coordinates are those of G, then those of the
+    momentum."""
 
     provides: ClassVar[str] = "momenta of a base group"
     base: Coadjoint
@@ -248,18 +253,19 @@ class CotangentBundle(LieGroup):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return the canonical bivector at z applied to a covector, in the algebra.
 
-        For the trivialised differential of a Hamiltonian it is its field f = (xi, n).
+        If the covector is the trivialised differential of a Hamiltonian, the result is the field f = (xi, n).
         """
 
 
 class Projection(LieGroup):
-    """Coordinates near the group can be brought back to it."""
+    """The group has a projection, which moves coordinates near the group back to it."""
 
     provides: ClassVar[str] = "projection onto the group"
 
     @abstractmethod
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g moved towards the group: an element stays, a defect of size eps becomes O(eps^2)."""
+        """Return g moved towards the group: an element stays fixed, and a defect of size eps becomes
+        O(eps^2)."""
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:

@@ -28,7 +28,8 @@ class Cotangent(CotangentBundle):
         self.abelian = base.abelian
 
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
-        """Return the parts of an element, or of one of the algebra; the length says which it is."""
+        """Return the two parts of an element of the group or of the algebra; the length distinguishes the
+        two."""
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
 
@@ -66,7 +67,7 @@ class Cotangent(CotangentBundle):
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
         """Return (b, ad*_b mu - a) for a covector (a, b): the bivector of (2.26), right-trivialised.
 
-        For the differential (ad*_xi mu - n, xi) of a Hamiltonian it is f = (xi, n).
+        If the covector is the differential (ad*_xi mu - n, xi) of a Hamiltonian, the result is f = (xi, n).
         """
         mu = self._split(z)[1]
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
@@ -74,7 +75,7 @@ class Cotangent(CotangentBundle):
         return b + tuple(x - y for x, y in pairs)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return those of the base; every covector is a momentum."""
+        """Return the laws of the base; the momentum may be any covector."""
         return self.base.laws(d, self._split(g)[0])
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

@@ -1,7 +1,7 @@
 """Scalars of any domain and the linear algebra of flat tuples of them.
 
-A vector is a tuple of scalars, a matrix is a tuple of its entries row by row. One function serves floats,
-mpmath numbers, power series and expressions, because it uses only the four operations.
+A vector is a tuple of scalars, a matrix is a tuple of its entries row by row. Each function uses only the
+four operations, so it is valid for floats, mpmath numbers, power series and expressions.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from codegen.ir.domain import Domain
 
 
 class Scalar(Protocol):
-    """A number of one domain (:mod:`codegen.ir.domain`); both operands are of the same domain."""
+    """A number of a domain (:mod:`codegen.ir.domain`); both operands must be of the same domain."""
 
     def __add__(self, other: Self, /) -> Self:
         """Return the sum."""
@@ -72,7 +72,7 @@ def matvec(a: Vector[S], v: Vector[S]) -> Vector[S]:
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
     """Return the inverse of an n x n matrix by the Faddeev-LeVerrier recursion.
 
-    The recursion has no pivots. A power series or an expression cannot say which pivot is not zero.
+    The recursion needs no pivots: over power series or expressions it is not known which pivot is not zero.
     """
     identity: Vector[S] = tuple(d.rational(int(i == j)) for i in range(n) for j in range(n))
     ones: Vector[S] = (d.rational(1),) * n

@@ -34,9 +34,10 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation):
         self.layout = ": " + "; ".join(f.name + f.layout for f in factors)
 
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
-        """Return the factors' coordinates of an element, or of one of the algebra or its dual, by length.
+        """Return the factors' coordinates of an element of the group, of the algebra, or of its dual.
 
-        Where the lengths agree they do in every factor.
+        The length distinguishes group and algebra. Where the lengths are equal, they are equal in every
+        factor.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)

@@ -1,4 +1,5 @@
-"""The classes of one kind by name: those of this package, loaded on first use, and registered ones."""
+"""The classes of one kind by name: the classes of this package, imported on first use, and registered
+ones."""
 
 from __future__ import annotations
 
@@ -41,12 +42,12 @@ class Registry(Generic[T]):
         self._added[name] = cls
 
     def remove(self, cls: type[T]) -> None:
-        """Remove an added class; one that was not added, or was replaced, is ignored."""
+        """Remove an added class; a class that was not added, or was replaced, is ignored."""
         if self._added.get(cls.__name__) is cls:
             del self._added[cls.__name__]
 
     def get(self, name: str) -> type[T]:
-        """Return the class of that name; :class:`orderconds.errors.UnknownName` for another."""
+        """Return the class of that name; :class:`orderconds.errors.UnknownName` for an unknown name."""
         if name in self._added:
             return self._added[name]
         if name not in self.built_in:

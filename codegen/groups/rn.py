@@ -10,7 +10,8 @@ from codegen.ir.domain import Domain
 class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation):
     """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
 
-    On it RKMK, CG and CF methods are Runge-Kutta methods, and variational ones symplectic partitioned ones.
+    On R^n RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic partitioned
+    ones.
     """
 
     abelian = True

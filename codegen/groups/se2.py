@@ -24,7 +24,7 @@ class SE2(Coadjoint, PointMotions):
     dim, size = 3, 4
 
     def identity(self, d: Domain) -> Vector[S]:
-        """Return the motion that leaves every point where it is."""
+        """Return the identity map of the plane."""
         zero = d.rational(0)
         return (d.rational(1), zero, zero, zero)
 
@@ -56,7 +56,7 @@ class SE2(Coadjoint, PointMotions):
         return (d.rational(0), y[0] * x[2] - x[0] * y[2], x[0] * y[1] - y[0] * x[1])
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu: its pairing with y is that of mu with [x, y]."""
+        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>."""
         w, u, v = x
         return (mu[1] * v - mu[2] * u, w * mu[2], -(w * mu[1]))
 
@@ -67,7 +67,7 @@ class SE2(Coadjoint, PointMotions):
         return (w, c * u - s * v + w * b, s * u + c * v - w * a)
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return Ad*_g mu, its pairing with x being that of mu with Ad_g x."""
+        """Return Ad*_g mu: <Ad*_g mu, x> = <mu, Ad_g x>."""
         c, s, a, b = g
         m, p, r = mu
         return (m + p * b - r * a, c * p + s * r, c * r - s * p)
@@ -87,7 +87,7 @@ class SE2(Coadjoint, PointMotions):
         return tuple(m + c2 * a + c3 * b for m, a, b in zip(mu, first, second, strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x.g: w J on the rotation, the velocity under x on the translation."""
+        """Return x.g: w J applied to the rotation, and the velocity of the translation a under x."""
         w = x[0]
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 

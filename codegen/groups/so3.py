@@ -27,8 +27,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     z = x.x and the Stumpff functions c_k: exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues), dexp_x =
     1 + c_2 ad_x + c_3 ad_x^2.
 
-    exp(x) g is the matrix product. If a column is ``dependent`` (its number), the two others are rotated and
-    the dependent one is their cross product.
+    expmul(x, g) is the matrix product exp(x) g. If a column is ``dependent`` (its number), only the two
+    others are rotated, and the dependent column is their cross product.
     """
 
     name, layout = "SO(3)", ", row by row"
@@ -100,7 +100,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
 
-        As ad_x^3 = -z ad_x with z = x.x, each is 1 + b ad_x + c ad_x^2; so are products and inverses.
+        As ad_x^3 = -z ad_x with z = x.x, each function is 1 + b ad_x + c ad_x^2, and so are products and
+        inverses.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -119,8 +120,9 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
 
-        Terms with the same coefficient of ad_x, or of ad_x^2, are added before they are multiplied by it.
-        ``total`` gives the sum of f v over some of the terms, by number, where the caller has a shorter one.
+        Terms with the same coefficient of ad_x, or of ad_x^2, are added before the sum is multiplied by it.
+        ``total`` returns the sum of f v over the terms with given numbers, where the caller has a shorter
+        formula.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -149,7 +151,7 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         return tuple(columns[j][i] for i in range(3) for j in range(3))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x where v = x.g: the entries below and above the diagonal of v g^T."""
+        """Return x where v = x.g: the entries of x are those of v g^T below and above the diagonal."""
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -189,7 +191,7 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         return tuple(columns[i % 3][i // 3] for i in range(9))
 
     def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return exp(x) mu + dexp_x n; with a dependent column exp(x) is not formed."""
+        """Return exp(x) mu + dexp_x n; if the group has a dependent column, exp(x) is not formed."""
         if self.dependent is None:
             return super().transport(d, x, n, mu)
         z = dot(x, x)

@@ -1,6 +1,7 @@
 """Lowering: a tableau and a scene become a step program, with one block of stages.
 
-One file a family holds its :class:`Lowering`; everyone else asks the registry. :func:`register` adds one.
+A file for each family holds its :class:`Lowering`. All other code asks the registry, and :func:`register`
+adds a lowering to it.
 """
 
 from __future__ import annotations
@@ -35,7 +36,8 @@ __all__ = [
 
 
 def problem_for(scene: Problem, method: Method) -> Problem:
-    """Return the scene as the method's family sees it; :class:`MethodError` for one that it does not take."""
+    """Return the scene as the method's family sees it; :class:`MethodError` if the family does not take the
+    scene."""
     own = lowering(method.family)
     objection = own.objection(scene)
     if objection is not None:
@@ -53,9 +55,9 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of a step that repeats a shorter one, None for any other step."""
-    # Only some families turn a composed tableau into the composition of the steps: VRKMK expands dexp^{-1}
-    # over the whole step, and the product of exponentials of its substeps is another method.
+    """Return the verified program of a step that repeats a shorter step, None for any other step."""
+    # A composed tableau gives the composition of the steps in some families only. VRKMK expands dexp^{-1}
+    # over the whole step, and the product of exponentials of the substeps is a different method.
     if not lowering(method.family).repeats_substeps:
         return None
     repetition = substeps(method)

@@ -1,4 +1,5 @@
-"""Runge-Kutta methods in the coordinates of the state, which leave the manifold by their error."""
+"""Runge-Kutta methods in the coordinates of the state; the size of their error is their distance to the
+manifold."""
 
 from __future__ import annotations
 

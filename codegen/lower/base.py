@@ -1,8 +1,8 @@
 """The base class of lowerings: one class for each family turns a tableau and a problem into a program.
 
-A family of methods is two classes. :class:`orderconds.families.Family` knows its order conditions;
-:class:`Lowering` knows which scenes it takes and writes the step program. :func:`codegen.lower.register`
-makes a lowering known to every command.
+Two classes define a family of methods. :class:`orderconds.families.Family` defines its order conditions.
+:class:`Lowering` decides which scenes the family takes, and writes the step program.
+:func:`codegen.lower.register` makes a lowering known to every command.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Objection:
-    """Why a family does not take a scene: the property that it has, the one expected, and a hint.
+    """Why a family does not take a scene: the scene's unsuitable property, the expected property, and a hint.
 
     ``reason`` continues the sentence "FAMILY on SCENE"; without a ``hint`` the message names the families
     that take the scene.
@@ -50,9 +50,9 @@ class Lowering(ABC):
     preference: ClassVar[int] = 0
     """Families with a higher number come first where a method names no family."""
     repeats_substeps: ClassVar[bool] = False
-    """Whether the tableau of a composition gives, in this family, the composition of the shorter steps.
+    """Whether the program of a composed tableau is, in this family, the composition of the shorter steps.
 
-    It does not for a family that expands dexp^{-1} over the whole step.
+    It is not for a family that expands dexp^{-1} over the whole step.
     """
 
     def objection(self, scene: Problem) -> Objection | None:
@@ -61,28 +61,31 @@ class Lowering(ABC):
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as programs of this family see it; there is no :meth:`objection` to it.
+        """Return the scene as programs of this family see it. The family has no :meth:`objection` to the
+        scene.
 
-        :class:`codegen.errors.MethodError` where the scene does not suit this method.
+        :class:`codegen.errors.MethodError` is raised where the scene does not suit this method.
         """
 
     @abstractmethod
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the verified step program of a method, all its stages in one block.
 
-        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` for a tableau that
-        the family does not read, :class:`orderconds.errors.ZeroWeight` for weights that it divides by.
+        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised for a
+        tableau of a format that the family does not read, :class:`orderconds.errors.ZeroWeight` for a zero
+        among the weights that the family divides by.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Whether steps of one size are symplectic maps on a Hamiltonian scene.
 
-        By default this is so where T*G is a vector space and the tableau is symplectic.
+        By default they are symplectic where T*G is a vector space and the tableau is symplectic.
         """
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
-        # symplectic() answers None where b_i a_ij + b_j a_ji = b_i b_j is undecided; only a proof counts.
+        # symplectic() answers None where b_i a_ij + b_j a_ji = b_i b_j is undecided. Only a proof counts as
+        # symplectic.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
@@ -96,6 +99,6 @@ class Lowering(ABC):
         """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
         from orderconds.checking import check
 
-        # One family was asked for, hence one order.
+        # One family was asked for, so the result has one order.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -40,28 +40,31 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
-        # A stage may continue from an earlier one, Y_i = exp(...) Y_k: this saves that stage's exponentials.
+        # A stage may continue from an earlier one, Y_i = exp(...) Y_k, which saves the exponentials of stage
+        # k.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
-            # All exponents of a stage have one name: Builder numbers them.
+            # All exponents of a stage are requested by one name, to which Builder appends numbers.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            # Row by row: the first exponential acts first, so it is the rightmost factor.
+            # The factors are applied row by row: the first exponential acts first, so it is the rightmost
+            # factor.
             point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
     def images() -> list[Var]:
-        # Stages are listed after those that they start from.
+        # The tableau lists stages after the stages from which they start.
         points: list[Var] = []
         times: list[Element] = []
         result = []
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of a stage is that of its start and the sum of its own coefficients.
+            # The time of a stage is the time of its starting stage plus the sum of the stage's own
+            # coefficients.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The update may start from a stage too.
+        # The update may start from a stage, too.
         stage_points[:] = points
         return result
 
@@ -72,5 +75,5 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 
-    # All k_i start at f(y0), which is right to O(h), and costs one evaluation for all stages.
+    # All k_i start at f(y0), which is accurate to O(h) and costs one evaluation for all stages.
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

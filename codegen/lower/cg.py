@@ -1,6 +1,6 @@
-"""Crouch-Grossman methods on a field: commutator-free methods with one exponential a coefficient.
+"""Crouch-Grossman methods on a field: commutator-free methods with one exponential for each coefficient.
 
-A Butcher tableau is read by equation (1.4) of Marthinsen's thesis.
+Equation (1.4) of Marthinsen's thesis gives the method of a Butcher tableau.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from orderconds.tableau import CommutatorFree
 
 
 class CrouchGrossman(FieldLowering):
-    """Crouch-Grossman methods; their tableaux are Butcher tableaux only."""
+    """Crouch-Grossman methods, which have Butcher tableaux only."""
 
     family = "cg"
     repeats_substeps = True
@@ -22,7 +22,7 @@ class CrouchGrossman(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
         embedded = method.embedded()
-        # Only the update of the embedded tableau is used: its stages are those of the method.
+        # Only the update of the embedded tableau is used, because its stages are the stages of the method.
         lower = None if embedded is None else _exponentials(embedded).update
         # exp(h a_is k_s) ... exp(h a_i1 k_1): a commutator-free method whose exponentials have one term each.
         return products(problem, method, _exponentials(method), lower)

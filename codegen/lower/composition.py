@@ -1,4 +1,5 @@
-"""Compositions of a second-order step with rescaled ones: Strang's step of the parts' flows is repeated."""
+"""Compositions of a second-order step: Strang's step of the parts' flows is repeated with several step
+lengths."""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ HALF = Number.rational(1, 2)
 
 
 class CompositionLowering(FlowLowering):
-    """Symmetric compositions, with Strang's step as their base, and compositions of Phi and Phi*."""
+    """Symmetric compositions of Strang's step, and compositions of Phi and Phi*."""
 
     family = "composition"
 
@@ -20,11 +21,11 @@ class CompositionLowering(FlowLowering):
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
-        # Other tableaux have no gamma, and no base method is implied.
+        # Tableaux of other formats have no gamma, and imply no base method.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
-        # Strang's step of length gamma is Phi_{gamma/2} after
-        # Phi*_{gamma/2}: a composition of the adjoint kind.
+        # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition of Phi and Phi*
+        # with beta = alpha = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
-        # Kicks at both ends: neighbouring steps then join two kicks into one flow.
+        # Kicks are at both ends, because neighbouring steps then join two kicks into one flow.
         return pairs(kicks_first(parts.summands), [(x, x) for x in halves]), self.family

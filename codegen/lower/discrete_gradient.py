@@ -7,9 +7,10 @@ The tableau is read as a quadrature rule with nodes c_i and weights b_i for the 
     g = sum_i b_i gamma(exp(c_i eta).x0),
     D = g + (H(x1) - H(x0) - <g, eta>)/|eta|^2 eta.
 
-With one node 1/2 this is (2.31) with the midpoint choice; with Gauss nodes the mean value of that section,
-where a multiple of eta corrects the error of the quadrature. Since omega is skew, <D, xi> = 0 and H(x1) =
-H(x0) for any tableau; the order is two where sum b_i c_i = 1/2, else one. The unknown is xi.
+With one node 1/2 the discrete differential is (2.31) with the midpoint choice. With Gauss nodes it is the
+mean value of section 2.6, where a multiple of eta corrects the error of the quadrature. Since omega is skew,
+<D, xi> = 0 and H(x1) = H(x0) for any tableau. The order is two where sum b_i c_i = 1/2, else one. The unknown
+is xi.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ class DiscreteGradient(FieldLowering):
     def objection(self, scene: Problem) -> Objection | None:
         """Return why the family does not take a scene: it needs an energy that the field keeps."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
-        # With time in H the energy is no invariant, so that there is nothing to keep.
+        # If H depends on time, the energy is no invariant, so there is nothing to keep.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -46,8 +47,8 @@ class DiscreteGradient(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program.
 
-        :class:`codegen.errors.MethodError` for a scene whose energy does not change in any direction of the
-        group at a point where the field does not vanish.
+        :class:`codegen.errors.MethodError` is raised if, at some point where the field does not vanish, the
+        energy does not change in any direction of the group.
         """
         _check_bivector(problem, method)
         return _program(problem, method)
@@ -65,36 +66,40 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # exp(h part velocity).y: all points of the step lie on one curve through y.
+    # Returns exp(h part velocity).y: all points of the step are on one curve through y.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
 
     def images() -> list[Var]:
         slopes = [
-            # No factor h: the quadrature is for the mean of gamma over the step and not for its integral.
+            # There is no factor h, because the quadrature approximates the mean of gamma over the step and
+            # not the integral.
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector at the midpoint and not at y: then the order is two where sum b_i c_i = 1/2.
+        # The bivector is evaluated at the midpoint and not at y: then the order is two where sum b_i c_i =
+        # 1/2.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # Both energies are in the block: H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
-        # One operation forms H(x1) - H(x0) - <g, eta> over |eta|^2, which is 0/0 where eta = 0.
+        # One operation forms H(x1) - H(x0) - <g, eta> over |eta|^2, because the quotient is 0/0 where eta =
+        # 0.
         D = build.add(Secant(), "D", build.lin("g", Kind.DUAL, slopes), eta, *energies)
         shared["f"] = build.add(Bivector(), "f", middle, D)
         return [shared["f"]]
 
     def update() -> dict[str, Var]:
-        # from the image, which is nearer to the solution than the unknown: energies add up over many steps
+        # The update uses the image f, which is nearer to the solution than the unknown xi: errors of the
+        # energy add up over many steps.
         return {"y": moved("1", ONE.value, shared["f"])}
 
     return stages.program([xi], images, lambda: [stages.f("k0", y, None)], update)
 
 
 def _check_bivector(scene: Problem, method: Method) -> None:
-    """Raise where the bivector does not take the differential of the energy to the field."""
+    """Raise where the bivector does not map the differential of the energy to the field."""
     # The identity is checked at points of the orbit, because the formulas need not agree elsewhere.
     orbit = orbit_of(scene)
     for point in orbit.points:
@@ -102,7 +107,7 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         gamma = differential(scene, orbit.domain, y)
         image = bivector(scene, orbit.domain, y, gamma)
         f = scene.apply(orbit.domain, "field", None, (y,))[0]
-        # The bivector formula divides by |gamma|^2; it is right only where gamma = 0 implies f = 0.
+        # The formula of the bivector divides by |gamma|^2, so it is valid only where gamma = 0 implies f = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
                 f"{method.label} on {scene.name}, whose energy is the same in all directions of the group",

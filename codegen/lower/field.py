@@ -12,5 +12,6 @@ class FieldLowering(Lowering):
     """A family for vector fields y' = f(y).y; it sees a Hamiltonian scene as a field on the group T*G."""
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as a field, put together from the parts of a Hamiltonian where that is shorter."""
+        """Return the scene as a field; a Hamiltonian gives the sum of the fields of its parts if that is
+        shorter."""
         return with_field_by_parts(scene).as_field()

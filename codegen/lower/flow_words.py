@@ -1,6 +1,7 @@
 """Lowerings that compose exact flows: a step is a word in the flows of a Hamiltonian's parts, on T*G.
 
-Time moves with the flows of one summand that does not depend on it, and is constant in all others.
+The flows of one summand advance the time; the summand itself does not depend on the time. The time is
+constant during all other flows.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 Word = list[tuple[Summand, Number]]
-"""Summands and how long they flow, as multiples of h, the first acting first."""
+"""Summands and the durations of their flows as multiples of h; the first flow acts first."""
 
 
 @dataclass(frozen=True)
@@ -42,13 +43,14 @@ class Parts:
 
     @property
     def summands(self) -> list[Summand]:
-        """The summands of all parts, each with exact flows that commute."""
+        """The summands of all parts; the exact flows of one summand commute."""
         return [summand for part in self.parts for summand in part.summands]
 
 
 @dataclass(frozen=True)
 class Reading:
-    """How a method is read on a scene: its word, the summand that carries time, its family of conditions."""
+    """How a method applies to a scene: its word, the summand whose flow advances time, its family of
+    conditions."""
 
     word: tuple[tuple[Summand, Number], ...]
     carrier: Summand | None
@@ -56,7 +58,7 @@ class Reading:
 
 
 class FlowLowering(Lowering):
-    """A family that composes exact flows; it sees the scene with the flows that its word names."""
+    """A family that composes exact flows; its problem contains the flows that the method's word names."""
 
     hamiltonian = True
 
@@ -64,7 +66,8 @@ class FlowLowering(Lowering):
         """Return why the family does not take a scene."""
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
-        # A wrench has no Hamiltonian, and an input changes during a flow: neither has an exact flow.
+        # A scene with a wrench has no Hamiltonian, and a run-time input changes during a flow, so neither
+        # scene has exact flows.
         if scene.forced or scene.inputs:
             what = "a wrench" if scene.forced else "run-time inputs"
             return Objection(
@@ -78,9 +81,9 @@ class FlowLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene with the exact flows that the method composes, by name."""
         word = self.read(scene, method).word
-        # Only flows that the word names: others would be emitted as unused functions.
+        # Only flows that the word names are included: others would be emitted as unused functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
-        # Sorted by name: the order of emitted functions must not depend on the word.
+        # The flows are sorted by name, because the order of emitted functions must not depend on the word.
         return replace(scene, flows=dict(sorted(flows.items())))
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -88,7 +91,8 @@ class FlowLowering(Lowering):
         return True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions that hold for the parts of a scene, without a scene those of the family."""
+        """Return the conditions for the parts of a scene, or the conditions of the family if no scene is
+        given."""
         from orderconds import families
 
         if scene is None:
@@ -99,48 +103,50 @@ class FlowLowering(Lowering):
     def word(self, parts: Parts, method: Method) -> tuple[Word, str]:
         """Return the word of a method and the label of its family of conditions.
 
-        :class:`codegen.errors.MethodError` for a tableau that does not suit the parts.
+        :class:`codegen.errors.MethodError` is raised for a tableau that does not suit the parts.
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return how a method is read on a Hamiltonian scene in parts.
+        """Return the reading of a method on a Hamiltonian scene in parts.
 
-        :class:`codegen.errors.MethodError` for parts that do not add up to H, a part without exact flow, a
-        tableau in another number of parts, and parts that all depend on time.
+        :class:`codegen.errors.MethodError` is raised for parts that do not add up to H, a part without exact
+        flow, a tableau for another number of parts, and parts that all depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
-        # Flows of one summand form a group in time, phi_a phi_b = phi_{a+b}, so neighbours join exactly.
+        # Flows of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}, so joining neighbours is
+        # exact.
         return Reading(tuple(_joined(word)), _carrier(parts), conditions)
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program: one operation for each flow."""
         reading = self.read(problem, method)
         q, mu = Var("q", Kind.GROUP), Var("mu", Kind.DUAL)
-        # Time is a coordinate of extended phase space: its conjugate momentum joins the carrier, so the
-        # carrier's flow advances t and all others keep it constant.
+        # Time is a coordinate of extended phase space. The momentum conjugate to time is added to one
+        # summand, the carrier, so the carrier's flow advances t and all other flows keep t constant.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
-        # t and h are names of emitted arguments, also in steps that do not read them.
+        # t and h are names of emitted arguments, also in steps whose formulas do not contain them.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
             step = Coefficient(duration, 1)
             # The flows of one summand commute, so their order does not matter.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # After the flow: the carrier does not depend on t, so its own flow does not read the time.
+            # The time advances after the flow. The carrier does not depend on t, so its own flow does not
+            # read the time.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
 
 
 def parts_of(scene: Problem, where: str) -> Parts:
-    """Return the parts of a scene with their exact flows; MethodError as :meth:`FlowLowering.read`."""
+    """Return the parts of a scene with their exact flows; errors as for :meth:`FlowLowering.read`."""
     assert scene.hamiltonian is not None
     rest = scene.hamiltonian
     for summand in scene.parts.values():
         rest = rest - summand
-    # Tested on the orbit: H and the sum of parts may differ by a relation such as |q|^2 = 1.
+    # The sum is compared on the orbit: H and the sum of parts may differ by a relation such as |q|^2 = 1.
     if not orbit_of(scene).vanish([rest]):
         raise MethodError(
             f"the parts {', '.join(scene.parts)} do not add up to H",
@@ -160,7 +166,8 @@ def parts_of(scene: Problem, where: str) -> Parts:
 
 
 def adjoint_word(parts: Parts, method: Method, tableau: AdjointComposition) -> tuple[Word, str]:
-    """Return the word of a composition of Phi, the flows of all summands in turn, and its adjoint Phi*."""
+    """Return the word of a composition of Phi, the product of the flows of all summands, and its adjoint
+    Phi*."""
     # Phi*_{beta_1} acts first: in each pair beta precedes alpha.
     both = [(method.number(y), method.number(x)) for x, y in zip(tableau.alpha, tableau.beta, strict=True)]
     return pairs(kicks_first(parts.summands), both), "composition"
@@ -181,18 +188,20 @@ def is_kick(summand: Summand) -> bool:
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first: at the ends of Strang's step, where they are cheapest to join."""
-    # A stable sort: the other summands keep the order of the scene.
+    """Return the summands with kicks first: at the ends of Strang's step the flows of neighbouring steps
+    join."""
+    # The sort is stable, so the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
 
 def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
-    """Return Phi*_{beta_1}, Phi_{alpha_1}, ...: Phi goes through the summands backwards, Phi* forwards."""
+    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, ...; Phi has the summands in reverse order, Phi* in
+    order."""
     word: Word = []
     for beta, alpha in both:
-        # Phi is the product of flows that ends with the first summand; its
-        # adjoint Phi*_h = (Phi_{-h})^{-1} has the same flows in the opposite
-        # order. The meeting ends are flows of one summand, which _joined adds.
+        # Phi is the product of flows that ends with the first summand. Its adjoint Phi*_h = (Phi_{-h})^{-1}
+        # has the same flows in the opposite order. Where Phi and Phi* meet, both flows are of the same
+        # summand, and _joined adds their durations.
         word += [(summand, beta) for summand in summands] + [
             (summand, alpha) for summand in reversed(summands)
         ]
@@ -200,16 +209,16 @@ def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) ->
 
 
 def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
-    """Yield the word with neighbouring flows of one summand joined, and without flows for no time."""
+    """Yield the word with neighbouring flows of one summand joined, and without flows of duration zero."""
     joined: Word = []
     for summand, x in word:
-        # A flow for no time is the identity; dropping it lets its neighbours join.
+        # A flow of duration zero is the identity, and its neighbours can join after it is dropped.
         if x.is_zero:
             continue
         if joined and joined[-1][0] is summand:
             total = joined.pop()[1] + x
-            # The joined flow cancels: its neighbours now meet,
-            # and the next one is compared with what is left.
+            # The durations cancel, so the joined flow is dropped. The flows before and after it are now
+            # neighbours, and the next flow is compared with the last flow that remains.
             if total.is_zero:
                 continue
             x = total
@@ -219,12 +228,12 @@ def _joined(word: Word) -> Iterator[tuple[Summand, Number]]:
 
 
 def _carrier(parts: Parts) -> Summand | None:
-    """Return the summand with which time moves, None for a scene without time."""
+    """Return the carrier, the summand whose flow advances time; None for a scene without time."""
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The first one without t: any would do, because the
-        # order conditions are those of the extended system.
+        # The carrier is the first summand without t. Any other one would be right, too, because the order
+        # conditions are those of the extended system.
         if not summand.timed:
             return summand
     raise MethodError(

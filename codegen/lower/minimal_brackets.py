@@ -1,7 +1,7 @@
 """Explicit Runge-Kutta-Munthe-Kaas methods with the fewest brackets that keep the tableau's order.
 
-k_i = f(exp(u_i).y0), y1 = exp(u).y0, where u_i and u are combinations of stage values and of the brackets of
-:func:`orderconds.series.brackets.fewest_brackets`, every k multiplied by h: two brackets for RK4.
+k_i = f(exp(u_i).y0), y1 = exp(u).y0. The u_i and u are combinations of the h k_j and of the brackets of
+:func:`orderconds.series.brackets.fewest_brackets`, which are formed from the h k_j. RK4 needs two brackets.
 """
 
 from __future__ import annotations
@@ -16,14 +16,15 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""Programs by ring and coefficients as text: lowering and the certificate ask for the same one."""
+"""Bracket programs by ring and coefficients as text: lowering and certificate need the same bracket
+program."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
     """Return arguments with the fewest brackets for ``rkmk`` without a cut-off, keeping the tableau's order.
 
-    :class:`codegen.errors.MethodError` for a tableau that is implicit, has ball coefficients, or an order
-    above the family's ``minimal_brackets``.
+    :class:`codegen.errors.MethodError` is raised for a tableau that is implicit, has ball coefficients, or
+    has an order above the family's ``minimal_brackets``.
     """
     from orderconds import families
     from orderconds.checking import family_order
@@ -38,7 +39,7 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a number of brackets",
             hint=f"write rkmk(2):{name}",
         )
-    # The classical order: brackets only have to keep it.
+    # This is the classical order of the tableau, which the brackets have to keep.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
@@ -49,9 +50,9 @@ def bracket_program(method: Method) -> BracketProgram:
             # terms with j > order - 2 do not change the order.
             hint=f"write rkmk({order - 2}):{name}",
         )
-    # The bracket program is found by a search, so it is kept for the certificate.
+    # The bracket program is found by a search, so it is stored for the certificate, which needs it again.
     ring = method.ring
-    # The text of exact coefficients determines them; elements themselves may be unhashable.
+    # The key contains the exact coefficients as text, because elements of a ring may be unhashable.
     key = (ring, tuple(ring.text(x) for row in (*tableau.A, tableau.b) for x in row))
     if key not in _KNOWN:
         _KNOWN[key] = with_fewer_terms(ring, fewest_brackets(ring, tableau.A, tableau.b, order))
@@ -61,18 +62,18 @@ def bracket_program(method: Method) -> BracketProgram:
 def lower(scene: Problem, method: Method) -> Program:
     """Return the program of an RKMK method without a cut-off.
 
-    Errors as :func:`bracket_program`.
+    The errors are those of :func:`bracket_program`.
     """
     tableau, written = method.runge_kutta(), bracket_program(method)
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
-    # Stage values and brackets have one table, because rows combine both.
+    # Stage values and brackets are in one table, because rows combine both.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:
         terms = [
-            # Brackets are formed of combinations that carry h already, so only the k_i are scaled.
+            # The arguments of brackets already contain the factor h, so only the k_i are scaled.
             (stages.times_h(x) if key[0] == "k" else Coefficient(stages.number(x)), values[key])
             for key, x in row.items()
         ]
@@ -81,7 +82,7 @@ def lower(scene: Problem, method: Method) -> Program:
     def images() -> list[Var]:
         # A bracket may use earlier ones, in the order of the program.
         for r, (left, right) in enumerate(written.brackets):
-            # Both arguments are combinations: [a + b, c] is one bracket and not two.
+            # Both arguments are combinations: [a + b, c] is one bracket, but [a, c] + [b, c] would be two.
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)
             values["B", r] = build.bracket(f"B{r + 1}", x, z)
         result = []
@@ -91,7 +92,8 @@ def lower(scene: Problem, method: Method) -> Program:
         return result
 
     def update() -> dict[str, Var]:
-        # One exponential: the brackets are in its exponent, which agrees with Magnus' series up to the order.
+        # The update has one exponential, whose exponent contains the brackets and agrees with Magnus' series
+        # up to the order.
         return {"y": build.act("y1", build.exp("g", combination("u", written.update)), y)}
 
     unknowns = [values["k", i] for i in range(tableau.s)]

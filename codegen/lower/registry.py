@@ -45,8 +45,8 @@ def _built_in() -> tuple[type[Lowering], ...]:
 def register(lowering: type[Lowering]) -> type[Lowering]:
     """Make a lowering known to every command, and return it; it may be used as a decorator.
 
-    :class:`codegen.errors.MethodError` for a class without :attr:`Lowering.family`, and for a family that
-    another class lowers already.
+    :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
+    family that already has a lowering of another class.
     """
     if not lowering.family:
         raise MethodError(f"{lowering.__name__} names no family", expected='family = "NAME" in the class')
@@ -55,7 +55,7 @@ def register(lowering: type[Lowering]) -> type[Lowering]:
         raise MethodError(
             f"a second lowering of family {lowering.family}", where=lowering.__name__, expected="one"
         )
-    # One instance a family: lowerings have no state.
+    # One instance for each family is enough, because lowerings have no state.
     _registered[lowering.family] = lowering()
     return lowering
 
@@ -77,7 +77,7 @@ def names() -> tuple[str, ...]:
 
 
 def lowering(family: str) -> Lowering:
-    """Return the lowering of a family; :class:`codegen.errors.MethodError` for one that has none.
+    """Return the lowering of a family; :class:`codegen.errors.MethodError` for a family without lowering.
 
     >>> lowering("vcg").hamiltonian
     True
@@ -91,13 +91,13 @@ def lowering(family: str) -> Lowering:
 def families_for(scene: Problem) -> tuple[str, ...]:
     """Return the families that take a scene, in the order of preference where a method names none."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
-    # A stable sort: families of one preference keep the order of registration.
+    # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
 
 
 def _lowerings() -> dict[str, Lowering]:
     """Return all lowerings by family; the modules of the built-in ones are imported at the first call."""
-    # At the first call and not at import: the modules of the families import this package.
+    # The modules are imported at the first call, because they import this package themselves.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

@@ -17,7 +17,7 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return why the family does not take a scene: it leaves any manifold but R^n."""
+        """Return why the family does not take a scene: its steps leave any manifold but R^n."""
         group = scene.as_field().group
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:

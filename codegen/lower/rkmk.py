@@ -1,4 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods on a field: one exponential a stage, brackets by dexp^{-1}_(r).
+"""Runge-Kutta-Munthe-Kaas methods on a field: one exponential for each stage, and the brackets of
+dexp^{-1}_(r).
 
 Equation (3.14) of Marthinsen's thesis: u_i = h sum_j a_ij v_j, v_i = dexp^{-1}_{(r),u_i} f(exp(u_i).y0),
 y1 = exp(h sum_i b_i v_i).y0. The unknowns are the v_i. On R^n with r = 0 this is the Runge-Kutta method.
@@ -30,22 +31,25 @@ class MuntheKaas(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
-        # Without a number of brackets the program is searched for; dexp^{-1} itself does not terminate.
+        # Without a number of brackets the bracket program is searched for, because the series of dexp^{-1} is
+        # infinite.
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions; without a cut-off by the series of the very program that is compiled."""
+        """Return the conditions; without a cut-off they come from the series of the compiled program
+        itself."""
         if method.cutoff is not None:
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The certificate reads the program that is compiled, so the two cannot differ.
+        # The certificate reads the compiled program, so certificate and program cannot differ.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order; without a cut-off the conditions that fail have no index sums to name them by."""
+        """Return the order; without a cut-off the failing conditions have no index sums that could name
+        them."""
         if method.cutoff is not None:
             return super().order(method, scene)
         from orderconds.checking import family_order
@@ -64,12 +68,13 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # u lives in the algebra, a vector space: this is a
-            # Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0).
+            # u is in the algebra, which is a vector space: the stages are a Runge-Kutta step for u' =
+            # dexp^{-1}_u f(exp(u).y0).
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
-            # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...: without it the order is two at most.
+            # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...: without the brackets the order is two at
+            # most.
             result.append(build.dexpinv(f"w{i + 1}", u, k, cutoff))
         return result
 
@@ -78,7 +83,7 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
         return build.act("y1", build.exp("g", u), y)
 
     def update() -> dict[str, Var]:
-        # The embedded weights act on the same v_i, so they cost one exponential and no evaluation.
+        # The embedded weights combine the same v_i, so they cost one exponential and no evaluation.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

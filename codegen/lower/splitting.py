@@ -1,9 +1,10 @@
 """Splittings: words of exact flows of a Hamiltonian's parts, on T*G.
 
-A tableau in as many parts as the scene has is read as it is. One in two parts A, B also serves a scene in
-more: written as beta_1, alpha_1, ..., the composition of Phi, the flows of all summands one after the other,
-and its adjoint Phi*, the same backwards, has its order for any basic method (McLachlan, SIAM J. Sci. Comput.
-16 (1995) 151).
+If a tableau has as many parts as the scene, it names the flows of the parts directly. A tableau for two parts
+A, B also applies to a scene with more parts: it is written as a composition with coefficients beta_1,
+alpha_1, ... of Phi and its adjoint Phi*. Phi is the product of the flows of all summands, and Phi* has the
+same flows in the opposite order. The composition keeps the order of the splitting for any basic method Phi
+(McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
@@ -43,7 +44,8 @@ class SplittingLowering(FlowLowering):
         if not isinstance(tableau, Splitting):
             raise unread(parts, method)
         steps = [(k, method.number(x)) for k, x in tableau.steps]
-        # A part whose flow is a composition of summands has no exact flow of its own: its summands are parts.
+        # A part whose flow is a composition of summands has no exact flow of its own, so its summands count
+        # as parts.
         exact = all(part.exact for part in parts.parts)
         chosen = [part.summands[0] for part in parts.parts] if exact else parts.summands
         if len(chosen) == len(tableau.parts):
@@ -65,12 +67,12 @@ def _in_order(
 ) -> tuple[Word, str]:
     """Return the word of a tableau in as many parts as there are summands, and the label of its conditions.
 
-    Parts are matched by their names where tableau and scene have the same, else by their order; V of a
+    Parts are matched by name if tableau and scene use the same names, else by their order. The part V of a
     Runge-Kutta-Nystroem tableau is the kick.
     """
     chosen = summands
     names = [part.name for part in own.parts]
-    # Names decide if they can: the order of parts in a scene says nothing about their roles.
+    # Names take precedence: the order of parts in a scene says nothing about their roles.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None:
@@ -82,19 +84,20 @@ def _in_order(
         and len(own.parts) == 2
         and _nystroem(own.scene, own.parts, chosen[tableau.rkn])
     ):
-        # The conditions of Runge-Kutta-Nystroem splittings are
-        # fewer, but they hold only if the triple bracket vanishes.
+        # Runge-Kutta-Nystroem splittings satisfy fewer conditions, which suffice only if the triple bracket
+        # vanishes.
         return word, "rkn"
     return word, "splitting" if len(chosen) == 2 else f"splitting({len(chosen)})"
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Whether [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings need, for the part V of a summand."""
+    """Whether [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require; V is the part of
+    ``summand``."""
     (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]
     qs, mus = (block.symbols for block in scene.state)
     nested = T
-    # T quadratic in mu: each bracket with V lowers the degree by one, and three of them leave nothing.
+    # If T is quadratic in mu, each bracket with V lowers the degree by one, and three brackets give zero.
     for _ in range(3):
         # The sign of each bracket does not matter: the question is whether the result is zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
@@ -102,27 +105,30 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
 
 
 def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]]:
-    """Return (beta_i, alpha_i) of a splitting in two parts, zero steps put where parts do not alternate."""
-    # A and B of two parts: A_{x1} B_{x2} A_{x3} ... With Phi = A B and Phi* = B A in turn, x1 = beta_1, x2 =
-    # beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on, which is solved from the left.
+    """Return (beta_i, alpha_i) of a splitting in two parts; a final flow of duration zero is added if
+    necessary."""
+    # Let A and B be the flows of the two parts, and the word A_{x1} B_{x2} A_{x3} ... With Phi = A B and Phi*
+    # = B A in turn, x1 = beta_1, x2 = beta_1 + alpha_1, x3 = alpha_1 + beta_2, and so on. These equations are
+    # solved from the left.
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
-        # Two flows of one part in a row are one: the recursion needs alternating parts.
+        # Two flows of one part in a row are joined, because the recursion needs alternating parts.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
     # Which part comes first does not matter: Phi and Phi* may exchange their roles.
     durations = [x for _, x in joined]
-    # An odd number: the word ends with the part that it began with, if need be for no time.
+    # The number of flows must be odd, so that the word ends with the part with which it began. A flow of
+    # duration zero is added if necessary.
     if len(durations) % 2 == 0:
         durations.append(zero)
     composed, carried = [], durations[0]
     for inner, outer in zip(durations[1::2], durations[2::2], strict=True):
-        # inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}: each pair takes two durations.
+        # inner = beta_i + alpha_i and outer = alpha_i + beta_{i+1}: two durations determine each pair.
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # What is carried to the end is zero, because both parts flow for the same time in all.
+    # The last value of carried is zero, because both parts have the same total duration.
     return composed

@@ -25,7 +25,7 @@ class Stages:
     time: Var | None = field(init=False)
 
     def __post_init__(self) -> None:
-        # t and h are arguments of emitted code: no value may take their names.
+        # t and h are arguments of emitted code, so no value may have these names.
         self.builder = Builder({v.name for v in self.inputs} | {"t", "h"})
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
@@ -43,10 +43,10 @@ class Stages:
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return (t + c h,) for a scene that depends on time, () for one that does not; None is c = 0."""
+        """Return (t + c h,) for a scene that depends on time, else (); None means c = 0."""
         if self.time is None:
             return ()
-        # A stage at the beginning reads t itself, so that equal evaluations are equal operations.
+        # A stage at the beginning of the step reads t itself, so that equal evaluations are equal operations.
         if c is None or self.number(c).is_zero:
             return (self.time,)
         return (self.builder.advance("t_stage", self.time, self.times_h(c)),)
@@ -63,17 +63,18 @@ class Stages:
         starts: Callable[[], Sequence[Var]],
         update: Callable[[], dict[str, Var]],
     ) -> Program:
-        """Assemble and verify: starts, one block with the images' body, the update; outputs by input name."""
+        """Return the verified program: starts, one block with the images' body, the update; outputs by input
+        name."""
         # The order of appending is the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # One block with all stages, also for explicit tableaux: the passes find from the arguments in which
+        # Explicit tableaux, too, give one block with all stages. The passes infer from the arguments in which
         # order the stages can be solved, so a lowering states equations and no algorithm.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
-        # After the block: the update reads values of its body at the solution.
+        # The update comes after the block, because it reads values of the block's body at the solution.
         outputs = update()
-        # The time comes last, so that the state's inputs have the same places with and without it.
+        # The time comes last, so that the state's inputs have the same positions with and without time.
         inputs = self.inputs + (() if self.time is None else (self.time,))
         body: tuple[Statement, ...] = (*before, block, *self.builder.take())
         return verify(Program(self.method.label, inputs, body, tuple(outputs.items())))

@@ -1,12 +1,13 @@
-"""Compositions: a step that repeats one shorter step becomes that step and a table of substeps.
+"""Compositions: a step that repeats one shorter step becomes the shorter step and a table of substeps.
 
-Where the stages of a tableau fall into groups, a_ij = b_j for j in an earlier group than i and a_ij = 0 for j
-in a later one, the method is the composition of the methods of the groups, with steps gamma_k h where gamma_k
-is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen; for Crouch-Grossman methods read
-off the products of exponentials). Where the groups' coefficients over gamma_k are the same, these are one
-method, and one program serves all. Several neighbouring groups may together be the repeated method.
+Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in an earlier group than i, and
+a_ij = 0 for j in a later group. Then the method is the composition of the methods of the groups with steps
+gamma_k h, where gamma_k is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
+Crouch-Grossman methods the products of exponentials show the same. If the coefficients of every group divided
+by gamma_k are the same, all groups are one method, and one program is enough. The repeated method may also
+consist of several neighbouring groups.
 
-Only implicit methods are split: explicit stages of neighbouring substeps share computations.
+Only implicit methods are split, because explicit stages of neighbouring substeps share computations.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from orderconds.tableau import Composition, RungeKutta
 def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     """Return the method that a step repeats, and its substeps; None if the step repeats no method.
 
-    The family is one of those whose lowering has :attr:`codegen.lower.Lowering.repeats_substeps`.
+    The family must be one whose lowering has :attr:`codegen.lower.Lowering.repeats_substeps`.
 
     >>> from codegen.method import parse
     >>> base, steps = substeps(parse("vcg:suzuki4", ("vcg",)))
@@ -34,7 +35,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     >>> substeps(parse("vcg:gauss2", ("vcg",))) is None
     True
     """
-    # The embedded solution combines stages of the whole step, which substeps do not keep.
+    # The embedded solution combines stages of the whole step, but stages of earlier substeps are not stored.
     if method.adaptive:
         return None
     tableau = method.tableau
@@ -53,7 +54,8 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     # One substep is the step itself.
     if repetition is None or len(repetition[1]) < 2:
         return None
-    # Proof, file and embedded row belong to the whole tableau, and would be wrong for a group of it.
+    # Proof, file and embedded row belong to the whole tableau, and would be wrong for the tableau of one
+    # group.
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
@@ -61,36 +63,37 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
-    """Yield the substeps with the times they begin at."""
+    """Yield the substeps with the times at which they begin."""
     before = Number.rational(0)
     for fraction in fractions:
         yield Substep(fraction, before)
-        # Exact sums: an offset is rounded once, by a printer.
+        # The sums are exact, so a printer rounds an offset only once.
         before = before + fraction
 
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
-    """Return the tableau of equal groups and their steps; as many groups as possible."""
-    # Numbers and not ring elements: they are compared by key, which is decidable for balls.
+    """Return the tableau of equal groups and the lengths of their steps, for as many groups as possible."""
+    # Numbers are used and not ring elements: they are compared by key, which is decidable for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # Every place at which the tableau separates in two; groups are unions of the parts between.
+    # The cuts are all places where the tableau separates in two. Groups are unions of the parts between cuts.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # From one group to half of them: the narrowest repeated method gives the most substeps.
+    # A group has from one part to half of the parts. The narrowest repeated method gives the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         # wide divides the number of parts, so the last end is the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
         sums = [_sum([b[j] for j in group]) for group in groups]
-        # A group whose weights add to zero is no step of any length.
+        # The method of a group whose weights add up to zero does not advance the time, so the group is no
+        # substep.
         if any(x.is_zero for x in sums):
             continue
         scaled = [
             [[x / total for x in row] for row in (*([A[i][j] for j in g] for i in g), [b[j] for j in g])]
             for g, total in zip(groups, sums, strict=True)
         ]
-        # Divided by gamma_k, the coefficients of a group are those of a method with a step of length h.
+        # The coefficients of a group divided by gamma_k are the tableau of a method with step length h.
         first = scaled[0]
         if all(rows == first for rows in scaled) and _implicit(first):
             elements = [tuple(_element(method, x) for x in row) for row in first]
@@ -99,10 +102,10 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Whether the stages from k on begin where the update by those before has ended."""
+    """Whether the stages from k on begin where the update by the stages before k has ended."""
     s = len(b)
-    # Lemma 3.5.4: later stages see the finished update of
-    # earlier ones, and earlier ones see nothing of later ones.
+    # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
+    # depend on later ones.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )
@@ -122,7 +125,8 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # Numbers keep rational values over QQ whatever ring they came from; the tableau needs one ring.
+    # Numbers store rational values over QQ, whatever ring they came from. All coefficients of a tableau are
+    # in one ring.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

@@ -44,14 +44,14 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
     A = [[stages.number(x) for x in row] for row in tableau.A]
-    # The equations for M_i come from h b_i l(Q_i, xi_i) by division by b_i, which is where zeros fail.
+    # The equations for M_i result from a division of h b_i l(Q_i, xi_i) by b_i, so no b_i may be zero.
     return stages, tableau, A, nonzero(method, [stages.number(x) for x in tableau.b])
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
-    """Return the weights, which the step's equations divide by; ZeroWeight names the first zero one."""
+    """Return the weights, by which the step's equations divide; ZeroWeight names the first zero weight."""
     for i, weight in enumerate(weights, start=1):
-        # Only a proven zero is refused; a small weight is no error.
+        # Only a proven zero is refused, because a small weight is no error.
         if weight.is_zero:
             raise ZeroWeight(
                 f"b_{i} = 0", where=method.label, expected="all b_i non-zero: the method divides by them"
@@ -60,9 +60,11 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
 
 
 def brackets(method: Method) -> int:
-    """Return the cut-off of dexp^{-1}; MethodError without one: a program has finitely many brackets."""
+    """Return the cut-off of dexp^{-1}; MethodError without a cut-off: a program has finitely many
+    brackets."""
     if method.cutoff is None:
-        # The dual of dexp^{-1} and its derivative are expanded too; no search for fewer brackets covers them.
+        # The program also expands the dual of dexp^{-1} and its derivative. The search for the fewest
+        # brackets does not cover these.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} without a cut-off", expected=f"a number of brackets, as {family}(2):{name}"
@@ -73,8 +75,8 @@ def brackets(method: Method) -> int:
 class ExpandedStep(ABC):
     """A step that expands dexp^{-1}: Q_i = exp(X_i) q0 with X_i = h sum_j a_ij v_j, and q1 = exp(Y) q0.
 
-    Subclasses give the equations; X_i, exp(X_i), and the values at the end of the step are attributes that
-    :meth:`exponentiate` and :meth:`end` set.
+    Subclasses define the equations. :meth:`exponentiate` and :meth:`end` set attributes: X_i, exp(X_i), and
+    the values at the end of the step.
     """
 
     unknowns: list[Var]
@@ -100,11 +102,11 @@ class ExpandedStep(ABC):
 
     @abstractmethod
     def starts(self) -> list[Var]:
-        """Append and return first values of the unknowns."""
+        """Append and return the first values of the unknowns."""
 
     def exponentiate(self, v: Sequence[Var]) -> None:
         """Append X_i and exp(X_i)."""
-        # Names count from 1, as in the literature.
+        # The numbers in names begin at 1, as in the literature.
         rows = enumerate(self.tableau.A, start=1)
         self.X = [self.stages.combination(f"X{i}", Kind.ALG, row, v) for i, row in rows]
         self.g = [self.build.exp(f"g{i}", x) for i, x in enumerate(self.X, start=1)]
@@ -113,9 +115,9 @@ class ExpandedStep(ABC):
         """Append Y, -Y, nu_j and mubar."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
-        # -Y is a value, because dexp*_{-Y} takes its argument as it is.
+        # -Y is a variable, because the operation dexp*_{-Y} reads -Y as its argument.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
-        # n_j is a covector at Q_j; Ad* takes it to q0, where covectors of all stages can be added.
+        # n_j is a covector at Q_j. Ad* transports it to q0, where covectors of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]
         terms = [(ONE, self.mu)] + [(self.stages.times_h(self.b[j]), self.nu[j]) for j in range(self.s)]
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
@@ -127,7 +129,7 @@ class ExpandedStep(ABC):
     def update(self) -> dict[str, Var]:
         """Append q1 = exp(Y) q0 and mu1 = Ad*_{exp(-Y)} mubar."""
         g = self.build.exp("g", self.Y)
-        # One g for both: the step is the action of exp(Y) on (q0, mubar) in T*G.
+        # The same g acts on q and mu: the step is the action of exp(Y) on (q0, mubar) in T*G.
         q = self.build.mul("q1", g, self.q)
         return {"q": q, "mu": self.build.adjoint("mu1", g, self.mubar, inverse=True)}
 

@@ -9,9 +9,9 @@ sum_j b_j nu_j, its Hamilton equations are
               - h sum_j sum_J b_j alpha_jJ^i dexp*_{-X_jJ} Ad*_{(E_j^{J-1})^-1} nu_j,
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
-As for VCG every factor's own exponential is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}), and
-terms are kept apart for the passes to see what cancels. A stage that starts from another has that one's
-exponentials before its own; shared prefixes are found by the passes.
+As for VCG, the exponential of each factor is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}). The
+terms are separate, so that the passes see what cancels. A stage that starts from another stage has the
+exponentials of that stage before its own; the passes find shared prefixes.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Rows = tuple[tuple[Number, ...], ...]
 
 @dataclass(frozen=True)
 class _Product:
-    """A product of exponentials: minus each exponent, and the partial products after 0, 1, ... factors."""
+    """A product of exponentials: minus the exponent of each factor, and the products of 0, 1, ... factors."""
 
     rows: Rows
     minus: tuple[Var, ...]
@@ -48,7 +48,7 @@ class _Product:
             scaled = (stages.times_h(x if sign > 0 else -x) for x in row)
             return build.lin(name, Kind.ALG, list(zip(scaled, xi, strict=True)))
 
-        # The empty product is kept: the first factor's momentum is transported by e^0 = 1.
+        # The empty product is included: e^0 = 1 transports the momentum of the first factor.
         partial, minus = [build.identity(f"{name}0")], []
         for J, row in enumerate(rows, start=1):
             # Both signs of the exponent are formed: the plus sign for exp, the minus sign for dexp*_{-x}.
@@ -60,8 +60,8 @@ class _Product:
 
     def carried(self, build: Builder, i: int, J: int, m: Var) -> Var:
         """Append dexp*_{-x_J} Ad*_{(e^J)^-1} m, where e^J is the product of the first J factors."""
-        # partial[J] has the factors before factor J, counted from zero. The own exponential of factor J is
-        # missing on purpose: dexp*_x Ad*_{exp(-x)} = dexp*_{-x} contains it.
+        # partial[J] is the product of the factors before factor J, counted from zero. It does not contain the
+        # exponential of factor J, because dexp*_{-x} = dexp*_x Ad*_{exp(-x)} contains it.
         moved = build.adjoint(f"m{i + 1}", self.partial[J], m, inverse=True)
         return build.dual_dexp(f"p{i + 1}", self.minus[J], moved)
 
@@ -89,17 +89,18 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def momentum(i: int, e: _Product, E: list[_Product], nu: list[Var]) -> Var:
-        """Append M_i, one term a coefficient."""
+        """Append M_i, with one term for each coefficient."""
         terms = []
-        # The end point of the step depends on xi_i through every exponential that contains it.
+        # The end point of the step depends on xi_i through every exponential whose exponent contains xi_i.
         for J, row in enumerate(e.rows):
             if not row[i].is_zero:
-                # beta_J^i/b_i; over J they add to one, so M_i = mu0 + O(h).
+                # The factor is beta_J^i/b_i. The factors add up to one over J, so M_i = mu0 + O(h).
                 share = row[i] / b[i]
                 terms.append((Coefficient(share), e.carried(build, i, J, mu)))
-                # mubar is not formed first: its terms must be visible to cancel against those of the stages.
+                # mubar is not formed first: its terms must be separate, so that they can cancel terms of the
+                # stages.
                 terms += [(stages.times_h(b[j] * share), e.carried(build, i, J, nu[j])) for j in range(s)]
-        # The Lagrangian depends on xi_i through the points Q_j, too: these are the terms with a minus sign.
+        # The Lagrangian also depends on xi_i through the points Q_j, which gives the terms with a minus sign.
         for j, stage in enumerate(E):
             for J, row in enumerate(stage.rows):
                 if not row[i].is_zero:
@@ -109,7 +110,7 @@ def _program(scene: Problem, method: Method) -> Program:
 
     def images() -> list[Var]:
         e = _Product.of(stages, "e", update, xi)
-        # All stages begin at y0, even if they share factors: value numbering finds equal prefixes.
+        # All stages begin at y0, even if they share factors, because value numbering finds equal prefixes.
         E = [_Product.of(stages, f"E{i + 1}_", r, xi) for i, r in enumerate(rows)]
         nu = [build.adjoint(f"nu{j + 1}", E[j].partial[-1], n[j]) for j in range(s)]
         evaluations = []
@@ -135,7 +136,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
-    """Return the exponentials of each stage and of the update, those of the stages they start from first."""
+    """Return the exponentials of each stage and of the update, each after those of the stage from which it
+    starts."""
     tableau = method.commutator_free()
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))

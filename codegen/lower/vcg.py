@@ -1,15 +1,15 @@
 """Variational Crouch-Grossman methods on T*G, equation (3.18) of Marthinsen's thesis, momenta by (3.19).
 
-Everything is taken relative to q0, where the coadjoint action of q0 drops out: with e^j = exp(h b_j xi_j)
+All equations are written relative to q0, where the coadjoint action of q0 cancels: with e^j = exp(h b_j xi_j)
 e^{j-1}, E_i^j = exp(h a_ij xi_j) E_i^{j-1}, e^0 = E_i^0 = 1, E_i = E_i^s, Q_i = E_i q0, nu_j = Ad*_{E_j} n_j,
 
     M_i = dexp*_{-h b_i xi_i} Ad*_{(e^{i-1})^-1} (mu0 + h sum_j b_j nu_j)
           - h sum_j (b_j a_ji/b_i) dexp*_{-h a_ji xi_i} Ad*_{(E_j^{i-1})^-1} nu_j,
     q1 = e^s q0,   mu1 = Ad*_{(e^s)^-1} (mu0 + h sum_j b_j nu_j).
 
-This is (3.19) by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}: the factor of xi_i itself is merged into dexp*. The
-terms are kept apart here, one a coefficient; where a_ji = b_i and E_j^{i-1} = e^{i-1}, as in compositions
-(Lemma 3.5.4), the passes see them cancel, and the stages become sequential.
+These are (3.19), rewritten by dexp*_x Ad*_{exp(-x)} = dexp*_{-x}: the exponential of xi_i itself is merged
+into dexp*. The program has a separate term for each coefficient. Where a_ji = b_i and E_j^{i-1} = e^{i-1}, as
+in compositions (Lemma 3.5.4), the passes cancel the terms, and the stages become sequential.
 """
 
 from __future__ import annotations
@@ -33,13 +33,14 @@ class VariationalCrouchGrossman(VariationalLowering):
         return _program(problem, method)
 
 
-# Products: all partial ones are kept, because factor i's momentum is transported by the product before it.
-# A zero coefficient gives exp(0) = 1, which a pass removes: so all lists of products have s + 1 entries.
-# Momenta: by dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i the own factor of xi_i is in dexp*.
-# mu0 and all nu_j are carried separately. In a composition the term of nu_j for a later stage j cancels the
-# one with a_ji exactly, so stage i does not depend on stage j. a_ji/b_i is formed first: where they are
-# equal it is exactly one, also for balls.
-# Ad*_{E_j} takes the force from Q_j to q0, where the equations are written.
+# Products: all partial products are kept, because the product before factor i transports the momentum of
+# factor i. A zero coefficient gives exp(0) = 1, which a pass removes, so all lists of products have s + 1
+# entries.
+# Momenta: by dexp*_x Ad*_{exp(-x)} = dexp*_{-x} with x = h b_i xi_i, the exponential of xi_i is merged into
+# dexp*. The terms of mu0 and of all nu_j are separate. In a composition the term of nu_j for a later stage j
+# cancels the term with a_ji exactly, so stage i does not depend on stage j. The quotient a_ji/b_i is formed
+# first: if a_ji equals b_i, the quotient is exactly one, also for balls.
+# Ad*_{E_j} transports the force from Q_j to q0, where the equations are written.
 def _program(scene: Problem, method: Method) -> Program:
     stages, tableau, A, b = begin(scene, method)
     q, mu = stages.inputs
@@ -57,7 +58,7 @@ def _program(scene: Problem, method: Method) -> Program:
         return products
 
     def momentum(i: int, e: list[Var], E: list[list[Var]], nu: list[Var]) -> Var:
-        """Append M_i, one term a coefficient."""
+        """Append M_i, with one term for each coefficient."""
         minus = stages.builder.lin(f"y{i + 1}", Kind.ALG, [(stages.times_h(-b[i]), xi[i])])
 
         def carried(m: Var) -> Var:

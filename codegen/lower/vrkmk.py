@@ -9,10 +9,10 @@ dexp^{-1}_{(r),x} xi by x, the equations are
     Lambda = dexp*_{-Y}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
-Given all v_i and m_i the scene is evaluated once a stage and everything else follows: they are the unknowns.
-Where a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown and m_i is
-not. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j, because
-its terms cancel on an abelian group.
+The v_i and m_i are the unknowns: all other values follow from them with one evaluation of the scene for each
+stage. Where a_ji = 0 for all j <= i, m_i follows from Lambda and later stages; then Lambda is an unknown and
+m_i is not. The passes remove values that no equation reads. The sum m_i is expanded in mu0, n_j and m_j,
+because its terms cancel on an abelian group.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ class VariationalMuntheKaas(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VRKMK method with cut-off ``method.cutoff``.
 
-        :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without
-        a cut-off: a program has finitely many brackets.
+        :class:`orderconds.errors.ZeroWeight` is raised where some b_i = 0,
+        :class:`codegen.errors.MethodError` without a cut-off: a program has finitely many brackets.
         """
         return _Step(problem, method).program()
 
@@ -48,13 +48,13 @@ class _Step(ExpandedStep):
         self.m = [self.build.fresh(f"m{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.transported = self.build.fresh("Lambda", Kind.DUAL)
         self.unknowns = [*self.v, *self.m, self.transported]
-        # n_i and h P*_(r)(X_i, xi_i) m_i / h, by stage
+        # the forces n_i and the slopes P*_(r)(X_i, xi_i) m_i, by stage
         self.forces: dict[int, Var] = {}
         self.slopes: dict[int, Var] = {}
 
     def images(self) -> list[Var]:
-        """Return v_i, m_i and Lambda computed from themselves."""
-        # X_i from the unknowns v_j, and Y below from the computed ones: this is one sweep ahead.
+        """Return new values of v_i, m_i and Lambda, computed from the old ones."""
+        # X_i is computed from the unknowns v_j, but Y below from the new v_j, which are one sweep ahead.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -68,11 +68,12 @@ class _Step(ExpandedStep):
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A: later stages, if the method is explicit.
+        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A. If the method is explicit, it depends on
+        # later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # Then m_i is given by values that are known at this
-            # place, and fewer unknowns converge in fewer sweeps.
+            # In this case values that are already computed determine m_i, and fewer unknowns converge in
+            # fewer sweeps.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]
@@ -81,25 +82,28 @@ class _Step(ExpandedStep):
             M = build.dexpinv(f"M{i + 1}", self.X[i], weighted, self.r)
             Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
             xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, M, *self.time(i))
-            # The same cut-off as in M_i: only with one discrete Lagrangian for both is the step symplectic.
+            # The cut-off is the same as in M_i: the step is symplectic only if both come from one discrete
+            # Lagrangian.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # dexp^{-1}_{(r),X} depends on X as well, except without brackets: its derivative acts as a force.
+            # dexp^{-1}_{(r),X} depends on X, except without brackets, and its derivative by X acts as a
+            # force.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
-            # The variation of exp(X_i) is dexp_{X_i} of that of X_i, hence its dual on the force.
+            # The variation of exp(X_i) is dexp_{X_i} applied to the variation of X_i. Hence the dual of dexp
+            # acts on the force.
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # They were computed in the opposite order of the unknowns.
+        # The velocities were computed in the opposite order of the unknowns.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
-        """Append m_i as a sum in mu0, n_j and m_j, so that the terms cancel that cancel without brackets."""
+        """Append m_i as a sum in mu0, n_j and m_j, so that terms that are equal without brackets cancel."""
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group L and d_j are both n_j, and the slope is zero: the coefficient of n_j is
-            # then h b_j (b_i - a_ji), the same as for the partitioned Runge-Kutta method.
+            # On an abelian group L and d_j both equal n_j, and the slope is zero. The coefficient of n_j is
+            # then h b_j (b_i - a_ji), as in the partitioned Runge-Kutta method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))
@@ -107,7 +111,7 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return xi, b_i mu and mu at the beginning of the step."""
+        """Return the starts xi, b_i mu and mu, all evaluated at the beginning of the step."""
         build = self.build
         xi, _ = build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         # m_i is b_i times a momentum, so it starts at b_i mu0.

@@ -1,4 +1,4 @@
-"""VRKMK with dexp^{-1} replaced by the inverse of dexp cut off: section 3.4.1 of Marthinsen's thesis.
+"""VRKMK with the inverse of a truncated dexp in place of dexp^{-1}: section 3.4.1 of Marthinsen's thesis.
 
 The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i =
 h sum_j a_ij v_j; so no multipliers are needed. With R*_(r)(x, v) the dual of the derivative of dexp_{(r),x} v
@@ -9,8 +9,8 @@ Ad*_{exp X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
 
 These are the Hamilton equations of the discrete Lagrangian h sum_i b_i l(Q_i, dexp_{(r),X_i} v_i). The
-unknowns are all v_i and M_i; of each dexp_(r) the identity is solved for, the rest is taken from the sweep
-before.
+unknowns are all v_i and M_i. Each equation with dexp_(r) is solved for its term k = 0, the identity; the
+other terms use the values of the previous sweep.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ Terms = list[tuple[Coefficient, Var]]
 
 
 class VariationalMuntheKaasPade(VariationalLowering):
-    """VRKMK with the inverse of dexp cut off."""
+    """VRKMK with the inverse of a truncated dexp."""
 
     family = "vrkmk_pade"
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program with ``method.cutoff`` brackets in dexp.
 
-        :class:`orderconds.errors.ZeroWeight` where some b_i = 0, :class:`codegen.errors.MethodError` without
-        a cut-off: a program has finitely many brackets.
+        :class:`orderconds.errors.ZeroWeight` is raised where some b_i = 0,
+        :class:`codegen.errors.MethodError` without a cut-off: a program has finitely many brackets.
         """
         return _Step(problem, method).program()
 
@@ -50,13 +50,13 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # n_i, R*_(r) M_i, and the terms of dexp*_(r) M_i after the first with opposite sign, by stage
+        # by stage: n_i, R*_(r) M_i, and the terms of dexp*_(r) M_i after the first one with opposite sign
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []
 
     def images(self) -> list[Var]:
-        """Return v_i and M_i computed from themselves."""
+        """Return new values of v_i and M_i, computed from the old ones."""
         self.exponentiate(self.v)
         velocities = [self._evaluated(i) for i in range(self.s)]
         self.end(velocities, self.forces)
@@ -67,10 +67,11 @@ class _Step(ExpandedStep):
         build, X = self.build, self.X[i]
         Q = build.mul(f"Q{i + 1}", self.g[i], self.q)
         xi, n = build.hamilton(f"xi{i + 1}", f"n{i + 1}", Q, self.M[i], *self.time(i))
-        # The iterated brackets serve dexp_(r), its dual and the derivative: r brackets each, computed once.
+        # dexp_(r), its dual and its derivative use the same iterated brackets: r brackets each, computed
+        # once.
         brackets, momenta = self._powers(X, self.v[i]), self._powers(X, self.M[i])
-        # dexp_{(r),X} v = xi is solved for the first term: v = xi
-        # - sum_{k>=1} ad_X^k v/(k+1)!, a contraction for small h.
+        # dexp_{(r),X} v = xi is solved for the first term, v = xi - sum_{k>=1} ad_X^k v/(k+1)!, which is a
+        # contraction for small h.
         velocity = build.lin(f"u{i + 1}", Kind.ALG, [(ONE, xi), *_rest(brackets)])
         self.forces.append(n)
         self.slopes.append(self._slope(f"R{i + 1}", brackets, momenta))
@@ -81,7 +82,7 @@ class _Step(ExpandedStep):
         """Append ad_x^k first, or its dual, for k = 0..r."""
         powers = [first]
         for k in range(self.r):
-            # ad_x^k v from ad_x^{k-1} v: one bracket a power.
+            # ad_x^k v is formed from ad_x^{k-1} v: one bracket for each power.
             powers.append(self.build.bracket(f"{first.name}_{k + 1}", x, powers[-1]))
         return powers
 
@@ -93,18 +94,20 @@ class _Step(ExpandedStep):
         # dual is ad*_{-w} (ad*_x)^i M; terms with one i share the outer bracket.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
-            # The sum over k is in the algebra, before the bracket: r brackets and not r (r + 1)/2.
+            # The sum over k is formed in the algebra, before the bracket, which takes r brackets and not r (r
+            # + 1)/2.
             subscript = self.build.lin("z", Kind.ALG, inner)
             terms.append((ONE, self.build.bracket("R", subscript, momenta[i])))
         return self.build.lin(name, Kind.DUAL, terms)
 
     def _momentum(self, i: int) -> Var:
-        """Append M_i, one term a coefficient."""
+        """Append M_i, with one term for each coefficient."""
         build, times_h = self.build, self.stages.times_h
-        # As for v_i the equation is solved for the identity of dexp*_(r): M_i = Lambda - ... - the rest.
+        # As for v_i, the equation is solved for the term k = 0 of dexp*_(r) M_i: M_i = Lambda - ... - the
+        # other terms.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # Force and slope of stage j enter with one factor: X_j depends on v_i through h a_ji.
+            # The force and the slope of stage j have one factor: X_j depends on v_i through h a_ji.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))
@@ -112,14 +115,14 @@ class _Step(ExpandedStep):
         return build.lin(f"p{i + 1}", Kind.DUAL, terms)
 
     def starts(self) -> list[Var]:
-        """Return xi and mu at the beginning of the step."""
+        """Return the starts xi and mu, evaluated at the beginning of the step."""
         xi, _ = self.build.hamilton("xi0", "n0", self.q, self.mu, *self.stages.at(None))
         return [xi] * self.s + [self.mu] * self.s
 
 
 def _rest(powers: list[Var]) -> Terms:
     """Return -sum over k >= 1 of ad_x^k/(k+1)!, or of its dual."""
-    # The term k = 0 is the identity, which the equation is solved for.
+    # The term k = 0 is the identity, for which the equation is solved.
     return [(_over_factorial(-1, k), power) for k, power in enumerate(powers) if k]
 
 

@@ -15,7 +15,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 def ambient(problem: Problem) -> Problem:
     """Return a problem as a field on R^n without its group.
 
-    A method that integrates it leaves the manifold by an amount of the size of its error.
+    The steps of a method for the result leave the manifold; their distance to it is of the size of the
+    method's error.
     """
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
     state = tuple(domain.space.sym(s) for s in problem.symbols)

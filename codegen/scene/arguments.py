@@ -24,7 +24,8 @@ def check_group(name: str, group: object) -> None:
 
 
 def check_action(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` for an object that is no action, or points that the group does not move."""
+    """Raise :class:`SceneError` for an object that is no action, or for points on which the group cannot
+    act."""
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")
     domain = ExprDomain(reader.space)

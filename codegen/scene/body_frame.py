@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 
 DIGITS, TOLERANCE = 40, Fraction(1, 10**30)
 POINTS = 6
-"""A splitting of H is compared at this many points, with this many digits, up to this relative error."""
+"""A splitting of H is compared at this many random points, with this many digits, up to this relative
+error."""
 
 
 @dataclass(frozen=True)

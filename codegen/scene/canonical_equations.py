@@ -1,7 +1,7 @@
 """Hamilton's equations on T*G in right trivialisation, from the partial derivatives of a Hamiltonian.
 
 xi = D_2 H and n = -(D_1 H).q^-1, that is n_a = -d/deps H(exp(eps e_a) q, mu) (eq. 3.4 of H. Marthinsen's
-thesis); q' = xi.q and mu' = n - ad*_xi mu (2.27).
+thesis). The equations of motion are q' = xi.q and mu' = n - ad*_xi mu (2.27).
 """
 
 from __future__ import annotations

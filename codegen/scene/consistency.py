@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     import mpmath
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Formulas that a scene states and derived ones that they must equal, None for the velocity f.y."""
+"""Formulas that a scene states, and the derived formulas that they must equal; None means the velocity
+f.y."""
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
@@ -33,7 +34,8 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
 
 def check_start(orbit: Orbit) -> None:
-    """Raise :class:`SceneError` if the initial state is no element of the group that acts on itself."""
+    """Raise :class:`SceneError` if a group acts on itself and the initial state is no element of the
+    group."""
     if not isinstance(orbit.action, LeftMultiplication):
         return
     start = tuple(orbit.points[0][s] for s in orbit.symbols)
@@ -49,7 +51,8 @@ def check_start(orbit: Orbit) -> None:
 def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
-    """Raise :class:`SceneError` if stated formulas differ from derived ones, or from f.y without these.
+    """Raise :class:`SceneError` if stated formulas differ from ``derived`` ones, or from f.y if these are
+    None.
 
     ``what`` names the stated formulas in the message.
     """
@@ -70,8 +73,9 @@ def check_flow(
 ) -> None:
     """Raise :class:`SceneError` if stated formulas are not the flow of a part.
 
-    They must equal the state at the time 0, and move at the part's ``rates`` at all times; ``elapsed`` is the
-    symbol of the time in them. Their derivatives are exact, the values have 40 digits.
+    The formulas must equal the state at the time 0. At all times their time derivatives must be the part's
+    ``rates``; ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact, and are
+    compared with 40 digits.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
     for point in orbit.points:
@@ -100,7 +104,7 @@ def check_flow(
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
     """Raise :class:`SceneError` for a declared invariant that changes along the field.
 
-    Its derivative dI.(f.y) + dI/dt is formed exactly and must vanish at every point.
+    The time derivative dI.(f.y) + dI/dt of an invariant I is formed exactly and must vanish at every point.
     """
     for name, root in invariants.items():
         slopes = gradient(root, (*orbit.symbols, TIME))

@@ -1,9 +1,10 @@
 """The operations of discrete gradients: energy, its trivialised differential, and the bivector.
 
 H. Marthinsen's thesis, section 2.6: a field that keeps H is x' = f(x).x with f = i_{dH} omega for a bivector
-omega on g*. The differential is gamma(x) = R*_x dH in g*: <gamma, e> is the derivative of H along e.x. On T*G
-the bivector is the canonical one. Elsewhere it is omega = (gamma wedge f)/|gamma|^2, where the Euclidean
-inner product of coordinates turns gamma into an element of g; f must vanish where gamma does.
+omega on g*. The trivialised differential is gamma(x) = R*_x dH in g*: <gamma, e> is the derivative of H along
+e.x. On T*G the bivector is the canonical one. Elsewhere it is omega = (gamma wedge f)/|gamma|^2, where the
+Euclidean inner product of coordinates identifies gamma with an element of g. Then f must vanish where gamma
+does.
 """
 
 from __future__ import annotations
@@ -22,10 +23,10 @@ from codegen.ir.expr import Expr, evaluate
 from codegen.scene.values import Bindings
 
 ENERGY = "energy"
-"""The invariant of a field scene that discrete gradients keep."""
+"""The name of the invariant of a field scene that discrete gradients keep."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
-"""The operations of step programs that :func:`apply` carries out."""
+"""The operations of step programs that :func:`apply` evaluates."""
 
 
 class Conservative(Protocol):
@@ -95,7 +96,8 @@ def differential(problem: Conservative, d: Domain, y: Vector[S]) -> Vector[S]:
 
 
 def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -> Vector[S]:
-    """Return omega_y(alpha, .) in the algebra, for a covector alpha; it is f(y) if alpha is gamma(y)."""
+    """Return omega_y(alpha, .) in the algebra, for a covector alpha; the result is f(y) if alpha is
+    gamma(y)."""
     bundle = problem.group.offers(CotangentBundle)
     if bundle is not None and problem.hamiltonian is not None:
         return bundle.canonical(d, y, alpha)
@@ -109,7 +111,8 @@ def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
     """Return the covector nearest to g whose pairing with x is ``after - before`` (thesis, eq. 2.31).
 
-    Nearest in the Euclidean norm: g plus a multiple of x. The multiple is zero if x is.
+    The distance is in the Euclidean norm, so the result is g plus a multiple of x. The multiple is zero if x
+    is zero.
     """
     factor: S = d.call("quotient", after - before - dot(g, x), dot(x, x))
     return tuple(a + factor * b for a, b in zip(g, x, strict=True))

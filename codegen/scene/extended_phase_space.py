@@ -1,8 +1,9 @@
 """The extended phase space: time and its momentum as coordinates of a Hamiltonian that depends on time.
 
-On T*(G x R) the Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u has no time: tau' = 1 and u' = -dH/dt. So u
-+ H is kept, and u starts at -H (H. Marthinsen's thesis, section 4.3.2). Variational methods advance u by the
-sum of Example 4.4.5 and keep the extended symplectic form; discrete gradients keep K.
+The Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u on T*(G x R) does not depend on time: tau' = 1 and u' =
+-dH/dt. So the flow keeps u + H, and u starts at -H (H. Marthinsen's thesis, section 4.3.2). Variational
+methods advance u by the sum of Example 4.4.5 and keep the extended symplectic form. Discrete gradients keep
+K.
 """
 
 from __future__ import annotations
@@ -23,8 +24,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 def extended(problem: Problem) -> Problem:
     """Return the extended problem; SceneError for a field, and for a Hamiltonian without time.
 
-    The new coordinates are called tau and u, with underscores appended to a name that is taken. The first of
-    ``parts`` that does not depend on time gets the summand u, or u becomes a part of its own.
+    The new coordinates are called tau and u; underscores are appended to a name that is taken. The summand u
+    is added to the first of ``parts`` that does not depend on time, or becomes a part of its own.
     """
     hamiltonian = _timed(problem)
     space = hamiltonian.space

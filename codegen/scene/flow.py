@@ -18,8 +18,8 @@ from codegen.ir.domain import Domain
 class Flow(ABC):
     """The exact flow of one part, in closed form over any domain.
 
-    ``timed`` says that the part depends on t. The flow then keeps t fixed while the state moves. ``values``
-    are those of all symbols at the start: the state, the parameters and t.
+    ``timed`` says that the part depends on t. The flow then keeps t fixed while the state moves. The argument
+    ``values`` contains the values of all symbols at the start: the state, the parameters and t.
     """
 
     timed: bool = False
@@ -34,7 +34,7 @@ class Flow(ABC):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (xi, n), whose flow this is; ArithmeticError if only the flow is known."""
+        """Return (xi, n), the field of this flow; ArithmeticError if only the flow is known."""
 
     @abstractmethod
     def text(self) -> str:

@@ -22,7 +22,7 @@ RESERVED = {
     "t": "t is the time; it may occur in formulas, but it is no coordinate and no parameter",
     "h": "h is the step size",
 }
-"""Names that programs use themselves, and why."""
+"""Names that are reserved for programs, with the reason."""
 
 
 class Reader:
@@ -67,7 +67,7 @@ class Reader:
             )
 
     def _admit_signal(self, symbol: Signal) -> None:
-        """Record a signal's formula; it may contain the time and parameters only."""
+        """Record a signal's formula, which may contain only the time and parameters."""
         self._allow(symbol.name)
         what = f"signal {symbol.name}"
         for inner in _free_symbols(symbol.formula):
@@ -83,7 +83,7 @@ class Reader:
             )
 
     def closed(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return formulas with the formula of each signal in place of its symbol."""
+        """Return formulas in which the symbol of each signal is replaced by the signal's formula."""
         if not self.signals:
             return tuple(roots)
         names = {n.payload for n in walk(roots) if n.op == "sym"}
@@ -95,7 +95,7 @@ class Reader:
     ) -> Expr:
         """Return one formula; its symbols must be coordinates, t, parameters or signals, or in ``more``.
 
-        A ``constant`` may contain parameters only. ``what`` names the formula in messages.
+        If ``constant``, the formula may contain only parameters. ``what`` names the formula in messages.
         """
         shape = getattr(formula, "shape", None)
         if shape == (1, 1):

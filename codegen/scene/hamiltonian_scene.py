@@ -102,7 +102,8 @@ def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
 class _CanonicalSystem:
     """The formulas of H and of its field.
 
-    ``roots`` are xi and n, ``loads`` is the wrench, () without one, ``open_roots`` are xi and n + wrench.
+    ``roots`` are xi and n. ``loads`` is the wrench, or () without a wrench. ``open_roots`` are xi and n +
+    wrench.
     """
 
     reader: Reader
@@ -148,13 +149,13 @@ class _CanonicalSystem:
         )
 
     def invariants(self, energy: Expr, declared: Mapping[str, sympy.Expr]) -> dict[str, Expr]:
-        """Return the declared invariants, and before them the energy of a scene without time and wrench."""
+        """Return the declared invariants; the energy comes first for a scene without time and wrench."""
         timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([energy]))
         known = {"energy": energy} if timeless and not self.loads else {}
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return xi or n as given by hand, and by differentiation."""
+        """Return two versions of xi or n: the one given by hand, and the one by differentiation."""
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)

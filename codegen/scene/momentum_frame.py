@@ -11,7 +11,7 @@ from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
 FRAMES = (SPACE, BODY)
-"""Right- and left-trivialised momenta."""
+"""The frames of the momentum: right-trivialised (space) and left-trivialised (body)."""
 
 
 def with_frame(problem: Problem, frame: str) -> Problem:

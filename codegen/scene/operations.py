@@ -1,7 +1,7 @@
-"""The operations of step programs that a group or an action carries out, by name.
+"""The operations of step programs that a group or an action implements, by name.
 
-:mod:`codegen.ir.operations` describes the arguments. The operations of a capability raise
-:class:`codegen.errors.SceneError` for a group without it.
+:mod:`codegen.ir.operations` describes the arguments. Some operations need a capability of the group: they
+raise :class:`codegen.errors.SceneError` for a group without it.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from codegen.groups.capabilities import BodyFrame, Coadjoint
 from codegen.ir.domain import Domain, Value
 
 GroupOperation = Callable[..., Value]
-"""Of a group, a domain and the arguments; of the truncation order last, where there is one."""
+"""A function of a group, a domain and the arguments; the last argument is the truncation order, if there is
+one."""
 
 ON_GROUP: Mapping[str, GroupOperation] = {
     "identity": lambda group, d: group.identity(d),

@@ -1,7 +1,7 @@
-"""Sample points of a problem: where formulas that agree on the manifold only are compared.
+"""Sample points of a problem, at which formulas are compared that agree only on the manifold.
 
-The points are on the orbit of the initial state under the group, at times of the span. Formulas that use the
-equations of the group (g^T g = 1, say) agree there. Numbers have 40 digits.
+The points are on the orbit of the initial state under the group, at times of the span. Formulas that agree
+only by the equations of the group (g^T g = 1, say) agree at these points. Numbers have 40 digits.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ FLOOR = Fraction(1, 10**28)
 """Allowed absolute error, for terms that cancel within themselves."""
 
 POINTS = 4
-"""The initial state and three others."""
+"""The number of sample points: the initial state and three others."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class Orbit:
 
     @cached_property
     def domain(self) -> PreciseDomain:
-        """The numbers that are compared."""
+        """The domain of the numbers that are compared."""
         return PreciseDomain(0, DIGITS)
 
     @cached_property

@@ -11,7 +11,8 @@ from codegen.ir.number import is_normal
 
 
 class Parameter(sympy.Symbol):  # type: ignore[misc]
-    """A real symbol with the default p/q; parameters of one name and two defaults are different symbols.
+    """A real symbol with the default p/q; parameters with the same name but different defaults are different
+    symbols.
 
     >>> Parameter("beta", 1) == Parameter("beta", 1), Parameter("beta", 1) == Parameter("beta", 2)
     (True, False)
@@ -20,7 +21,7 @@ class Parameter(sympy.Symbol):  # type: ignore[misc]
     __slots__ = ("default",)
 
     def __new__(cls, name: str, p: int, q: int = 1) -> Parameter:
-        """Return the symbol; sympy makes equal symbols in ``__new__``."""
+        """Return the symbol; sympy creates symbols in ``__new__``."""
         symbol: Parameter = sympy.Symbol.__xnew__(cls, name, real=True)
         symbol.default = (p, q)
         return symbol
@@ -38,7 +39,7 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
     __slots__ = ("formula",)
 
     def __new__(cls, name: str, formula: sympy.Expr) -> Signal:
-        """Return the symbol; sympy makes equal symbols in ``__new__``."""
+        """Return the symbol; sympy creates symbols in ``__new__``."""
         symbol: Signal = sympy.Symbol.__xnew__(cls, name, real=True)
         symbol.formula = formula
         return symbol

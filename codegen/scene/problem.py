@@ -1,8 +1,8 @@
 """Problems: a scene as step programs see it, evaluated over any domain.
 
 A scene is read once. Its sympy formulas become exact, hash-consed expressions, and derivatives are taken by
-reverse differentiation. From then on the problem can be evaluated over any domain: a step program is
-interpreted and compiled in it.
+reverse differentiation. The problem can then be evaluated over any domain: the interpreter and the compiler
+evaluate the operations of step programs in this way.
 """
 
 from __future__ import annotations
@@ -44,18 +44,18 @@ class StateField:
 
 @dataclass(frozen=True)
 class Problem:
-    """A scene as programs see it: group, action, state, and either a field or a Hamiltonian.
+    """A scene as programs see it: group, action, state, and a field or a Hamiltonian.
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
     state's symbols, the parameters and ``t``. ``paired`` says that the state is (q, mu). ``parts`` are named
     summands of the Hamiltonian, ``flows`` the exact flows that a splitting composes, ``stated`` the formulas
     of (q, mu) after the time tau for parts whose flow the scene gives.
 
-    ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` those with another value than
-    the default. ``open_roots`` are the roots with the symbols of ``signals``, where ``roots`` have their
-    formulas; ``inputs`` are the signals that emitted code takes at run time. ``forced`` says that n is not a
-    derivative of the Hamiltonian alone. ``body_group`` is the group if emitted code takes and returns momenta
-    of the body.
+    ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value is
+    not the default. ``roots`` contain the formulas of signals, ``open_roots`` are the roots with the symbols
+    of ``signals`` instead. ``inputs`` are the signals that emitted code reads at run time. ``forced`` says
+    that n is not a derivative of the Hamiltonian alone. If emitted code reads and returns momenta in the body
+    frame, ``body_group`` is the group.
     """
 
     name: str
@@ -109,7 +109,7 @@ class Problem:
         return replace(self, group=group, action=action, state=(point,), paired=False)
 
     def values(self, domain: Domain, state: Sequence[S], t: S | None = None) -> Bindings:
-        """Return the values of all symbols: state, parameters and the time, which is 0 if not given.
+        """Return the values of all symbols: state, parameters and the time; the default of the time is 0.
 
         Run-time parameters stay symbols in expressions.
         """
@@ -149,7 +149,7 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of a word's functions of ad_x, of ad*_x if ``dual``, applied to v."""
+        """Return the product of a word's functions of ad_x, or of ad*_x if ``dual``, applied to v."""
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
     @property
@@ -159,7 +159,8 @@ class Problem:
 
     @cached_property
     def body(self) -> BodyField | None:
-        """The field in the body frame; None if it has no Hamiltonian or the group no body frame."""
+        """The field in the body frame; None for a field without Hamiltonian and for a group without body
+        frame."""
         group = self.group.offers(BodyFrame)
         if group is None or not self.paired or self.inputs or self.forced or self.hamiltonian is None:
             return None
@@ -180,7 +181,8 @@ class Problem:
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots
         if self.inputs and isinstance(domain, ExprDomain):
-            # Emitted code samples its inputs; all other domains use the formulas of the signals.
+            # Emitted code reads its inputs at the stage times. All other domains use the formulas of the
+            # signals.
             roots = self.open_roots
             formulas = evaluate(list(self.signals.values()), domain, values)
             samples = domain.sample(self.inputs, values[TIME])

@@ -12,11 +12,11 @@ from codegen.scene.problem import Problem
 
 
 def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
-    """Return a problem with parameters kept as run-time inputs, or folded at another value.
+    """Return a problem in which some parameters are run-time inputs, or constants with another value.
 
-    ``alpha`` keeps alpha as an input, ``alpha=1/2`` folds it at 1/2; the invariants and the initial state are
-    then checked again. :class:`SceneError` for an unknown parameter, two values, and a value that is no
-    number.
+    ``alpha`` makes alpha an input, ``alpha=1/2`` makes it the constant 1/2; the invariants and the initial
+    state are then checked again. :class:`SceneError` is raised for an unknown parameter, for two values of
+    one parameter, and for a value that is no number.
     """
     values = dict(problem.parameters)
     runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()
@@ -47,7 +47,8 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
 
 
 def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:
-    """Return a problem with signals taken at run time, in that order; SceneError for an unknown one."""
+    """Return a problem with signals read at run time, in the given order; SceneError for an unknown
+    signal."""
     for name in names:
         if name not in problem.signals:
             known = ", ".join(problem.signals) or "none: the scene has no signal"

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""Largest angle of the fastest rotation over the span, if that motion does not decay.
+"""The largest angle of the fastest rotation over the span, if the rotation does not decay.
 
 Beyond a few hundred radians the phase error hides the order of every explicit method.
 """

@@ -26,7 +26,8 @@ class Action(ABC):
 
     @abstractmethod
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return x.y for x in the algebra: the derivative of exp(eps x).y at eps = 0, as long as y."""
+        """Return x.y for x in the algebra, a tuple as long as y: the derivative of exp(eps x).y at eps =
+        0."""
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x).y; a subclass may have a formula that does not form exp(x)."""
