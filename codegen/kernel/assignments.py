@@ -80,8 +80,7 @@ class Assignments:
         return tuple(self.body)
 
     def _prepare(self) -> None:
-        """Find for each node the number of its uses, and the last block on whose unknowns the node
-        depends."""
+        """Find for each node the number of its uses, and the last block whose unknowns it depends on."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
         # The entries of the matrix count as readers: a body value that a matrix shares gets a name.
         entries = [x for b in self.blocks for row in b.matrix for x in row]

@@ -228,8 +228,7 @@ class Trees:
         return list(given), wires
 
     def key(self, tree: Tree) -> Key:
-        """Return the shape of a tree: coefficients may differ between trees, but equal ones must be equal in
-        each."""
+        """Return the shape of a tree: which coefficients are equal belongs to it, their values do not."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):

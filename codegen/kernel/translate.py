@@ -221,8 +221,7 @@ class _Translation:
         return outputs, lower
 
     def varied(self, variations: Variations, outputs: State) -> State:
-        """Return the variation of the new state; add after each block the equations for its unknowns'
-        variation."""
+        """Return the variation of the new state; add equations for the variations of all unknowns."""
         space, seeds = self.domain.space, variations.seeds(self.domain)
         # The equations follow the block, because their coefficients are values at the solution of the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
@@ -263,8 +262,7 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body, outputs and functions of the kernel; functions are used only if they shorten
-        it."""
+        """Return the body, outputs and functions of the kernel; without functions unless these shorten it."""
         # If an outlined schedule is tried, it may use the names of the first schedule again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
@@ -354,8 +352,7 @@ def _outlined(
 
 
 def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> Block:
-    """Return the linear equations for the variations of a block's unknowns; add their symbols to
-    ``seeds``."""
+    """Return the linear equations for the variations of a block's unknowns; extend ``seeds``."""
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so the iteration can start from zero.

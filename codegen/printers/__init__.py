@@ -22,8 +22,7 @@ PrintModule = Callable[[Kernel, Interface, Recipe], dict[str, str]]
 
 
 def target(name: str) -> PrintModule:
-    """Return the module printer of a target; for an unknown name, raise an UnknownName with the known
-    targets."""
+    """Return the module printer of a target; an unknown name raises UnknownName with the known targets."""
     if name not in TARGETS:
         raise UnknownName(f"unknown target {name}", expected=" or ".join(sorted(TARGETS)))
     printer: PrintModule = import_module(TARGETS[name]).print_module

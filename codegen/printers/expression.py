@@ -32,8 +32,7 @@ class Rendering:
 
 
 def number(value: Number) -> str:
-    """Return a constant as a double, rounded once: the shortest digits from which the same double is read
-    back.
+    """Return a constant as a double, rounded once, with the shortest digits that determine the double.
 
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')

@@ -66,8 +66,7 @@ class FunctionPrinter:
         return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
-        """Return the declaration of a parameter; a ``header`` has no ``static`` sizes, which are not valid
-        C++."""
+        """Return the declaration of a parameter; without ``static`` sizes in a ``header``, as in C++."""
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change, and the compiler checks it.
         const = "" if parameter.text in self.writes[function.name] else "const "
@@ -296,8 +295,7 @@ class _Body:
         yield from fill(f"{kind}{name} =", self.terms.text(value).segments, ";")
 
     def extent(self, target: Term, value: Term) -> str:
-        """Return the number of bytes to copy: the size of a local array, or a count times the size of an
-        entry."""
+        """Return the bytes to copy: the size of a local array, or a count times the size of an entry."""
         parameters = {p.text for p in self.function.parameters}
         # ``sizeof`` of an array parameter is the size of a pointer, so it is used for local arrays only.
         for term in (target, value):

@@ -40,8 +40,7 @@ def comment(text: str) -> str:
 
 
 def block_comment(text: str) -> list[str]:
-    """Return a comment on one line, or on several lines that begin with a star; no lines for an empty
-    text."""
+    """Return a comment on one line or, with stars, on several lines; no lines for an empty text."""
     safe = comment(text)
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
     if len(lines) < 2:

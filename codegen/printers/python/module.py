@@ -112,8 +112,7 @@ class _Module:
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters as arguments; with the scene's values as defaults if all are
-        known."""
+        """Return the run-time parameters, with the scene's values as defaults if all values are known."""
         known = self.recipe.defaults
         if not all(p in known for p in self.interface.parameters):
             return self.parameters

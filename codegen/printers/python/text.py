@@ -14,8 +14,8 @@ def quoted(text: str) -> str:
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
-    """Return start, terms with commas, and end: on one line, or on several lines that are as full as
-    possible.
+    """Return start, terms with commas, and end: on one line, or on as few lines as possible.
+
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
