@@ -1,8 +1,9 @@
 """Expressions in order: assignments for shared or long expressions, loops for blocks of equations.
 
-A loop contains the expressions that depend on its unknowns and that its images need. Expressions that do not
-depend on the unknowns come before the loop. Later statements read the body values of the last sweep. The
-starting values have assignments of their own, because a later step starts from earlier solutions instead.
+A loop contains the expressions that depend on the loop's unknowns and that its images need. Expressions that
+do not depend on the unknowns are assigned before the loop. Later statements read body values as computed in
+the last sweep. Starting values have assignments of their own, because a later step starts from earlier
+solutions instead.
 """
 
 from __future__ import annotations
@@ -37,28 +38,30 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the kernel's body and set ``outputs``."""
-        # Uses and levels are counted for all roots together: what two blocks share must get one name.
+        # Uses and levels are counted for all roots together: a value that two blocks share must get a single
+        # name.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
         for k, block in enumerate(self.blocks):
             inside: list[Let] = []
-            # A kernel that remembers solutions starts all loops in one place.
+            # If the kernel remembers solutions, one statement before all loops starts all of them.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
             # Before the body: the leading matrix is computed outside the sweeps and must not read body
             # values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
-            # A corrected value that nothing reads later would cost assignments in every sweep.
+            # Skip corrected values that nothing reads later: they would cost assignments in every sweep.
             read = {n.payload for n in walk([*self.roots, *self._later(k)]) if n.op == "sym"}
             for name, x in block.kept:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # After the body: an exact matrix depends on the unknowns and reads body values.
+            # After the body, because an exact matrix depends on the unknowns and reads body values.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # Newton's last correction comes after the body: body values lag behind the unknowns.
+            # Newton's last correction changes the unknowns after the body; body values belong to the unknowns
+            # before it.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -72,14 +75,14 @@ class Assignments:
                 only_unknowns_read=recomputed,
             )
             self.body.append(loop)
-        # Last: outputs may read body values of every loop.
+        # Last, because outputs may read body values of every loop.
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)
 
     def _prepare(self) -> None:
-        """Find for each node how often it is used and the last block whose unknowns it depends on."""
+        """Find for each node the number of its uses, and the last block whose unknowns it depends on."""
         owner = {u: k for k, block in enumerate(self.blocks) for u in block.unknowns}
-        # The matrix counts as a reader: a body value that it shares gets a name.
+        # The entries of the matrix count as readers: a body value that a matrix shares gets a name.
         entries = [x for b in self.blocks for row in b.matrix for x in row]
         roots = [x for b in self.blocks for x in (*b.starts, *b.targets())] + entries + list(self.roots)
         self.uses: dict[int, int] = {}
@@ -94,30 +97,32 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The latest block decides: a value cannot be computed before that block has its unknowns.
+            # The latest block counts: a value cannot be computed before all unknowns that it depends on are
+            # known.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
-        """Return the starting values of all blocks; assign parts that other statements read before them."""
-        # Starting values are skipped if earlier solutions are known, so no other line may read theirs.
+        """Return the starting values of all blocks; assign parts that other statements share before them."""
+        # The start is skipped if earlier solutions are known, so no other statement may read names defined in
+        # it.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
         values = [x for block in self.blocks for x in block.starts]
         # All loops start together, before the first of them runs.
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a block starts from the unknowns of another")
         for node in walk(values):
-            # Shared with the rest of the step: assign it outside the start, where every step computes it.
+            # Shared with the rest of the step: assign it before the start, where every step computes it.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
         placed = tuple(self._place(x, own, [], -1) for x in values)
-        # Names that exist only inside the start must not be read after it.
+        # Names that are defined only inside the start must not be read after the start.
         self.done = {n: x for n, x in self.done.items() if n in later}
         return Start(tuple(u for b in self.blocks for u in b.unknowns), tuple(own), placed)
 
     def _newton(self, block: Block) -> Newton:
         """Return Newton's matrix with the assignments that it needs in addition to the existing ones."""
-        # The matrix is computed in some sweeps only, so no later line may read its names.
+        # The matrix is computed in some sweeps only, so no later line may read names defined for it.
         before, own = dict(self.done), list[Let]()
         rows = tuple(tuple(self._place(x, own, [], -1) for x in row) for row in block.matrix)
         self.done = before
@@ -128,38 +133,41 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Whether the later readers of block k cost less than half of one of its sweeps."""
+        """Whether the later readers of block k cost less than half of one sweep of block k."""
         rest = [*self._later(k), *self.roots]
-        # Recomputed values belong to the corrected unknowns. That replaces a last sweep at half its cost.
+        # Recomputed values belong to the corrected unknowns: they replace a last sweep at less than half its
+        # cost.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the weight of the nodes below roots that depend on the unknowns of block k and no later."""
-        # Values of other levels are computed once in either case.
+        """Return the weight of the nodes below roots whose last block is k."""
+        # Nodes that do not depend on block k, or depend on a later block, are computed once in either case.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
 
     def _forget(self, k: int) -> None:
         """Forget the names of body values of block k: later statements compute them again."""
-        # Without these entries _place computes the values again, from the corrected unknowns.
+        # Without these entries ``_place`` computes the values again, now from the corrected unknowns.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
                 self.done.pop(node.id, None)
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
-        """Return root with every named part replaced by its symbol, appending the assignments it needs."""
-        # Iterative, not recursive: expressions are deeper than Python's stack.
+        """Return root with every named part replaced by its symbol; append the assignments of new names."""
+        # Iterative, because expressions are deeper than Python's recursion limit.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
-            # Loop-invariant code motion: only what depends on this loop's unknowns stays inside.
+            # Loop-invariant code motion: only nodes that depend on the unknowns of this loop stay inside.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # Built without simplification: the value must round as the shared expression does.
+            # Built without simplification, so that the value is rounded like the shared expression.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
-            # A value from outside needs a name even with one reader, else its line would move into the loop.
+            # A value from outside the loop needs a name even with one reader, else it would be computed
+            # inside.
+
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
             # The negative of a symbol is free in every target, so a name would only add a line.

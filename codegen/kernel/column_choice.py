@@ -1,5 +1,4 @@
-"""The choice among variants of a group: a kernel is compiled for each, and that with the shortest step is
-kept.
+"""The choice among variants of a group: all are compiled, and the kernel with the shortest step is kept.
 
 A column of a rotation matrix is the cross product of the other two columns. Which columns the scene reads
 decides which column is best computed as a cross product, or whether all three are rotated.

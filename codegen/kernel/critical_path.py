@@ -219,8 +219,7 @@ class _Chains:
         return value if sign > 0 else self._known(-value)
 
     def _combined(self, node: Expr) -> Expr:
-        """Return a product with its fixed factors multiplied first, because they are the same in every
-        step."""
+        """Return a product with its fixed factors multiplied first; they do not change between steps."""
         if node.op != "mul":
             return node
         # c1 (c2 x) = (c1 c2) x, for a fixed c1 on either side.

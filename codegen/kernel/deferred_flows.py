@@ -93,8 +93,7 @@ JoinedFlows = tuple[int, int, Number, Number]
 def _joined(
     kept: Sequence[Letter], commute: Callable[[str, str], bool], program: Program
 ) -> list[JoinedFlows]:
-    """Return the flows at the end of a step that join a flow of the same part at the next step's
-    beginning."""
+    """Return the flows at the end of a step that join a flow of the same part in the next step."""
     # The end of a step is the beginning of the next step: flows at the times t + h and t can be joined.
     last = _last_time(program)
     begin, end = _run(kept, commute), _run(kept[::-1], commute)

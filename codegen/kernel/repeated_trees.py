@@ -1,8 +1,8 @@
-"""Repeated trees: assignments that one outlined function computes together.
+"""Repeated trees: groups of assignments that occur several times, for one outlined function each.
 
-A value that a single operation reads can be computed with that operation. The pair that saves most lines is
-joined first. Trees with the same key apply the same operations to other operands, with other coefficients in
-their sums.
+A value with a single reader can be computed together with that reader. The pair of operations that saves most
+lines is joined first. Trees with the same key apply the same operations to other operands, with other
+coefficients in the sums.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ PairKey = tuple[Key, Key, Key]
 
 @dataclass(frozen=True)
 class Execution:
-    """An assignment as it was executed: values of its arguments, its results, and its block."""
+    """An assignment as executed: the values of its arguments, its results, and the number of its block."""
 
     assign: Assign
     args: tuple[Values, ...]
@@ -49,25 +49,25 @@ class Execution:
 
     @property
     def may_join(self) -> bool:
-        """Whether it may be computed in a function."""
+        """Whether a function may compute this assignment."""
         return self.joined and not isinstance(self.assign.operation, NEVER)
 
 
 @dataclass
 class Tree:
-    """Assignments that are computed together, in order; the last reads the results of the others."""
+    """Assignments computed together, in order; the last depends on the results of the others."""
 
     members: list[int]
 
     @property
     def root(self) -> int:
-        """The assignment whose results are the tree's."""
+        """The assignment whose results are the results of the tree."""
         return self.members[-1]
 
 
 @dataclass
 class Trees:
-    """The executed assignments of a program, and their joining into trees."""
+    """The executed assignments of a program, which this class joins into trees."""
 
     program: Program
     domain: ExprDomain
@@ -86,10 +86,10 @@ class Trees:
         place: int,
         joined: bool = True,
     ) -> None:
-        """Record an assignment in the block with number ``place``, -1 between blocks.
+        """Record an assignment in the block with number ``place``; -1 means outside blocks.
 
-        ``joined`` is false if the results do not come from the operation alone or depend on more than its
-        arguments; such an assignment is not joined with others.
+        ``joined`` is false if the results do not come from the operation alone or depend on more than the
+        operation's arguments. Such an assignment is not joined with others.
         """
         assign, args = self._from_the_whole(assign, args)
         self.executions.append(
@@ -103,11 +103,11 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return a multiple of a multiple as a multiple of the original, so that the first has one reader."""
+        """Return c (d v) as (c d) v: a multiple of a multiple no longer reads the inner multiple."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
-        # c (d v) = (c d) v: stage sums build h xi/2 from h xi, and a second reader would forbid joining h xi.
+        # Stage sums build h xi/2 from h xi; as a second reader of h xi they would prevent joining h xi.
         if v in self._multiples:
             d, v, value = self._multiples[v]
             c, args = Coefficient(c.value * d.value, c.power + d.power), (value,)
@@ -116,27 +116,28 @@ class Trees:
         return assign, args
 
     def joined(self) -> list[Tree]:
-        """Return the assignments, joined into trees while that saves lines."""
+        """Return the assignments, joined into trees as long as that saves lines."""
         self._find_users()
-        # Each assignment begins as its own tree; a map from member to tree finds the tree of a reader.
+        # Each assignment starts as a tree of its own; ``owner`` maps each member to its tree.
         trees = {i: Tree([i]) for i, m in enumerate(self.executions) if m.may_join}
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
-            # Computed once per round: keys walk the whole tree.
+            # Computed once per round, because a key requires a walk through the whole tree.
             keys = {i: self.key(t) for i, t in trees.items()}
             count: dict[Key, int] = {}
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
                 user = self._only_user(i)
-                # Joined with its only reader: no value is computed twice or handed out.
+                # Joined with its only reader, a value is neither computed twice nor returned from the
+                # function.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
-                    # The key of the result, too: equal parts may be wired differently.
+                    # The key of the joined tree is included: equal parts may be connected in different ways.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
-            # Greedy: the pair of shapes that saves most lines is joined wherever it occurs.
+            # Greedy: the kind of pair that saves most lines is joined wherever it occurs.
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
@@ -144,7 +145,7 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # A tree may be in two pairs of one shape; each joins once a round.
+            # A tree may belong to two pairs of one kind; it is joined only once a round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
@@ -152,24 +153,25 @@ class Trees:
                 used |= {i, j}
                 trees[j] = self._join(trees[i], trees[j])
                 for member in trees.pop(i).members:
-                    # Members keep their numbers, so later rounds find their new tree.
+                    # Members keep their numbers, and later rounds find the new tree by ``owner``.
                     owner[member] = j
 
     def _gain(self, key: PairKey, places: list[tuple[int, int]], count: Mapping[Key, int]) -> int:
-        """Estimate the number of lines that joining pairs of trees saves."""
+        """Estimate the number of lines saved by joining pairs of trees."""
         first, second, _ = key
         k = len(places)
         if k < 2:
             return 0
         i, j = places[0]
-        # Trees of a shape that also occur elsewhere stay functions of their own: their lines are copied.
+        # If a shape also occurs elsewhere, its own function remains, and the joined function repeats its
+        # lines.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # One call less in each place saves about three lines of text.
+        # One call less saves about three lines of text in each place.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
         """Estimate the number of lines of the operation that ends a tree."""
-        # By name: the lines of an operation hardly depend on its operands, and walks are slow.
+        # Estimated by name: the number of lines hardly depends on the operands, and walking them is slow.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -188,10 +190,10 @@ class Trees:
         for statement in self.program.body:
             if not isinstance(statement, Assign):
                 for v in (*statement.starts, *statement.images, *statement.residuals):
-                    # None marks a reader outside all trees, so the value must keep its own name.
+                    # None represents a reader outside all trees, for which the value must keep its own name.
                     self._users.setdefault(v, []).append(None)
         for _, v in self.program.outputs:
-            # Outputs are readers outside all trees, too.
+            # Outputs count as readers outside all trees, too.
             self._users.setdefault(v, []).append(None)
 
     def _only_user(self, i: int) -> int | None:
@@ -201,13 +203,13 @@ class Trees:
         if len(users) != 1:
             return None
         (user,) = users
-        # A tree does not cross the border of a loop: its parts run a different number of times.
+        # A tree must not cross the border of a loop: its parts would run a different number of times.
         return user if user is not None and self.executions[user].place == self.executions[i].place else None
 
     def wiring(self, tree: Tree) -> tuple[list[Var], list[tuple[int, ...]]]:
-        """Return the input variables of a tree in order, and for each member the places of its arguments.
+        """Return the input variables of a tree in order, and for each member the positions of its arguments.
 
-        A place is the number of an input variable, or minus the number of a member's result.
+        A position is the index of an input variable, or -1, -2, ... for the results of members.
         """
         targets: dict[Var, int] = {}
         given: dict[Var, int] = {}
@@ -216,7 +218,7 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
-                    # Negative numbers start at -1, so that 0 is free for the first given variable.
+                    # Results are numbered from -1 downwards, because 0 is the first input variable.
                     places.append(-targets[v])
                 else:
                     places.append(given.setdefault(v, len(given)))
@@ -226,12 +228,12 @@ class Trees:
         return list(given), wires
 
     def key(self, tree: Tree) -> Key:
-        """Return the shape of a tree: coefficients may differ, but equal ones must stay equal."""
+        """Return the shape of a tree: which coefficients are equal belongs to it, their values do not."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
             assign = self.executions[i].assign
-            # Sums of one shape may have other coefficients: they are arguments of the function.
+            # Coefficients of sums are arguments of the function, so the shape does not include them.
             # The kind distinguishes sums in the algebra from sums in its dual.
             operation = None if isinstance(assign.operation, Linear) else assign.operation
             shape.append((operation, _pattern([c for c, _ in assign.terms]), places, assign.targets[0].kind))
@@ -240,10 +242,10 @@ class Trees:
     def useful(self, tree: Tree) -> bool:
         """Whether a tree has enough operations to be worth a call."""
         results = self.results(tree)
-        # Counted between operands and results: what lies below the operands is computed by the caller.
+        # Counted between operands and results: the caller computes everything below the operands.
         stop = {x.id for x in self.inputs(tree)}
         nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
-        # Four lines: less is no longer than the call with its arguments.
+        # A call with its arguments takes about four lines, so a shorter function would save nothing.
         return nodes > 4 * NODES
 
     def results(self, tree: Tree) -> Values:
@@ -258,7 +260,7 @@ class Trees:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
-        # Coefficients in the order of :func:`distinct`, the order in which the function takes them.
+        # Coefficients in the order of :func:`distinct`, in which the function expects them.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat
@@ -273,13 +275,14 @@ class Trees:
 
 
 def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]:
-    """Return equal numbers for equal coefficients, 0 for one, each with its power of h."""
+    """Return equal numbers for equal coefficients, 0 for a coefficient of one, each with its power of h."""
     seen: dict[Coefficient, int] = {}
-    # One is a shape of its own, as it needs no product. Equal coefficients get equal numbers, so that
-    # their terms are added before one product.
+    # A coefficient of one changes the shape, because it needs no product. Terms with equal coefficients are
+    # added before one product, so equality is part of the shape.
     return tuple((0, 0) if c.is_one else (seen.setdefault(c, 1 + len(seen)), c.power) for c in coefficients)
 
 
 def distinct(assign: Assign) -> list[Coefficient]:
-    """Return the coefficients of a sum, each once, without those that are one."""
+    """Return the distinct coefficients of a sum without those that are one, by first appearance."""
+
     return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

@@ -1,8 +1,8 @@
-"""Kernel to printable statements: Stumpff functions of one argument computed together, powers as products.
+"""Printable statements of a kernel: Stumpff functions of one argument share a call, powers become products.
 
 A target's template sees five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
 results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
-Names that this module adds inside a loop are not read after it.
+No statement after a loop reads the names that this module adds inside the loop.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
 @dataclass(frozen=True)
 class Assignment:
-    """name = value, once."""
+    """The statement name = value, executed once."""
 
     name: str
     value: Expr
@@ -33,7 +33,7 @@ class Assignment:
 
 @dataclass(frozen=True)
 class SharedCall:
-    """names[i] = c_(orders[i])(argument), all from one call."""
+    """The statement names[i] = c_(orders[i])(argument), all results from one call."""
 
     names: tuple[str, ...]
     orders: tuple[int, ...]
@@ -47,7 +47,7 @@ class SharedCall:
 
 @dataclass(frozen=True)
 class Invocation:
-    """name = function(arguments): all results of a function of the kernel, from one call."""
+    """The statement name = function(arguments): one call returns all results of an outlined function."""
 
     name: str
     results: int
@@ -76,7 +76,7 @@ class Beginning:
 class Iteration:
     """A loop (see :class:`codegen.ir.kernel.Loop`); ``kept`` are body names read after it.
 
-    ``matrix`` is Newton's matrix, by rows, and ``newton`` the statements that only the matrix needs; both are
+    ``matrix`` is Newton's matrix, by rows, and ``newton`` the statements that only the matrix needs. Both are
     empty without Newton's method.
     """
 
@@ -95,7 +95,7 @@ Statement = Simple | Beginning | Iteration
 
 @dataclass(frozen=True)
 class Arrangement:
-    """The statements of a step and its outputs, ready to print; a step executes them ``repeated`` times."""
+    """The statements and outputs of a step, ready to print; emitted code executes them ``repeated`` times."""
 
     statements: tuple[Statement, ...]
     outputs: tuple[Expr, ...]
@@ -108,8 +108,8 @@ class Arrangement:
         called = {s.function for s in self._simple() if isinstance(s, SharedCall)}
         outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
-        # Outlined functions belong to the kernel; the target has no snippet for them.
-        called |= {name for name in names if name.partition(".")[0] not in outlined}
+        # Outlined functions are part of the kernel; the target needs no snippet for them.
+        called |= {name for name in names if name.partition(".")[0] not in made}
         for _, inner in self.outlined:
             called |= set(inner.functions())
         return tuple(sorted(called))
@@ -140,14 +140,14 @@ class Arrangement:
 
 
 def arrange(kernel: Kernel) -> Arrangement:
-    """Return the printable statements of a kernel, in its order and with its roundings."""
-    # One counter of names for the step and its loops: targets may have a single scope.
+    """Return the printable statements of a kernel, in the kernel's order and with the same roundings."""
+    # One counter of names for the step and all its loops, because a target may have a single scope.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
-    # Errors are computed with the outputs, so they share calls.
+    # Errors are computed together with the outputs, so that they share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # Ahead of all statements: the first call of an argument computes every order that a later line needs.
+    # Before all statements: the first call for an argument computes every order that a later statement needs.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -168,16 +168,16 @@ def arrange(kernel: Kernel) -> Arrangement:
         statements.append(_iteration(statement, loops, starts, scope, later))
     rewritten = tuple(scope.rewrite(e) for e in ends)
     statements += scope.take()
-    # One list, split again: outputs and errors are rewritten in one scope.
+    # Outputs and errors are rewritten as one list in one scope; the list is split below.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
-    # A function's own calls are shared inside it, never with its callers.
+    # Calls inside a function are shared only inside that function, never with its callers.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
 
 def _alone(function: Function) -> Kernel:
-    """Return a function as a kernel that takes scalars."""
+    """Return a function as a kernel whose arguments are scalars."""
     return Kernel(function.name, (), function.inputs, function.body, function.outputs)
 
 
@@ -191,7 +191,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # A fresh set of orders: a call in the body repeats with the unknowns, so calls outside cannot serve it.
+    # The set of orders starts empty: calls in the body depend on the unknowns, so outside calls cannot
+    # replace them.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)
@@ -213,8 +214,8 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a counter of fresh names that starts with every name of the kernel used."""
-    # Every name of the kernel is taken, so that fresh ones collide with none.
+    """Return a counter for fresh names that contains every name of the kernel."""
+    # Every name of the kernel counts as used, so that fresh names differ from all of them.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -225,14 +226,14 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
-    # A kernel of the rest: its expressions are exactly those that are read later.
+    # A kernel of the statements after this one: its expressions are exactly those that are read later.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block; statements that must precede the next are pending."""
+    """Rewrites the expressions of one block; pending statements must come before the next statement."""
 
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
@@ -245,7 +246,8 @@ class _Scope:
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
         """Return the statements and values of a nested block; later statements cannot read them."""
-        # In a scope of its own: these statements may be skipped at run time, so no later line may use them.
+        # A separate scope: these statements may be skipped at run time, so no later statement may use their
+        # names.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
@@ -253,25 +255,26 @@ class _Scope:
 
     def inside(self, expressions: list[Expr]) -> _Scope:
         """Return the scope of a loop body, which can read all names from before the loop."""
-        # A copy: names from the loop body are not known outside.
+        # A copy, because names from the loop body are not known outside the loop.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
 
     def expect(self, expressions: list[Expr]) -> None:
-        """Note which Stumpff functions these expressions need of each argument."""
+        """Record, for each argument, which Stumpff functions these expressions need."""
         needed: dict[int, list[int]] = {}
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # Sorted orders give the snippet its name: stumpff_12 serves both orders of asking.
+        # The orders are sorted, because they form the snippet's name: stumpff_12, whichever order is read
+        # first.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
     def assign(self, let: Let, kept: bool) -> list[Simple]:
         """Return the statements of an assignment; a shared call that computes its value replaces it."""
         value = self.rewrite(let.value)
         before = self.take()
-        # The call has named this result already; a second name would only copy it.
+        # The shared call has already named this result; a second name would only be a copy.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
@@ -288,7 +291,7 @@ class _Scope:
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:
                 continue
-            # Rebuilt with the same operations in the same order: emitted code rounds like the kernel.
+            # Rebuilt with the same operations in the same order, so that emitted code rounds like the kernel.
             args = [self.known[a.id] for a in node.args]
             match node.op:
                 case "pow":
@@ -306,13 +309,13 @@ class _Scope:
         return self.known[root.id]
 
     def _shared_call(self, node: Expr, argument: Expr) -> None:
-        # By the old argument: expectations were noted before rewriting.
+        # The key is the argument before rewriting, as in ``expect``.
         orders = self.orders[node.args[0].id]
         names = tuple(self._fresh(f"c{k}") for k in orders)
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # All orders are known from now on, so this argument is never computed again.
+            # All orders for this argument are known from now on, so they are never computed again.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
@@ -329,11 +332,11 @@ class _Scope:
         space = base.space
         # A power is written as a product that repeats its base, so the base must be a name.
         base = self._named(base)
-        # Up to three factors, targets write x * x * x.
+        # Targets write powers of up to three factors as x * x * x.
         if n <= 3:
             return space.pow(base, n)
         result = base
-        # Binary powering from the second bit on: at most 2 log2(n) products.
+        # Binary powering, from the second bit of n: at most 2 log2(n) products.
         for bit in bin(n)[3:]:
             result = space.pow(self._named(result), 2)
             if bit == "1":
@@ -349,7 +352,7 @@ class _Scope:
 
     def _fresh(self, stem: str) -> str:
         while True:
-            # The key contains a space, so no name of a kernel collides with the counter.
+            # The key of the counter contains a space, so it differs from every name of a kernel.
             self.taken[f"{stem} count"] = self.taken.get(f"{stem} count", 0) + 1
             name = f"{stem}_{self.taken[f'{stem} count']}"
             if name not in self.taken:

@@ -1,8 +1,9 @@
 """Shared angles: arguments that are equal as polynomials become one expression.
 
-Variational methods exponentiate h xi, h xi/2 and -h xi/2 in one stage. Written as sums of squares, z of the
-second, z of the third and a quarter of z of the first differ, and their Stumpff functions would be computed
-three times. As polynomials in symbols and earlier calls they are equal.
+Variational methods need the exponentials of h xi, h xi/2 and -h xi/2 in one stage. The Stumpff functions in
+an exponential have a sum of squares z as argument. The z of h xi/2, the z of -h xi/2 and a quarter of the z
+of h xi are equal numbers, but different expressions, so their Stumpff functions would be computed three
+times. As polynomials in symbols and earlier calls the three are equal.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ nine methods of the gallery; 32 changes one of them, vcf:cf4 on dipole, from 301
 
 
 class SharedArguments(ExprDomain):
-    """Expressions whose Stumpff functions are called with the first of equal arguments."""
+    """Expressions in which Stumpff functions of equal arguments are called with the first of them."""
 
     def __init__(self, space: Space | None = None) -> None:
         super().__init__(space)
@@ -32,27 +33,27 @@ class SharedArguments(ExprDomain):
 
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node."""
-        # Only functions of angles: a step spends most of its time in them.
+        # Only Stumpff functions are compared, because a step spends most of its time in them.
         if function.startswith("stumpff"):
             args = (self._first(args[0]),)
         return super().call(function, *args)
 
     def _first(self, argument: Expr) -> Expr:
-        """Return the argument of an earlier call that equals this one, or this one."""
-        # By node number: equal nodes are one node, and expanding a polynomial is slow.
+        """Return an earlier argument that equals this one as a polynomial, or this argument."""
+        # Results are stored by node number: equal nodes are one node, and expanding a polynomial is slow.
         if argument.id not in self.shared:
             self.shared[argument.id] = self._compared(argument)
         return self.shared[argument.id]
 
     def _compared(self, argument: Expr) -> Expr:
-        # islice stops early: explicit stages have arguments with thousands of nodes.
+        # ``islice`` stops the walk early, because explicit stages have arguments with thousands of nodes.
         if len(list(islice(walk([argument]), LONGEST + 1))) > LONGEST:
             return argument
         try:
             polynomial = self.normal.polynomial(argument)
         except TooLong:
             return argument
-        # Compared one by one: polynomials are dicts and have no hash. A step has few angles.
+        # Compared one by one, because polynomials are dicts and have no hash. A step has few angles.
         for known, first in self.arguments:
             if known == polynomial:
                 return first

@@ -1,7 +1,8 @@
 """From step program to kernel: symbolic execution over expressions, then a schedule of scalar assignments.
 
-Every value becomes a tuple of expressions; hash-consing shares equal nodes. A block becomes a loop
-(:mod:`codegen.kernel.equations`), expressions become assignments (:mod:`codegen.kernel.assignments`).
+Every value becomes a tuple of expressions; equal expressions are a single node (hash-consing). A block
+becomes a loop (:mod:`codegen.kernel.equations`). Expressions become assignments
+(:mod:`codegen.kernel.assignments`).
 """
 
 from __future__ import annotations
@@ -61,14 +62,15 @@ def to_kernel(
 ) -> Kernel:
     """Return the kernel of a program in its problem (:func:`codegen.lower.problem`).
 
-    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON. Others use
-    fixed-point iteration.
-    With ``variations`` the kernel also propagates a variation of the state (``Kernel.vary``). A value of
-    ``chains`` other than :data:`AS_WRITTEN` is for programs without blocks. A ``whole`` step, or one with
-    variations, begins and ends with the state's own momentum (:mod:`codegen.kernel.carried_momentum`).
-    :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
-    :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, ZeroDivisionError
-    if it has no matrix to first order.
+    ``solvers`` maps labels of blocks to :data:`codegen.ir.kernel.NEWTON` or SIMPLIFIED_NEWTON; all other
+    blocks are solved by fixed-point iteration. With ``variations`` the kernel also propagates a variation of
+    the state (``Kernel.vary``). Values of ``chains`` other than :data:`AS_WRITTEN` require a program without
+    blocks. A ``whole`` step, or a step with variations, begins and ends with the momentum of the state
+    (:mod:`codegen.kernel.carried_momentum`).
+
+    Raises :class:`codegen.errors.SceneError` if an operation of the group has no closed form,
+    :class:`codegen.ir.differentiate.NotDifferentiable` if Newton's method has no matrix, and
+    ZeroDivisionError if the matrix does not exist to first order.
     """
     return _Translation(program, scene, solvers, variations, chains, whole).kernel()
 
@@ -90,12 +92,13 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains = variations, chains
-        # The domain decides what is shared: equal nodes by hash-consing, equal angles as polynomials.
+        # The domain decides which expressions are shared: equal nodes, and angles that are equal as
+        # polynomials.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
-        # Names of users first, so that a generated name gives way and not theirs.
+        # Names chosen by users are reserved first, so that generated names are changed and not theirs.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)
@@ -104,16 +107,18 @@ class _Translation:
     def name(self, base: str) -> str:
         """Return a name that is not taken."""
         candidate = base if base not in self.taken else base + "_"
-        # Underscores, not numbers: xi1_2 is a component, so a number could be read as one.
+        # Underscores are appended, not numbers: xi1_2 is a component, so a number could be misread as an
+        # index.
         while candidate in self.taken:
             candidate += "_"
         self.taken.add(candidate)
         return candidate
 
     def remember(self, var: Var) -> None:
-        """Name the expressions of a variable after it."""
+        """Name the expressions of a variable after the variable."""
         for k, x in enumerate(flatten(var.kind, self.env[var])):
-            # The first name stays: an expression is called after the variable that it was computed for.
+            # The first name is kept: an expression is named after the variable for which it was computed
+            # first.
             self.hints.setdefault(x.id, f"{var.name}_{k}" if var.kind is not Kind.REAL else var.name)
 
     def run(self, assign: Assign) -> None:
@@ -121,7 +126,7 @@ class _Translation:
         scene, domain = self.scene, self.domain
         args = tuple(self.env[a] for a in assign.args)
         try:
-            # A sum of functions of ad is cheaper nested, so it is tried before the operation itself.
+            # A sum of functions of ad costs less in nested form, so that form is tried first.
             nested = self.sums.value(domain, assign, self.env)
             results = (nested,) if nested is not None else assign.operation.evaluate(scene, domain, args)
         except ArithmeticError as error:
@@ -132,12 +137,12 @@ class _Translation:
                 hint="this group serves exact series and interpretation",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # Arguments are not expanded: they have names already, and expanding them would lose the sharing.
+            # The arguments are not expanded: they already have names, and expansion would lose the sharing.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # An outlined function takes numbers; a signal read at a time is a call into the caller's code.
+        # An outlined function takes numbers only; reading a signal at a time calls the caller's code.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)  # signals at a time
-        # The block is appended after its body, so its number is the present length.
+        # A block is appended after its body, so the number of blocks so far is the number of this block.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):
@@ -147,7 +152,7 @@ class _Translation:
     def begin(self) -> State:
         """Set the inputs of the program; return its initial state."""
         space = self.domain.space
-        # The frame may turn the momentum, and then all that follows reads the turned one.
+        # If the frame transforms the momentum, all that follows reads the transformed momentum.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -164,25 +169,26 @@ class _Translation:
         self.inside = False
         solver = self.solvers.get(statement.label, FIXED_POINT)
         residuals = None
-        # Variations differentiate the images u = g(u), so these must stay images and not become residuals.
+        # Variations differentiate the images u = g(u), so residuals must not replace the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # Residuals come with the matrix to first order, which costs least, so they win over the exact matrix.
+        # Residuals have a first-order matrix, which costs least, so they are preferred to the exact matrix.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
             entered = with_matrix(entered, solver)
-            # After Newton's method the unknowns are more accurate than the images of the last sweep.
+            # After Newton's method the unknowns are more accurate than the last images, so readers use the
+            # unknowns.
             solved = Solved(entered)
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # Last: until now the number of blocks is the number of this one.
+        # Last, because ``run`` uses the number of earlier blocks as the number of this block.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
         """Set the unknowns to symbols, execute the body, and return the block."""
-        # Unknowns become symbols: expressions of the body are functions of them, as a loop needs.
+        # Unknowns become symbols, so that the loop body is expressed as a function of them.
         names: list[str] = []
         starts: list[Expr] = []
         for unknown, start in zip(block.unknowns, block.starts, strict=True):
@@ -198,29 +204,30 @@ class _Translation:
         return Block(block.label, tuple(names), tuple(starts), tuple(images))
 
     def ended(self, start: State) -> tuple[State, State]:
-        """Return the new state, and the new state of an embedded method, after all statements."""
+        """Return the new state, and the embedded method's new state, after all statements."""
         state = tuple(map(self.domain.space.sym, self.scene.symbols))
         ends = []
-        # Both end in the same frame, so that their difference estimates the error.
+        # Both states end in the same frame, so that their difference estimates the error.
         for embedded in (False, True):
             parts = (v for n, v in self.program.outputs if (n == EMBEDDED) is embedded)
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
-        # Before assignments exist: rewriting chains needs whole expressions.
+        # Before expressions are split into assignments, because rewriting chains needs whole expressions.
         if self.chains in (COMBINED, SHORTENED):
-            # Constant within a run of equal steps: a compiler moves products of these out of its loop.
+            # Constant in a run of equal steps: a compiler moves products of these symbols out of the loop.
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
         return outputs, lower
 
     def varied(self, variations: Variations, outputs: State) -> State:
-        """Return the variation of the new state; add after each block the variation of its unknowns."""
+        """Return the variation of the new state; add equations for the variations of all unknowns."""
         space, seeds = self.domain.space, variations.seeds(self.domain)
-        # Each variation follows its block: its coefficients are values at the solution.
+        # The equations follow the block, because their coefficients are values at the solution of the block.
         both = (b for block in self.blocks for b in (block, _varied(block, seeds, space, self.name)))
         self.blocks = list(both)
-        # A tangent is exact: it differentiates the step that is executed, stopping rule apart.
+        # Tangents are exact derivatives of the executed step, except that the stopping rule is not
+        # differentiated.
         return variations.ends(self.domain, outputs, tangents(outputs, seeds))
 
     def kernel(self) -> Kernel:
@@ -234,14 +241,14 @@ class _Translation:
         outputs, lower = self.ended(start)
         fields = self.frames.fields()
         if self.variations is not None:
-            # A kernel for a Jacobian makes no error estimate.
+            # The kernel for a Jacobian contains no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
-        # Subtracted as expressions: terms that both solutions share cancel exactly.
+        # Subtracted as expressions, so that terms common to both solutions cancel exactly.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
-        # Together, so that errors share the assignments of the outputs.
+        # Errors are ordered together with the outputs, so that they share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
-        # Parts of a splitting take the durations of deferred flows as inputs.
+        # The parts of a splitting have the durations of deferred flows as inputs.
         durations = [v.name for v in self.program.inputs if v.name in (LEAD, ELAPSED)]
         kernel = Kernel(
             *(self.program.name, fields, (TIME, "h", *self.scene.runtime, *durations)),
@@ -255,22 +262,22 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body and outputs of the kernel, with outlined functions where these make it shorter."""
-        # Outlining is tried and may be dropped; names that the first schedule took are then free again.
+        """Return the body, outputs and functions of the kernel; without functions unless these shorten it."""
+        # If an outlined schedule is tried, it may use the names of the first schedule again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
         body = schedule.run()
         outlined: tuple[Function, ...] = ()
-        # Assignments, not operations: lines of code fill the instruction cache.
+        # Assignments are counted, not operations, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # Rewritten chains no longer contain the results of trees, so nothing could be replaced by calls.
+        # After chains are rewritten, results of trees no longer occur, so calls could not replace anything.
         if long and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # Last: the order depends on the final assignments.
+        # Last, because the order depends on the final assignments.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
@@ -305,17 +312,17 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # A corrected value that no root reads would only keep a call alive.
+    # Corrected values that no root reads are dropped: they would only keep calls in use.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # One flat list, so that a tree that occurs in two blocks is found.
+    # One flat list, so that trees that occur in several blocks are found.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)
     if shorter is None:
         return None, ()
-    # The same order as the flat list: the iterator hands the rewritten roots back.
-    new = iter(shorter)
+    # The rewritten roots have the order of the flat list; ``take`` returns them one after the other.
+    new = iter(found)
 
     def take(n: int) -> tuple[Expr, ...]:
         return tuple(next(new) for _ in range(n))
@@ -329,13 +336,13 @@ def _outlined(
     changed = [replace(b, kept=tuple((key, next(new)) for key, _ in b.kept)) for b in changed]
     for old, rewritten in zip(flat, shorter, strict=True):
         if old.id in hints:
-            # Rewritten expressions keep the names of the old ones.
-            hints.setdefault(rewritten.id, hints[old.id])
+            # Rewritten expressions keep the names of the old expressions.
+            hints.setdefault(made.id, hints[old.id])
     schedule = Assignments(changed, ends, hints, name)
     schedule.run()
     functions = []
     for function in outline.outlined:
-        # A function is scheduled alone: its inputs are symbols, and it has no blocks.
+        # Each function is scheduled separately: its inputs are symbols, and it has no blocks.
         own = Assignments((), function.outputs, {}, name)
         lets = own.run()
         functions.append(
@@ -345,17 +352,18 @@ def _outlined(
 
 
 def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> Block:
-    """Return the linear equations for the variations of a block's unknowns, which ``seeds`` receives."""
+    """Return the linear equations for the variations of a block's unknowns; extend ``seeds``."""
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
-    # Linear equations: zero is as good a start as any.
+    # The equations are linear, so the iteration can start from zero.
     starts = (space.zero,) * len(own)
     return Block(f"{VARIED}{block.label}", tuple(own), starts, tangents(block.images, seeds))
 
 
 def _sampled(kernel: Kernel, scene: Problem, domain: ExprDomain) -> Kernel:
-    """Return the kernel with the samples of run-time inputs that it reads."""
-    # Passes may have removed every reader of a sample; the caller is asked only for those that are read.
+    """Return the kernel with those samples of run-time inputs that it reads."""
+    # Passes may have removed every reader of a sample, and the caller should supply only samples that are
+    # read.
     read = {n.payload for n in walk(kernel.expressions()) if n.op == "sym"}
     samples = [
         Sample(t, tuple(symbols[name].payload for name in scene.inputs))

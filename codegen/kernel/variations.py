@@ -1,7 +1,8 @@
 """Variations of a state: the coordinates in which a step has a Jacobian.
 
-A group element q varies by xi in its algebra, dq = xi.q (right-trivialised); momenta, and points that are no
-group elements, vary component by component. So the Jacobian on T*SO(3) is 6 x 6, that on the sphere 3 x 3.
+A group element q varies by xi in its algebra, dq = xi.q (right-trivialised). Momenta, and points that are not
+group elements, vary component by component. The Jacobian on T*SO(3) is therefore 6 x 6, and the Jacobian on
+the sphere 3 x 3.
 """
 
 from __future__ import annotations
@@ -20,21 +21,21 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Variations:
-    """The parts of a varying state: symbols with the group that moves them, or None for numbers."""
+    """The parts of a varying state: (group, symbols), with None for numbers that no group moves."""
 
     parts: tuple[tuple[RightTrivialisation | None, tuple[str, ...]], ...]
 
     @classmethod
     def of(cls, scene: Problem) -> Variations:
-        """Return the variations of a problem; SceneError for a group whose elements have no rates."""
+        """Return the variations of a problem; SceneError if elements of a group have no rates."""
         parts: list[tuple[LieGroup | None, tuple[str, ...]]] = []
         for block in scene.state:
-            # A point that is itself a group element, acted on by the group from the left, varies as one.
+            # A point that is itself a group element, moved by left multiplication, varies as a group element.
             moved = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
             bundle = scene.group.offers(CotangentBundle) if moved else None
             if bundle is not None:
                 base = bundle.base
-                # T*G is G x g*: the element varies by its algebra, the momentum component by component.
+                # T*G is G x g*: the element varies in the algebra, the momentum component by component.
                 parts += [(base, block.symbols[: base.size]), (None, block.symbols[base.size :])]
             elif block.kind is Kind.GROUP or moved:
                 parts.append((scene.group, block.symbols))
@@ -49,8 +50,8 @@ class Variations:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of its components, which no scene can use."""
-        # The dot keeps them apart from names of a scene, which are identifiers.
+        """Names of the components of a variation, which differ from every name of a scene."""
+        # Names of a scene are identifiers, which contain no dot.
         return tuple(f"vary.{k}" for k in range(self.dim))
 
     def seeds(self, domain: ExprDomain) -> dict[str, Expr]:
@@ -61,7 +62,7 @@ class Variations:
             count = len(symbols) if group is None else group.dim
             own, rest = rest[:count], rest[count:]
             state = tuple(domain.space.sym(s) for s in symbols)
-            # dq = xi.q: seeds are derivatives of coordinates, which :mod:`codegen.ir.tangent` carries on.
+            # dq = xi.q: seeds are derivatives of coordinates, which :mod:`codegen.ir.tangent` propagates.
             rates = own if group is None else group.velocity(domain, own, state)
             seeds |= dict(zip(symbols, rates, strict=True))
         return seeds
@@ -72,12 +73,13 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # Back to the algebra at the new element: rate inverts velocity on tangent vectors.
+            # Back to the algebra, at the new element: ``rate`` inverts ``velocity`` on tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 
     def text(self) -> str:
-        """Describe the components."""
+        """Describe the components of a variation."""
+
         words = []
         first = 0
         for group, symbols in self.parts:

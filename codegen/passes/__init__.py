@@ -96,8 +96,7 @@ class Optimiser:
 
     def _run(self, each: Pass) -> None:
         old, new = self.program, verify(each.run(self.program))
-        # Many passes do not change a program; the comparison, which interprets it at several points, is
-        # skipped.
+        # Many passes do not change a program, which then needs no comparison at several points.
         if new == old:
             return
         # Each result is compared with the lowered program, not with the previous result: else small
@@ -131,8 +130,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # When flows are joined, the stage times of the replaced flows may become unused.
         Pass("unused values", UNUSED, dead.run),
-        # After the pass for zeros: terms of later stages that cancel would keep a composition in one large
-        # block.
+        # After the pass for zeros, because terms that cancel would keep a composition in one large block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
         Pass("unused values", UNUSED, dead.run),
@@ -157,8 +155,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are those of the body", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # The Legendre transform replaces variables: if a momentum had a second variable, it would miss that
-        # one.
+        # Before the Legendre transform, which would not replace a second variable of the same momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta follow from velocities", lambda p: legendre.run(p, scene)),
         # The transform applies inverses of maps; elsewhere the program may apply the maps themselves.
@@ -171,8 +168,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # Before functions of ad, which require that exp(x) has one reader only: this pass can remove the
-        # second.
+        # Before functions of ad, which need an exp(x) with one reader: this pass can remove a second reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # After functions of ad: residuals compare momenta in the frame with fewer operations, known only now.

@@ -29,8 +29,7 @@ def run(program: Program, abelian: bool) -> Program:
             # The last argument is the value that the map acts on; the others select the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # An explicit zero, not an empty sum: the pass for zeros recognises an explicit zero in every
-            # operation.
+            # Not an empty sum: the pass for zeros recognises an explicit zero in every operation.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

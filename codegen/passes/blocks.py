@@ -32,8 +32,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # Imported here, not at the top: only programs with blocks need networkx.
     import networkx
 
-    # Outside a block each of its unknowns is replaced by the unknown's image, also in the starts of later
-    # blocks.
+    # After a block each of its unknowns is replaced by the image, also in the starts of later blocks.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
     # Graph nodes are positions in the body: integers have an order, so the result does not depend on hashes.
@@ -43,8 +42,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # A reader of an unknown depends on the unknown's image. Values from before the block add no
-            # edges.
+            # A reader of an unknown depends on its image. Values from before the block add no edges.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)

@@ -134,8 +134,7 @@ class _Framing:
             # In the body frame E q is q E~: the factor changes sides.
             self._emit(replace(assign, args=(self.q, E)))
         elif isinstance(operation, EQUIVARIANT):
-            # An equivariant operation on transformed arguments gives the transformed result: rename the
-            # arguments.
+            # An equivariant operation maps transformed arguments to the transformed result: rename them.
             self._emit(replace(assign, args=self._now(args)))
         # A stage time is a number, the same in every frame.
         elif isinstance(operation, Advance):

@@ -89,8 +89,7 @@ class Reference:
             )
 
     def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
-        """Yield results of the longest step and of two shorter ones, for programs that converge only
-        there."""
+        """Yield results of the longest step and of two shorter ones, in which more programs converge."""
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
@@ -102,8 +101,7 @@ class Reference:
         for moderate in STEPS:
             # The step is a power of two: h^k then has no rounding error that could look like a difference.
             step = math.ldexp(moderate, -max(excess, 0))
-            # Further steps are for programs that converge only for much shorter steps, so similar lengths are
-            # skipped.
+            # Further steps are for programs that converge only for much shorter ones: skip similar lengths.
             if count and step > last / APART:
                 continue
             # The interpreter fills this with the solutions of the blocks; compared programs start from them.

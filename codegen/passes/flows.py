@@ -53,8 +53,7 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the place of the last flow with the same part and time such that all later flows commute with
-    it."""
+    """Return the place of the last flow of the same part and time that commutes with all flows after it."""
     for at in reversed(range(len(kept))):
         # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
@@ -119,8 +118,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
             try:
                 ends = moved(point, (first, second)), moved(point, (second, first))
             except (ArithmeticError, ValueError):
-                # If a flow fails at a sample point, nothing is proved, so the two flows count as not
-                # commuting.
+                # A flow that fails at a sample point proves nothing: the flows count as not commuting.
                 return False
             if not all(orbit.sized(x - y, (x, y)) for x, y in zip(*ends, strict=True)):
                 return False

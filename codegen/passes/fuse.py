@@ -1,5 +1,4 @@
-"""Exponential and action are fused: exp(x) followed by the action becomes one operation if exp(x) has one
-reader.
+"""Exponential and action fused: an action by exp(x) becomes one operation if exp(x) has one reader.
 
 Exact. exp(x).y needs no group element: Rodrigues' formula, applied to a vector, needs two cross products
 only.

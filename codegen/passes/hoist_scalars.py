@@ -20,8 +20,7 @@ Pattern = tuple[tuple[int, Coefficient], ...]
 
 
 def run(program: Program) -> Program:
-    """Return the program with numbers outside of maps, nested sums expanded, and proportional terms added
-    once."""
+    """Return the program with numbers outside of maps, sums expanded, and proportional terms added once."""
     while True:
         # Unused values are removed in each round: a sum that was expanded must not count as a reader.
         new = dead.run(rewrite(program, _rule))

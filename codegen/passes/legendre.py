@@ -58,8 +58,7 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found in the old block: rewriting for one path keeps the statements of the other
-        # paths.
+        # All paths are found in the old block: rewriting one keeps the statements of the others.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -125,8 +124,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
     if isinstance(operation, Adjoint):
         return build.add(operation.opposite(), "a", assign.args[0], value)
     if isinstance(operation, InverseDexp | AdSeries):
-        # The reciprocal of a function of ad is again a function of ad, so the group has a closed form for the
-        # reciprocal.
+        # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
     # The number is not zero: the pass for zeros has removed multiples by a proven zero.
@@ -156,8 +154,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base
-    # In this case P is a sum of functions of one ad, which costs less than the momentum before the adjoint
-    # map.
+    # Here P is a sum of functions of one ad, which costs less than the momentum before the adjoint map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -186,8 +183,7 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed again from the unknown; unused values are removed later.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The base is computed from other stages; computing it from the unknown would add operations and save
-    # none.
+    # The base is computed from other stages; computing it from the unknown would only add operations.
     if route.inward and route.base not in block.unknowns:
         del replaced[route.base]  # a sum of many terms, which no other operation needs from the velocity
     # Statements of the path itself are not changed: they are the equation that remains to be solved.
@@ -197,6 +193,5 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))
-    # A cycle means that the velocity depends on a value to be computed from it; the block is then not
-    # changed.
+    # If the velocity depends on a value to be computed from it, there is a cycle: the block stays.
     return block if sorted_body is None else replace(block, body=sorted_body)

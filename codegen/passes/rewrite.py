@@ -28,8 +28,7 @@ class Rewriter:
 
     def run(self) -> Program:
         """Return the rewritten program."""
-        # Uses are counted once, in the old program: a rule must not count assignments that it appended as
-        # readers.
+        # Uses are counted in the old program: a rule must not count assignments that it appended.
         self.uses = uses(self.program)
         # Fresh names must differ from all old ones, including those of later statements.
         self.builder.taken = {v.name for v in defined(self.program)}

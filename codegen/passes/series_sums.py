@@ -136,8 +136,7 @@ def signed(domain: Domain, c: Coefficient) -> Value:
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
     """Return a sum of multiples; terms that need no product are added first."""
     total: tuple[Value, ...] | None = None
-    # Starting with a term of coefficient one saves a product. The sort is stable, so the text is
-    # reproducible.
+    # Starting with a term of coefficient one saves a product. The sort is stable, so the text is, too.
 
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)

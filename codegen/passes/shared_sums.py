@@ -97,8 +97,7 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
         # A value that occurs with two powers of h has no single coefficient in the combination.
         if len({v for v, _ in terms}) < len(terms):
             continue
-        # Combinations are divided by the coefficient of their first term, so that proportional ones are
-        # equal.
+        # Divided by the coefficient of their first term, proportional combinations are equal.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)

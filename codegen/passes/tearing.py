@@ -27,8 +27,7 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Momenta and forces first: the remaining unknowns are then velocities, which extrapolate best between
-        # steps.
+        # Momenta and forces first: velocities, which are extrapolated best between steps, then remain.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
             # Greedy, in a fixed order: finding the smallest set (a minimum feedback vertex set) is NP-hard.
             smaller = _without(block, unknown)
@@ -43,8 +42,7 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image, None if that closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # The last unknown cannot be removed: a block without a cycle would have been split by the pass for
-    # blocks.
+    # The last unknown is in a cycle: the pass for blocks has already removed blocks without one.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 

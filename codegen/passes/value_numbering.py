@@ -28,8 +28,7 @@ def run(program: Program) -> Program:
             assign = Assign.of_terms(
                 assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
-        # The kind is part of the key, because a zero in the algebra and a zero in its dual are the same
-        # operation.
+        # The kind is part of the key, because zeros in the algebra and in its dual are one operation.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
             # The first computation keeps its place, before all of its readers.

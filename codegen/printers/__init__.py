@@ -1,7 +1,8 @@
-"""From kernel to source text: one package for each target, and the infix notation that targets share.
+"""Printers: a kernel becomes source text, with one package for each target and a common infix notation.
 
-A target is a package of this folder with a module in which ``print_module(kernel, interface, recipe)``
-returns texts by file name, and a line in :data:`TARGETS`; :data:`codegen.loader.LOADERS` has the other line.
+A target is a package of this folder with a module that contains ``print_module(kernel, interface, recipe)``,
+which returns texts by file name. It also needs a line in :data:`TARGETS` and a line in
+:data:`codegen.loader.LOADERS`.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ PrintModule = Callable[[Kernel, Interface, Recipe], dict[str, str]]
 
 
 def target(name: str) -> PrintModule:
-    """Return the module printer of a target; an UnknownName lists the known targets."""
+    """Return the module printer of a target; an unknown name raises UnknownName with the known targets."""
     if name not in TARGETS:
         raise UnknownName(f"unknown target {name}", expected=" or ".join(sorted(TARGETS)))
     printer: PrintModule = import_module(TARGETS[name]).print_module

@@ -1,7 +1,8 @@
-"""Expressions as infix text with few parentheses; each operation is rounded as the expression tree says.
+"""Expressions as infix text with few parentheses; the text has the same roundings as the expression tree.
 
-The only rewritings are those that change no bit in IEEE arithmetic: a + (-b) becomes a - b, commuting
-operands may be exchanged, a sign moves through products. Sums and products are never regrouped.
+Expressions are rewritten only where this changes no bit in IEEE arithmetic: a + (-b) becomes a - b, operands
+of sums and products may be exchanged, and a sign moves through products. Sums and products are never
+regrouped.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Rendering:
-    """Text of |x| with its precedence; ``negative`` is the sign; lines may break between ``segments``."""
+    """Text of |x| and its precedence; ``negative`` is the sign of x. Lines may break between ``segments``."""
 
     segments: tuple[str, ...]
     precedence: int
@@ -31,7 +32,7 @@ class Rendering:
 
 
 def number(value: Number) -> str:
-    """Return a constant as a double: rounded once, with the shortest digits that read back the same.
+    """Return a constant as a double, rounded once, with the shortest digits that determine the double.
 
     >>> number(Number.rational(1, 3)), number(Number.rational(2))
     ('0.3333333333333333', '2.0')
@@ -62,7 +63,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
         args = [rendered[a.id] for a in node.args]
         match node.op:
             case "const":
-                # The sign is kept apart, so that it can move through products and turn + into -.
+                # The sign is kept separately, so that it can move through products and turn + into -.
                 text = style.constant(node.payload)
                 rendered[node.id] = Rendering((text.removeprefix("-"),), ATOM, text.startswith("-"))
             case "sym":
@@ -77,8 +78,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _add(x, Rendering(y.segments, y.precedence, not y.negative))
             case "mul":
                 x, y = args
-                # a * (b * c) becomes b * c * a: multiplication commutes in IEEE arithmetic, but
-                # does not associate.
+                # a * (b * c) becomes b * c * a: in IEEE arithmetic multiplication is commutative, but not
+                # associative.
                 swap = y.precedence == PRODUCT and x.precedence == ATOM and node.args[0].op != "const"
                 rendered[node.id] = _product(y, "*", x) if swap else _product(x, "*", y)
             case "div":
@@ -86,8 +87,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("a power reached the printer unarranged")
-                # Products round alike in every target; the library's pow may differ in the last
-                # bit.
+                # Products are rounded alike in every target, but the last bit of a library's pow may differ.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)
@@ -105,7 +105,8 @@ def signed(x: Rendering) -> tuple[str, ...]:
 
 
 def _add(x: Rendering, y: Rendering) -> Rendering:
-    # Addition commutes: b - a saves the sign of -a + b, and a leading sum needs no parentheses.
+    # Operands of a sum may be exchanged: b - a avoids the sign of -a + b, and a sum on the left needs no
+    # parentheses.
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)
@@ -115,7 +116,7 @@ def _add(x: Rendering, y: Rendering) -> Rendering:
 
 
 def _sum(x: Rendering) -> bool:
-    """Whether x is a sum without parentheses; a negated sum has them."""
+    """Whether x is printed as a sum without parentheses; a negated sum has parentheses."""
     return x.precedence == SUM and not x.negative
 
 

@@ -1,7 +1,7 @@
 """Terms of the run representation as infix text: precedence, parentheses and line breaks.
 
-The targets differ in a few words only, which are abstract methods of :class:`Infix`. Operations are never
-regrouped: the parentheses reproduce the tree, and are dropped only if precedence implies them (a b + c).
+The targets differ only in a few words, which abstract methods of :class:`Infix` supply. Operations are never
+regrouped: parentheses reproduce the tree, and are omitted only if precedence implies them (a b + c).
 """
 
 from __future__ import annotations
@@ -55,13 +55,13 @@ SHORT, LONG = 48, 80
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:
-    """Return one segment if the segments together are short."""
+    """Return one segment if all segments together are short, otherwise the segments."""
     line = " ".join(segments)
     return (line,) if len(line) <= most else segments
 
 
 class Infix(ABC):
-    """Writes terms as text; ``words`` maps operators to those of the target if they differ."""
+    """Writes terms as text; ``words`` maps an operator to the target's word for it, if the two differ."""
 
     words: ClassVar[dict[str, str]]
 
@@ -96,7 +96,7 @@ class Infix(ABC):
 
     @abstractmethod
     def negated(self, test: Term) -> Text:
-        """Return the text of a test that fails."""
+        """Return the text of the negation of a test."""
 
     @abstractmethod
     def special(self, term: Term) -> Text:

@@ -1,6 +1,6 @@
 """The calling convention of an emitted module: prefix, state size, arguments and implicit blocks.
 
-Printers write it in headers, the manifest stores it, and the loader calls through it, so that all agree.
+Printers write the convention in headers, the manifest stores it, and the loader calls through it.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ class Interface:
 
     @classmethod
     def of(cls, kernel: Kernel, prefix: str, precision: str = DOUBLE.name) -> Interface:
-        """Return the interface of a kernel: t and parameters that it never reads are left out."""
+        """Return the interface of a kernel, without t and the parameters that the kernel never reads."""
         used = kernel.used_scalars()
-        # Run-time inputs are sampled at times, so a step that reads them has the argument t.
+        # Run-time inputs are sampled at certain times, so a step that reads inputs has the argument t.
         assert not kernel.inputs or "t" in used
         return cls(
             prefix=prefix,
@@ -59,7 +59,7 @@ class Interface:
 
     @property
     def format(self) -> Precision:
-        """The format of all numbers."""
+        """The format of all numbers of the module."""
         return precision(self.precision)
 
     @property
@@ -69,7 +69,7 @@ class Interface:
 
     @property
     def module(self) -> str:
-        """The module's name: the prefix without its last underscore."""
+        """The name of the module: the prefix without the underscore at the end."""
         return self.prefix.removesuffix("_")
 
     def as_json(self) -> dict[str, Any]:

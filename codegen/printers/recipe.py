@@ -1,4 +1,4 @@
-"""The recipe: the header of an emitted file, with its origin, its properties and its use."""
+"""The recipe: the header of an emitted file with the origin, the properties and the use of the file."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Recipe:
-    """Facts for the header comment, all of them derived, none with a date or a path.
+    """Facts for the header comment. All are derived from the input; none contains a date or a path.
 
-    ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...");
-    ``left_out`` has one sentence for each simplification; ``initial``, ``h`` and ``steps`` are initial state,
-    step size and number of steps of the usage example; ``defaults`` are the scene's values of run-time
-    parameters; ``command`` regenerates the file; ``version`` is the version of orderconds.
+    ``facts`` are (word, sentence) pairs in printing order, such as ("method", "RKMK on rk4 ...").
+    ``left_out`` has one sentence for each simplification. ``initial``, ``h`` and ``steps`` are the initial
+    state, step size and number of steps in the usage example. ``defaults`` are the scene's values of run-time
+    parameters. ``command`` is the command that regenerates the file. ``version`` is the version of
+    orderconds.
     """
 
     title: str
@@ -53,9 +54,10 @@ def header(
     stack: str = "",
     inputs: Sequence[str] = (),
 ) -> list[str]:
-    """Return the recipe's lines up to the usage example, none longer than width where words allow it.
+    """Return the recipe's lines up to the usage example, none longer than ``width`` unless a word is longer.
 
-    ``stack`` bounds the stack of a call, if it is known; ``inputs`` describes the run-time inputs.
+    ``stack`` states the bound on the stack of a call, if the bound is known. ``inputs`` describes the
+    run-time inputs.
 
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']

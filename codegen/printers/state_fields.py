@@ -7,7 +7,7 @@ from codegen.printers.expression import render
 
 
 def layout(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line for each field of the state: its indices, its name and its meaning."""
+    """Return a line for each field of the state: the indices, name and meaning of the field."""
     lines: list[str] = []
     start = 0
     for field in kernel.state:
@@ -19,7 +19,7 @@ def layout(kernel: Kernel) -> tuple[str, ...]:
 
 
 def times(kernel: Kernel) -> tuple[str, ...]:
-    """Return a line with the run-time inputs and the times at which they are read; none without inputs."""
+    """Return a line with the run-time inputs and the times when they are read; no lines without inputs."""
     if not kernel.inputs:
         return ()
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)

@@ -1,1 +1,1 @@
-"""C11: no allocation, no globals, no warnings; every external name under one prefix."""
+"""C11: no allocation, no global variables, no warnings; every external name starts with one prefix."""

@@ -1,7 +1,7 @@
 """Functions of the run representation in C: types, declarations, statements.
 
-A scalar that is assigned once is ``const``, and so is an array parameter that nothing writes to. Arrays are
-copied by ``memcpy``, records cleared by ``memset``.
+A scalar that is assigned once is ``const``; so is an array parameter that nothing writes to. Arrays are
+copied by ``memcpy``, and records are cleared by ``memset``.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ ONE_TEST = (
 
 
 class FunctionPrinter:
-    """Writes the functions of one unit in C, under a prefix."""
+    """Writes the functions of one unit in C; names of functions start with a prefix."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
@@ -66,15 +66,14 @@ class FunctionPrinter:
         return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
-        """Return the declaration of a parameter; ``static`` sizes are no C++, so a ``header`` has none."""
+        """Return the declaration of a parameter; without ``static`` sizes in a ``header``, as in C++."""
         name = self.identifiers[function.name].of(parameter)
-        # ``const`` shows callers which arrays a function leaves unchanged, and the compiler checks
-        # it.
+        # ``const`` shows callers which arrays a function does not change, and the compiler checks it.
         const = "" if parameter.text in self.writes[function.name] else "const "
         if parameter.kind is Kind.SIGNAL:
             return f"{self.prefix}input input, void *context"
-        # ``static n`` tells the compiler that n entries exist. C++ does not know this syntax and
-        # reads headers.
+        # ``static n`` tells the compiler that n entries exist. C++, which must read headers, lacks this
+        # syntax.
         promised = "" if header else "static "
         if parameter.kind is Kind.RECORD:
             of = self.record_type(parameter.record)
@@ -91,8 +90,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
-        # Private functions are static: the compiler may inline them, and two modules in one program
-        # do not clash.
+        # Private functions are static: the compiler may inline them, and two modules in one program have no
+        # name conflicts.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -161,7 +160,7 @@ class _Body:
             if term.value is not None:
                 read |= {self.identifiers.variable(own(s)) for s in symbols(term.value)}
         parameters = [p for p in self.function.parameters if p.kind is not Kind.SIGNAL]
-        # The interface is fixed, even if this kernel does not use a parameter; the cast avoids a
+        # The parameters are fixed by the interface, even if this kernel does not use all; the cast avoids a
         # warning.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
@@ -234,7 +233,7 @@ class _Body:
         yield from fill("if (", self.terms.text(test).segments, ") {", separator="")
         yield from self.inner(statement.body)
         orelse = statement.orelse
-        # `else if` has no block in which a declaration before the inner test could be.
+        # `else if` has no block for declarations that must come before the inner test.
         if len(orelse) == 1 and isinstance(orelse[0], If) and not self.declared.before.get(id(orelse[0])):
             first, *rest = self.branch(orelse[0])
             yield f"}} else {first}"
@@ -258,10 +257,10 @@ class _Body:
         yield "}"
 
     def kind(self, statement: Statement, target: Term) -> str:
-        """Return the type if a statement declares its target, else nothing."""
+        """Return the type of a target that the statement declares, otherwise an empty text."""
         name = self.identifiers.of(target) if target.op == "name" else ""
-        # ``const`` for single assignments: a reader sees that the value is final, and the compiler
-        # checks it.
+        # ``const`` for variables that are assigned once: a reader sees that the value is final, and the
+        # compiler checks it.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -275,7 +274,7 @@ class _Body:
             record = (
                 f"{name}, 0, sizeof *{name}" if target.text in self.pointers else f"&{name}, 0, sizeof {name}"
             )
-            # All bytes zero represent 0 and 0.0 in IEEE formats.
+            # In IEEE formats, bytes that are all zero represent the integer 0 and the number 0.0.
             yield f"memset({record});"
             return
         if target.shape:
@@ -298,7 +297,7 @@ class _Body:
     def extent(self, target: Term, value: Term) -> str:
         """Return the bytes to copy: the size of a local array, or a count times the size of an entry."""
         parameters = {p.text for p in self.function.parameters}
-        # sizeof an array parameter is the size of a pointer, so it is used for local arrays only.
+        # ``sizeof`` of an array parameter is the size of a pointer, so it is used for local arrays only.
         for term in (target, value):
             if term.op == "name" and term.text not in parameters:
                 return f"sizeof {self.terms.line(term)}"
@@ -359,5 +358,5 @@ def _arguments(given: Sequence[str]) -> tuple[str, ...]:
 
 
 def _is_short(line: str) -> bool:
-    """Whether a statement copies one thing and declares nothing."""
+    """Whether a statement is a single copy without a declaration."""
     return len(line.split()) == 3 and line.endswith(";")

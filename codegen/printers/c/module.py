@@ -25,8 +25,7 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import needed
 from codegen.templates import environment
 
-# -ffp-contract=off: a fused multiply-add rounds once in place of twice, and the results would
-# depend on the machine.
+# -ffp-contract=off: a fused multiply-add rounds once, not twice, so results would depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
@@ -82,7 +81,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
     for function in unit.functions:
-        # C has no closures: a function with a context pointer supplies constant inputs to a step.
+        # C has no closures: constant inputs are passed to a step as a function with a context pointer.
         if function.name == "step" and n:
             definitions.append(
                 [
@@ -111,15 +110,16 @@ def helpers(unit: Unit) -> list[str]:
 
 
 def inverted(kernel: Kernel) -> int:
-    """Return the common size of all inverted matrices, 0 if they differ or are large."""
+    """Return the size of the inverted matrices, 0 if they have several sizes or are large."""
     sizes = {len(x.unknowns) for x in kernel.loops if x.newton is not None and not x.newton.inverted}
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Return a bound on the stack of a call: space for every number of a step at once.
+    """Return a bound on the stack of a call, which assumes space for all numbers of a step at the same time.
 
-    At -O0 a compiler uses about this much, a slot for each name; tests compare it with ``-fstack-usage``.
+    At -O0 a compiler uses about this much, because each name has its own slot. Tests compare the bound with
+    ``-fstack-usage``.
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     rounded = -(-size * numbers_held(unit) // 64) * 64
@@ -130,7 +130,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
 
 
 def own_names(interface: Interface) -> frozenset[str]:
-    """Return the names that a module itself declares, which no variable may hide."""
+    """Return the names that a module declares itself, and that no variable may hide."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     functions = {
         f"{prefix}{name}" for name in ("step", "run", "run_adaptive", "jacobian", "statistics", "input")
@@ -139,11 +139,11 @@ def own_names(interface: Interface) -> frozenset[str]:
 
 
 def prototypes(interface: Interface) -> str:
-    """Return declarations of a module's functions without preprocessor lines, as cffi reads them."""
+    """Return declarations of a module's functions without preprocessor lines, in the form that cffi reads."""
     prefix, blocks = interface.prefix, len(interface.blocks)
     real = interface.format.c_type
     time = f"{real} t, " if interface.time else ""
-    # Names are irrelevant in a prototype, and those of a scene might be keywords of C.
+    # Names have no meaning in a prototype, and names of a scene might be keywords of C.
     parameters = "".join(f"{real} p{i}, " for i in range(len(interface.parameters)))
     statistics = f"{prefix}statistics *statistics, " if blocks else ""
     matrices = "size_t matrices; " if interface.newton else ""
@@ -170,7 +170,7 @@ def prototypes(interface: Interface) -> str:
 
 
 def example_input(interface: Interface) -> list[str]:
-    """Return a function of time for the example: constant inputs, whatever the time."""
+    """Return a function of time for the example, with inputs that are constant in time."""
     real, several = interface.format, len(interface.inputs)
     return [
         f"static void constant({real.c_type} t, {real.c_type} inputs[{several}], void *context)",
@@ -184,7 +184,7 @@ def example_input(interface: Interface) -> list[str]:
 
 
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
-    """Return a program, line by line, that runs the step from the scene's initial state."""
+    """Return the lines of a program that runs the step from the scene's initial state."""
     real = interface.format
     wide = "" if real is DOUBLE else "(double)"
 

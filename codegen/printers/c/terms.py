@@ -55,7 +55,7 @@ class Terms(Infix):
         self.style = style(precision)
 
     def negated(self, test: Term) -> Text:
-        """Return the text of a test that fails."""
+        """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} == NULL",), COMPARED)
         if test.op == "finite" and len(test.args) > 1:
@@ -65,16 +65,16 @@ class Terms(Infix):
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
     def one_test(self, values: Sequence[Term]) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return two tests; all values are finite if one of them holds."""
-        # isfinite of one sum replaces a test for each value. Only a sum of finite values that
-        # overflows fails it wrongly; x - x, which cannot overflow, decides this rare case.
+        """Return two tests such that all values are finite exactly if at least one of the tests holds."""
+        # isfinite of one sum replaces a test for each value. This test fails wrongly only if a sum of finite
+        # values overflows. The second test, of sums of x - x, which cannot overflow, decides this rare case.
         finite = closed("isfinite(", self.text(paired(values)).segments, ")")
         differences = paired([x - x for x in values])
         zero = literal(self.precision, 0.0)
         return finite, (*self.text(differences).segments, f"== {zero}")
 
     def special(self, term: Term) -> Text:
-        """Return the text of any other term."""
+        """Return the text of a term whose notation is special to C."""
         match term.op:
             case "name":
                 return Text((self.name(term),))
@@ -106,8 +106,8 @@ class Terms(Infix):
                 return Text(("INFINITY",))
 
     def name(self, term: Term) -> str:
-        """Return a name; a signal of inputs is passed as a function and its context."""
-        # C has no closures.
+        """Return a name; a signal of inputs is passed as a function and the function's context."""
+        # Two arguments, because C has no closures.
         return "input, context" if term.kind is Kind.SIGNAL else self.identifiers.of(term)
 
     def number(self, term: Term) -> str:
@@ -142,10 +142,11 @@ class Terms(Infix):
         return Text((f"{self.line(base)}[{self.line(term.args[1])}]",))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
-        """Return one of two values."""
+        """Return the text of a conditional expression."""
         segments = self.text(test).within(OR)
         first, second = self.text(yes).within(COMPARED), self.text(no)
-        # ?: associates to the right: a chain of choices needs no parentheses.
+        # ?: associates to the right, so a chain of choices needs no parentheses.
+
         last = second.segments if second.level == CHOICE else second.within(COMPARED)
         return Text((*joined(segments), *closed("? ", joined(first), ""), *closed(": ", last, "")), CHOICE)
 

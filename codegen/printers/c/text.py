@@ -18,8 +18,7 @@ def greatest(terms: list[str]) -> tuple[str, ...]:
     """
     if len(terms) == 1:
         return (terms[0],)
-    # A balanced tree has logarithmic depth; the latency of a linear chain would be that of all
-    # comparisons.
+    # A balanced tree has logarithmic depth; in a linear chain each comparison would wait for the one before.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle]), greatest(terms[middle:])
     return (*closed("greater(", first, ","), *closed("", second, ")"))
@@ -36,12 +35,12 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 
 def comment(text: str) -> str:
-    """Return text that cannot end a C comment."""
+    """Return the text, changed so that it cannot end a C comment."""
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def block_comment(text: str) -> list[str]:
-    """Return a comment on one line, or on several that begin with a star; no lines for an empty text."""
+    """Return a comment on one line or, with stars, on several lines; no lines for an empty text."""
     safe = comment(text)
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
     if len(lines) < 2:
@@ -52,7 +51,7 @@ def block_comment(text: str) -> list[str]:
 def fill(
     start: str, segments: tuple[str, ...], end: str, width: int = WIDTH, separator: str = " "
 ) -> list[str]:
-    """Join start, segments and end with spaces, breaking lines before segments that do not fit.
+    """Return lines of start, segments and end, joined by spaces, with breaks before segments that do not fit.
 
     ``separator`` separates start and the first segment.
 

@@ -1,1 +1,1 @@
-"""Python: one module that needs the standard library and nothing else."""
+"""Python: one module that needs only the standard library."""

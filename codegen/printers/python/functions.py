@@ -1,7 +1,7 @@
-"""Functions of the run representation in Python: lists that are changed in place, statuses that are returned.
+"""Functions of the run representation in Python: lists are changed in place, and statuses are returned.
 
-Consecutive entries of a list are read, and written, by one statement. Python raises an arithmetic error where
-C computes an infinity or a NaN; the guard of a function converts it to a status or to NaNs.
+One statement reads, or writes, consecutive entries of a list. Python raises an arithmetic error where C
+computes an infinity or a NaN. The guard of a function converts the error to a status or to NaNs.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class FunctionPrinter:
         return [*lines, "    try:", *body, "    except (ArithmeticError, ValueError):", *self.guard(function)]
 
     def guard(self, function: Function) -> list[str]:
-        """Return the lines that follow an arithmetic error."""
+        """Return the lines that handle an arithmetic error."""
         if function.guard == RAISES_STATUS:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
@@ -105,7 +105,7 @@ def class_of(record: Record) -> str:
 
 
 def docstring(text: str) -> list[str]:
-    """Return a docstring of one paragraph."""
+    """Return the lines of a docstring of one paragraph."""
     lines = filled_words(text)
     if len(lines) == 1:
         return [f'    """{lines[0]}"""']
@@ -113,7 +113,7 @@ def docstring(text: str) -> list[str]:
 
 
 def filled_words(text: str, width: int = 78) -> list[str]:
-    """Return the words of a text on lines."""
+    """Return the lines of a text, filled up to a width."""
     lines = [""]
     for word in text.split():
         if lines[-1] and len(lines[-1]) + 1 + len(word) > width:
@@ -161,7 +161,7 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Whether a statement accesses the entry after those of ``group`` and reads none that they write."""
+        """Whether a statement reads (or writes) the entry after those of ``group`` and may join the group."""
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -175,8 +175,8 @@ class _Body:
         neighbours = all(b == (entries[0] or 0) + k for k, b in enumerate(entries))
         same = self.terms.line(one(statement).args[0]) == first
         changed = root(one(statement)).text
-        # A joint assignment evaluates all values before it writes: none may depend on an entry
-        # written before it.
+        # A joint assignment evaluates all values before it writes: no value may depend on an entry that an
+        # earlier assignment of the group writes.
         apart = reading or all(x.text != changed for s in (*group, statement) for x in names([s.value]))
         return neighbours and same and apart
 
@@ -253,7 +253,7 @@ class _Body:
             yield f"{'    ' * depth}{name}.clear()"
             return
         if target.shape:
-            # A slice assignment changes the caller's list; a plain one would only rebind the local
+            # A slice assignment changes the caller's list; a plain assignment would only rebind the local
             # name.
             name = name if target.op == "part" else f"{name}[:]"
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
@@ -285,7 +285,7 @@ class _Body:
 
 
 def _entry(term: Term) -> int | None:
-    """Return the index of an entry of a list of scalars, None if it is not a constant."""
+    """Return the constant index of an entry of a list of scalars; None for any other term."""
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

@@ -35,7 +35,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 @dataclass(frozen=True)
 class _Module:
-    """The text of one module, and the parts that it is assembled from."""
+    """The text of one module, and the parts from which the text is assembled."""
 
     kernel: Kernel
     interface: Interface
@@ -43,7 +43,7 @@ class _Module:
 
     @cached_property
     def unit(self) -> Unit:
-        """The unit of the module without ``step``, which is a run of one step in Python."""
+        """The unit of the module without ``step``, which in Python is a run of a single step."""
         unit = unit_of(Plan(self.kernel, self.interface.format))
         # The public ``step`` is in the template, where it calls ``run``.
         kept = tuple(f for f in unit.functions if f.name != "step")
@@ -80,7 +80,7 @@ class _Module:
 
     @cached_property
     def called(self) -> set[str]:
-        """Functions of the library, by the names that the run representation gives them."""
+        """The functions of the library that the module calls, by their names in the run representation."""
         functions = [t for f in self.unit.functions for t in terms(f.body)]
         names = {t.text for t in functions if t.op == "call"}
         names |= {t.op for t in functions if t.op in ("finite", "infinity")}
@@ -89,7 +89,7 @@ class _Module:
 
     @cached_property
     def needed(self) -> Needed:
-        """The snippets that the module calls, and what these need of the library."""
+        """The snippets that the module calls, and the library functions that the snippets need."""
         wanted = {*functions_of(self.unit)}
         wanted |= {"power"} & self.called | {"sqrt"} & self.called
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
@@ -112,7 +112,7 @@ class _Module:
         return [*definitions, *map(self.printer.definition, self.unit.functions)]
 
     def keyword_arguments(self) -> list[str]:
-        """Return the run-time parameters, with the scene's values as defaults if all are known."""
+        """Return the run-time parameters, with the scene's values as defaults if all values are known."""
         known = self.recipe.defaults
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
@@ -120,7 +120,7 @@ class _Module:
         return [f"{name}={float(known[p])!r}" for p, name in pairs]
 
     def text(self) -> str:
-        """Return the text."""
+        """Return the text of the module."""
         interface, kernel = self.interface, self.kernel
         time, inputs = ["t"] if interface.time else [], ["inputs"] if interface.inputs else []
         optional = ["statistics=None"] if interface.blocks else []
@@ -185,7 +185,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return arguments as keyword-only ones."""
+    """Return arguments as keyword-only arguments."""
     return ["*", *arguments] if arguments else []
 
 

@@ -1,7 +1,7 @@
 """Terms in Python: names, literals, entries of lists, attributes, calls of the standard library.
 
-In single precision constants are named float32 objects of NumPy, each created once: the product of a float32
-and a Python float may be a double.
+In single precision constants are named float32 objects of NumPy, and each object is created once. They are
+needed because the product of a float32 and a Python float may be a double.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Constants:
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
-            # A scene may use C1 as a name.
+            # Skip names that a scene uses, such as C1.
             while f"C{place}" in self.taken or f"C{place}" in self.digits:
                 place += 1
             self._names[size] = f"C{place}"
@@ -54,13 +54,13 @@ class Terms(Infix):
         self.single = constants.precision is not DOUBLE
 
     def negated(self, test: Term) -> Text:
-        """Return the text of a test that fails."""
+        """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
-        """Return the text of any other term."""
+        """Return the text of a term whose notation is special to Python."""
         match term.op:
             case "name":
                 return Text((self.identifiers.of(term),))
@@ -92,7 +92,7 @@ class Terms(Infix):
                 return self.argument(term)
 
     def argument(self, term: Term) -> Text:
-        """Return the text of a test or value for an optional argument, of a signal, or of infinity."""
+        """Return the text of infinity, a signal, or a test or value of an optional argument."""
         match term.op:
             case "given":
                 return Text((f"{self.line(term.args[0])} is not None",), COMPARED)
@@ -115,7 +115,7 @@ class Terms(Infix):
         return str(bool(term.number)) if term.kind is Kind.FLAG else str(int(term.number))
 
     def choice(self, test: Term, yes: Term, no: Term) -> Text:
-        """Return a conditional expression."""
+        """Return a conditional expression of two terms."""
         first = joined(self.text(yes).within(OR))
         condition, last = self.text(test).within(OR), self.text(no).within(CHOICE)
         return Text((*first, *closed("if ", joined(condition), ""), *closed("else ", last, "")), CHOICE)
@@ -125,7 +125,7 @@ class Terms(Infix):
         given = [self.line(x) for x in term.args]
         if term.text == "largest":
             return (f"max(map(abs, {given[0]}))",)
-        # `0.0 ** -1` raises in Python; the helper returns an infinity as C does.
+        # `0.0 ** -1` raises in Python; the helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments

@@ -1,4 +1,4 @@
-"""Text of Python: long lines are broken."""
+"""Text of Python, with long lines broken."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ def quoted(text: str) -> str:
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
-    """Return start, terms with commas and end on one line, or on several with as many terms as fit on each.
+    """Return start, terms with commas, and end: on one line, or on as few lines as possible.
+
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
@@ -52,7 +53,7 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
 
 
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
-    """Return start and a tuple of terms: bare on one line, else in parentheses on several."""
+    """Return start and a tuple of terms: on one line without parentheses, else on several in parentheses."""
     space = "    " * depth
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
