@@ -59,7 +59,8 @@ def report(
 
     The page of a scene is written as soon as it is complete. Until the report is complete, measured results
     are kept in a hidden folder, so an interrupted report can continue. :class:`InputError` is raised before
-    anything is measured if a name is unknown, if there is no C compiler, or if the folder cannot be written to.
+    anything is measured if a name is unknown, if there is no C compiler, or if the folder cannot be written
+    to.
     """
     folder = Path(directory)
     subjects = request.subjects()

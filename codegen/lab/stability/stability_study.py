@@ -53,7 +53,7 @@ class Stability:
 
     @property
     def held(self) -> bool:
-        """Whether it is honest and every result is accurate or a status, none undetermined."""
+        """Whether the method is honest and every result is accurate or a status, none undetermined."""
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
     def as_json(self) -> dict[str, object]:
