@@ -18,7 +18,7 @@ from codegen.lab.timing import samples
 from codegen.loader import Arrival, Statistics, StepFailed
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""From loose to tight. They begin looser than for peers, because an estimate of low order controls the step."""
+"""From loose to tight; the first is looser than for peers, because an estimate of low order is controlled."""
 
 
 @dataclass

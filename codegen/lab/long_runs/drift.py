@@ -82,9 +82,9 @@ def fit(
 ) -> Drift:
     """Return the drift of relative deviations from an initial value, sampled after the start.
 
-    ``times`` increase, or decrease in a backward run. A peak is the largest absolute deviation in the interval
-    that ends at a sample; ``peaks`` are by default the absolute values of the samples. If a value is not
-    finite, the slope is fitted to the values before it, and the largest deviation is infinite.
+    ``times`` increase, or decrease in a backward run. A peak is the largest absolute deviation in the
+    interval that ends at a sample; ``peaks`` are by default the absolute values of the samples. If a value is
+    not finite, the slope is fitted to the values before it, and the largest deviation is infinite.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift

@@ -1,4 +1,4 @@
-"""Advice which method to use: the fastest for each requirement and accuracy."""
+"""Advice on the choice of a method: the fastest for each requirement and accuracy."""
 
 from __future__ import annotations
 

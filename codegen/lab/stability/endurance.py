@@ -15,7 +15,7 @@ from codegen.loader import StepFailed
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""CPU seconds that a run may take. If all steps would take longer, fewer are made and their number reported."""
+"""CPU seconds that a run may take. If all steps would take longer, fewer steps are made and reported."""
 
 TRIAL = 1000
 

@@ -288,7 +288,7 @@ class Rounding(PreciseDomain):
         return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset of a difference quotient; the result is needed to a few digits only."""
+        """Return the offset of a difference quotient; a few digits of the effect of rounding are enough."""
         return self.context.mpf(2) ** -40 * max(1, abs(x))
 
 
