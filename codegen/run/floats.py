@@ -17,7 +17,7 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles as in emitted code; ``chain`` is the number of angles that depend on one another.
+    """Doubles as in emitted code; ``chain`` is the largest number of nested Stumpff functions in a kernel.
 
     See :mod:`codegen.ir.angle_depth`.
     """

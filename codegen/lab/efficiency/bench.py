@@ -46,7 +46,7 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """Candidate, seconds of emission, seconds of compilation (the most over its runs)."""
+        """Candidate, seconds of emission, and the largest number of seconds of compilation over all runs."""
         return tuple(
             (label, rows[0].emit_seconds, max(r.compile_seconds for r in rows))
             for label, rows in self.entries.items()

@@ -60,7 +60,7 @@ class PeerModule(Protocol):
     """A module of this package that runs peers."""
 
     def peer(self, name: str) -> Peer:
-        """Return the peer of that name."""
+        """Return the named peer."""
 
 
 PEERS = {

@@ -23,7 +23,7 @@ from codegen.scenes import stiff_variants
 
 @dataclass(frozen=True)
 class Findings:
-    """The results that have to be measured, apart from the linear stability of the tableau."""
+    """The measured results; linear stability is computed from the tableau and not part of them."""
 
     limit: Limit
     answers: tuple[Answer, ...]
