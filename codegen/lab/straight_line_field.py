@@ -36,8 +36,8 @@ class StraightLine:
     def python(self, constant: Callable[[Number], Scalar], functions: Mapping[str, Scalar]) -> Evaluate:
         """Return field(y, t) -> tuple over any numbers.
 
-        ``constant`` converts an exact number to this type of numbers. ``functions`` maps ``sqrt``, ``sin``,
-        ... to functions of such numbers.
+        ``constant`` converts an exact number to this type of numbers. ``functions`` maps names such as
+        ``sqrt`` to functions of such numbers.
         """
         body = [f"    {name} = {text}" for name, text in self.lines]
         source = "\n".join(

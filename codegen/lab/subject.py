@@ -162,10 +162,10 @@ def subject(
     effort: Effort = USUAL,
     adaptive: Sequence[str] = (),
 ) -> Subject:
-    """Return the subject of a page. Errors are those of ``codegen.method.parse`` and ``peers.find``.
+    """Return the subject of a page.
 
     If no methods are named, the defaults of the report are used. If no peers are named, the installed peers
-    of the effort are used.
+    of the effort are used. Unknown names raise the errors of :func:`codegen.method.parse` and ``peers.find``.
     """
     families = families_for(scene)
     chosen = tuple(parse(m, families) for m in methods)

@@ -35,7 +35,7 @@ class Timing:
 
 
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return the CPU seconds of one call in several batches long enough for the clock, sorted."""
+    """Return the CPU seconds of one call, measured in several batches long enough for the clock, sorted."""
     calls, first = 1, _batch(call, 1)
     while first < batch:
         calls *= 2 if first > batch / 8 else 8

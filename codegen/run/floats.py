@@ -17,7 +17,10 @@ from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised,
 
 
 class EmittedFloats(FloatDomain):
-    """Doubles; ``chain`` is the number of dependent angles (:mod:`codegen.ir.angle_depth`)."""
+    """Doubles as in emitted code; ``chain`` is the largest number of nested Stumpff functions in a kernel.
+
+    See :mod:`codegen.ir.angle_depth`.
+    """
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)

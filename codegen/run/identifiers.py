@@ -16,7 +16,7 @@ from codegen.run.terms import Term, names
 
 @dataclass(frozen=True)
 class Identifiers:
-    """The identifiers of the kernel's names in one function; entries of its arrays are ``array[k]``."""
+    """The identifiers of the kernel's names in one function; array entries are ``array[k]``."""
 
     by_name: Mapping[str, str]
 

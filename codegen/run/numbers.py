@@ -10,7 +10,7 @@ from codegen.run.terms import Kind, Term
 
 
 def numbers_held(unit: Unit) -> int:
-    """Return the scalars of all private functions, plus the most of any public one."""
+    """Return the number of scalars in all private functions, plus the largest number in a public function."""
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     public = [held[f.name] for f in unit.functions if f.public]

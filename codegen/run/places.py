@@ -10,7 +10,7 @@ from codegen.run.terms import Term, real
 
 @dataclass(frozen=True)
 class Place:
-    """A block of ``size`` numbers in an array of ``whole`` numbers, from ``start`` on."""
+    """A block of ``size`` numbers from index ``start`` on, in an array of ``whole`` numbers."""
 
     array: str
     start: int

@@ -129,7 +129,7 @@ class Plan:
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
-        """Return the argument for run-time inputs, none where there are none."""
+        """Return the argument for run-time inputs, none if the kernel has no run-time inputs."""
         return (inputs,) if self.kernel.inputs else ()
 
     @property

@@ -168,7 +168,7 @@ class Candidate:
         return self.cost.step(self.usual.sweeps, self.usual.matrices)
 
     def text(self, k: int) -> str:
-        """Return what the trials say about a block."""
+        """Return the results of the trials for a block in words."""
         if self.far is None:
             return f"does not converge in {self.usual.steps} steps of h = {self.usual.h:.6g}"
         text = f"{counted(self.usual, k)}, predicted {self.block(k):.0f} ns"
@@ -203,7 +203,7 @@ def measured(trial: Trial, k: int) -> str:
 
 
 class _Selection:
-    """The choice for one program: candidates by solver; the solvers left out, with the reason."""
+    """The choice for one program: candidates by solver, and the reasons why other solvers are left out."""
 
     def __init__(self, program: Program, scene: Problem, initial: tuple[float, ...], fixed: Kernel) -> None:
         self.program, self.scene, self.initial, self.fixed = program, scene, initial, fixed
@@ -332,7 +332,7 @@ class _Selection:
         return kernels[solver], self.choices(kernels[solver], reasons)
 
     def weakness(self, solver: str) -> str:
-        """Say why a candidate that converges is not robust."""
+        """Return the reason why a candidate that converges is not robust."""
         far = self.candidates[solver].far
         assert far is not None
         if not far.converged:

@@ -43,7 +43,7 @@ from codegen.run.terms import (
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
 FLOOR = 1e-4
-"""The least error norm that the controller remembers; an accidentally small error has no later effect."""
+"""The least error norm that the controller stores, so that an accidentally small error has little effect."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 

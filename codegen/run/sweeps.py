@@ -61,7 +61,7 @@ WIDEST = 20
 
 
 def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
-    """Return the statements of one loop; if it fails, they return its status."""
+    """Return the statements of one loop; if the loop fails, the function returns the status of the loop."""
     newton = iteration.loop.newton
     if newton is None:
         return _FixedPoint(plan, iteration, counting).statements()
@@ -101,7 +101,7 @@ class _Loop:
         ]
 
     def named(self, word: str) -> list[Term]:
-        """Return a name for each unknown."""
+        """Return a name for each unknown, with ``word`` before the name of the unknown."""
         return [own(f"{word} {u}") for u in self.iteration.loop.unknowns]
 
     def begin(self) -> list[Statement]:
@@ -193,7 +193,7 @@ class _Newton(_Loop):
 
     @property
     def newton(self) -> Newton:
-        """The matrix."""
+        """The matrix of Newton's method, as the kernel describes it."""
         assert self.iteration.loop.newton is not None
         return self.iteration.loop.newton
 

@@ -103,11 +103,11 @@ class Term:
         return _comparison(">=", self, other)
 
     def equals(self, other: Operand) -> Term:
-        """Return whether two counts or status codes are the same."""
+        """Return the test that two counts or status codes are equal."""
         return _comparison("==", self, other)
 
     def differs(self, other: Operand) -> Term:
-        """Return whether two counts or status codes differ."""
+        """Return the test that two counts or status codes differ."""
         return _comparison("!=", self, other)
 
     def __getitem__(self, index: Operand) -> Term:
@@ -227,7 +227,7 @@ def either(*tests: Term) -> Term:
 
 
 def negated(test: Term) -> Term:
-    """Return whether a test fails."""
+    """Return the negation of a test."""
     return Term("not", (test,), Kind.FLAG)
 
 
@@ -260,12 +260,12 @@ def largest(array: Term) -> Term:
 
 
 def is_finite(x: Term) -> Term:
-    """Return whether one real is a number."""
+    """Return the test that one real is finite."""
     return Term("call", (x,), Kind.FLAG, "isfinite")
 
 
 def all_finite(*terms: Term) -> Term:
-    """Return whether all reals, or all entries of one array, are numbers."""
+    """Return the test that all reals, or all entries of one array, are finite."""
     return Term("finite", terms, Kind.FLAG)
 
 

@@ -142,7 +142,7 @@ class WarmStart:
         self.factors = _factors(plan.start)
 
     def functions(self) -> tuple[Function, ...]:
-        """Return all of them, callees first."""
+        """Return the functions of the warm start, callees first."""
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:

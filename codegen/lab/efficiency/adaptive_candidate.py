@@ -1,7 +1,7 @@
 """A method with step-size control by its embedded row, as a candidate of a work-precision diagram.
 
-``control`` of its rows is the tolerance, relative and absolute. ``steps`` counts accepted steps; rejected
-steps are included in the evaluations and the time.
+In its rows, ``control`` is the relative and absolute tolerance, and ``steps`` counts accepted steps. The
+evaluations and the time include rejected steps.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from codegen.lab.timing import samples
 from codegen.loader import Arrival, Statistics, StepFailed
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""From loose to tight, and looser than for peers, because an estimate of low order controls the step."""
+"""From loose to tight; the first is looser than for peers, because an estimate of low order is controlled."""
 
 
 @dataclass
@@ -34,17 +34,17 @@ class AdaptiveCandidate(EmittedCandidate):
         self.label = f"adaptive {self.method.label}"
 
     def controls(self) -> Iterator[float]:
-        """Tighten the tolerance."""
+        """Yield the tolerances, from loose to tight."""
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop as with equal steps, but not after a slow run that diverged with a loose tolerance."""
+        """Stop as with equal steps, but never after a run that diverged: a tighter tolerance may succeed."""
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
         return not diverged and super().enough(rows)
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
-        """Return the end of a run with that tolerance; with an infinite tolerance the run is empty."""
+        """Return the end of a run with a tolerance; an infinite tolerance means a run over an empty span."""
         first, last = map(float, self.scene.span)
         if math.isinf(tolerance):
             last, tolerance = first, 1.0

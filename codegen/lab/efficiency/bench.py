@@ -46,7 +46,7 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """Candidate, seconds of emission, seconds of compilation (the most over its runs)."""
+        """Candidate, seconds of emission, and the largest number of seconds of compilation over all runs."""
         return tuple(
             (label, rows[0].emit_seconds, max(r.compile_seconds for r in rows))
             for label, rows in self.entries.items()
@@ -55,7 +55,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """Candidates on one scene, ready to run; ``folder`` is where results go, or None."""
+    """Candidates on one scene, ready to run; results are written to ``folder`` unless it is None."""
 
     scene: Problem
     exact: Reference
@@ -65,8 +65,8 @@ class Bench:
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
         """Measure all rows that the cache does not hold, rank the candidates, and write the files.
 
-        ``done`` is called with each row. The default cache is a hidden folder beside the files, which is
-        deleted when they are complete, so that an interrupted bench continues.
+        ``done`` is called with each row. The default cache is a hidden folder beside the files, from which an
+        interrupted bench continues. This folder is deleted when the files are complete.
         """
         name = self.scene.name
         own = MeasurementCache(self.folder / f".{name}.measured" if self.folder else None)
@@ -99,7 +99,7 @@ def bench(
     progress: Progress,
     adaptive: Sequence[str] = (),
 ) -> Bench:
-    """Return a bench of methods (by default the usual ones) and peers on a scene.
+    """Return a bench of methods (by default :func:`methods_for` the scene) and peers on a scene.
 
     Methods in ``adaptive`` run with step-size control by their embedded rows. Names and options are checked
     before anything is measured (InputError). A method that cannot be emitted for the scene becomes a row with

@@ -37,7 +37,7 @@ from codegen.scene.problem import Problem
 class EmittedCandidate:
     """A method emitted to a target, compiled, and run over the span in equal steps.
 
-    ``precompiled`` is the compiled method if there is one already; its emission then takes almost no time.
+    ``precompiled`` is the compiled method, if it exists already. Its emission then takes almost no time.
     """
 
     scene: Problem
@@ -58,11 +58,11 @@ class EmittedCandidate:
         self.overhead = math.inf
 
     def controls(self) -> Iterator[float]:
-        """Double the number of steps."""
+        """Yield numbers of steps, each twice the one before."""
         return doubled_steps()
 
     def prepare(self) -> None:
-        """Compile outside the cache, so that the time is the compiler's, then load."""
+        """Compile without the cache, to measure the time of the compiler, then load the module."""
         if self.target == "c":
             self.compile_seconds = _compile_seconds(self.runner.artifact.files)
         self.runner.final(0)
@@ -84,14 +84,14 @@ class EmittedCandidate:
         return self._row(control, h, steps, error, times, statistics)
 
     def _net(self, spent: Sequence[float], nothing: Callable[[], object]) -> list[float]:
-        """Return times minus the overhead of a call, the least seen of ``nothing``, if they are short."""
+        """Subtract the overhead of a call from short times; the overhead is the least time of ``nothing``."""
         if spent[0] >= COUNTED:
             return list(spent)
         self.overhead = min(self.overhead, cost(nothing))
         return [s - min(self.overhead, s) for s in spent]
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop at the budget, and at rounding."""
+        """Stop when the budget is reached, or when rounding dominates."""
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
     def _row(
@@ -125,7 +125,10 @@ class EmittedCandidate:
         )
 
     def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
-        """Return how often operations are executed: once a step outside blocks, once an iteration inside."""
+        """Return how often operations are executed.
+
+        Operations outside of implicit blocks are executed once per step, others once per iteration.
+        """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))
         for statement in self.compiled.program.body:

@@ -39,7 +39,7 @@ class PeerCandidate:
         self.refused = False
 
     def controls(self) -> Iterator[float]:
-        """Tighten the tolerance, or double the number of steps."""
+        """Yield tolerances from loose to tight, or numbers of steps, each twice the one before."""
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
     def prepare(self) -> None:
@@ -58,7 +58,7 @@ class PeerCandidate:
             spent = samples(prepared.run)
             subtract = prepared.idle is not None and spent[0] < COUNTED
             overhead = cost(prepared.idle) if subtract and prepared.idle is not None else 0.0
-        except Exception as failure:  # other software may raise anything; the other candidates go on
+        except Exception as failure:  # peers may raise anything; the other candidates are still measured
             self.refused = not isinstance(failure, PeerFailed)
             setup = time.perf_counter() - start
             reason = str(failure)
@@ -84,7 +84,7 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop at the budget or a refusal, and with equal steps at rounding."""
+        """Stop at the budget or after a refusal, and with equal steps also when rounding dominates."""
         if self.refused or beyond_budget(rows, self.budget):
             return True
         return self.peer.controlled != "tolerance" and at_rounding(rows, self.exact)

@@ -11,7 +11,7 @@ from codegen.lab.efficiency.work_precision import Row
 
 @dataclass(frozen=True)
 class Place:
-    """The fastest candidate for an error of 10^-decade with its CPU seconds, and the second."""
+    """The fastest candidate for an error of 10^-decade with its CPU seconds, and the second fastest."""
 
     decade: int
     winner: str
@@ -23,10 +23,11 @@ class Place:
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     """Return the CPU seconds in which a candidate reaches an error, None if it never does.
 
-    Rows are read from the smallest error towards the coarse end while the errors are at most ``error``, so
-    that an error that is small by accident on a coarse run does not count. Between the two rows on either
-    side, logarithms are interpolated; if all errors are smaller, the time of the coarsest row is returned. A
-    finer row that took less time counts as well, so that a larger error never takes longer.
+    Rows are read from the smallest error towards coarser runs, as long as the errors are at most ``error``.
+    So an accidentally small error of a coarse run is not used. Time and error are interpolated
+    logarithmically between the last row read and the next coarser row. If there is no coarser row, the time
+    of the coarsest row is returned. A finer row that took less time is used instead, so the time never
+    increases with ``error``.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)

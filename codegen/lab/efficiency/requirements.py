@@ -28,9 +28,9 @@ STACK = 4096
 class Features:
     """Properties of an emitted method.
 
-    ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding;
-    ``explicit``: no equations are solved, so every step of one size takes the same time; ``stack`` is a
-    bound of the stack of a call in bytes, ``lines`` the length of the emitted C.
+    ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding.
+    ``explicit``: no equations are solved, so all steps take the same time. ``stack`` bounds the stack of a
+    call in bytes. ``lines`` is the number of lines of the emitted C.
     """
 
     label: str
@@ -43,7 +43,7 @@ class Features:
 
 
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
-    """Return the properties of a method as emitted to C; ``label`` is by default that of the method."""
+    """Return the properties of a method as emitted to C; ``label`` defaults to the label of the method."""
     source = artifact.files[f"{artifact.manifest['module']}.c"]
     stack = re.search(r"stack: +at most (\d+) bytes", source)
     return Features(
@@ -58,9 +58,9 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 
 
 def is_symplectic(compiled: Compiled) -> bool:
-    """Whether steps of one size are symplectic maps.
+    """Whether steps of constant size are symplectic maps.
 
-    Step-size control destroys the long-time behaviour of symplectic methods, so a run with it does not count.
+    False for methods with step-size control, which destroys the long-time behaviour of symplectic methods.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:
@@ -97,7 +97,10 @@ NEEDS = (
 
 @dataclass(frozen=True)
 class Advice:
-    """For one requirement: the fastest candidate and its CPU seconds for each of :data:`DECADES`, or None."""
+    """For one requirement, the fastest candidate and its CPU seconds for each of :data:`DECADES`.
+
+    An entry of ``best`` is None if no candidate reaches the accuracy.
+    """
 
     need: str
     meaning: str
@@ -105,7 +108,7 @@ class Advice:
 
 
 def advise(entries: Mapping[str, Sequence[Row]], known: Sequence[Features]) -> tuple[Advice, ...]:
-    """Return the advice for every requirement, and last for peers if some ran."""
+    """Return the advice for every requirement, followed by an entry for the peers if any were measured."""
     ours = [(need, [f.label for f in known if need.met(f) and f.label in entries]) for need in NEEDS]
     advice = [Advice(need.name, need.meaning, _best(entries, labels)) for need, labels in ours]
     peers = [label for label, rows in entries.items() if rows and rows[0].target == "peer"]

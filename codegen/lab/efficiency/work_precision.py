@@ -1,8 +1,8 @@
 """Work-precision diagrams: error against CPU time, over a sequence of step sizes or tolerances.
 
-A :class:`Candidate` is an emitted method or a peer. Each run gives one :class:`Row`: the error at the end of
-the span in the norm of the scene, and CPU time as :mod:`codegen.lab.timing` measures it. A run that fails is
-a row with its reason, and so is a candidate that cannot be prepared.
+A :class:`Candidate` is an emitted method or a peer. Each run produces one :class:`Row`: the error at the end
+of the span in the norm of the scene, and CPU time as :mod:`codegen.lab.timing` measures it. A run that fails
+produces a row with the reason, and so does a candidate that cannot be prepared.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ NEAR_ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Row:
-    """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step.
+    """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step size.
 
-    ``seconds`` is the least CPU time of several batches, ``spread`` the relative excess of the largest.
-    ``evaluations``, ``exponentials`` and ``iterations`` count the whole run; they are None if not counted.
-    ``failure`` is the reason if there is neither error nor time.
+    ``seconds`` is the least CPU time of several batches, ``spread`` the relative excess of the largest time.
+    ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; None if they are not counted.
+    ``failure`` is the reason why the run has neither error nor time, else ''.
     """
 
     scene: str
@@ -66,7 +66,7 @@ class Candidate(Protocol):
     key: str
 
     def controls(self) -> Iterator[float]:
-        """Yield numbers of steps or tolerances, coarse to fine."""
+        """Yield numbers of steps or tolerances, from coarse to fine."""
 
     def prepare(self) -> None:
         """Do the work before the first run; InputError if the candidate cannot run on the scene."""
@@ -85,11 +85,10 @@ def measure_rows(
     cache: MeasurementCache,
     done: Callable[[Row], object],
 ) -> tuple[Row, ...]:
-    """Return the rows of a candidate; ``done`` is called with each. Rows that ``cache`` holds are not
-    repeated.
+    """Return the rows of a candidate; ``done`` is called with each row.
 
-    The candidate is prepared only if some row is missing. If it cannot be prepared, the last row has the
-    reason.
+    Rows in ``cache`` are not measured again. The candidate is prepared only if some row is missing. If it
+    cannot be prepared, the last row contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -115,7 +114,7 @@ def measure_rows(
 
 @dataclass
 class Refused:
-    """A method that cannot be emitted for the scene, as a candidate with the reason."""
+    """The candidate for a method that cannot be emitted for the scene; its only row contains the reason."""
 
     label: str
     target: str
@@ -127,11 +126,11 @@ class Refused:
         yield 0.0
 
     def prepare(self) -> None:
-        """Raise the reason."""
+        """Raise InputError with the reason."""
         raise InputError(self.reason)
 
     def measure(self, control: float) -> Row:
-        """Never called, because it cannot be prepared."""
+        """Never called, because :meth:`prepare` fails."""
         raise NotImplementedError
 
     def enough(self, rows: Sequence[Row]) -> bool:
@@ -154,7 +153,7 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 
 
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
-    """Whether two halvings of the step in a row reduced the error little, near rounding."""
+    """Whether the error is near rounding and two successive halvings of the step hardly reduced it."""
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))
     return len(errors) == 3 and errors[0] <= NEAR_ROUNDING * size and min(errors[1:]) > errors[0] / 3

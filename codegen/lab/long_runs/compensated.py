@@ -1,10 +1,11 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
 A step y1 = y0 + d rounds the sum at the last bit of y0, however small d is. If the increment d is available,
-the lost part is carried to the next step: with s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The
-remaining rounding errors are those of d, which are smaller by the factor d/y0. A step of a group, exp(x) y0,
-has the same form: it is y0 + (exp(x) - 1) y0, and the entries of exp(x) - 1 are computed without
-cancellation. The increments are extracted from the kernel, for any method.
+the rounding error of the sum, called the carry, is added to the increment of the next step: with
+s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining errors are the rounding errors of d,
+which are smaller by the factor d/y0. A step exp(x) y0 of a group action also has an increment: it is
+y0 + (exp(x) - 1) y0, and the entries of exp(x) - 1 are computed without cancellation. The increments are
+extracted from the kernel, for any method.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ Statement = Let | Start | Loop
 
 
 def compensated(compiled: Compiled) -> Compiled:
-    """Return the method with a state that is followed by the carry of each coordinate, initially zero.
+    """Return the method with an extended state: the coordinates, then a carry for each, initially zero.
 
     :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
     """

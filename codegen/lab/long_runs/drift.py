@@ -17,10 +17,10 @@ BLOCKS = 20
 CONFIDENCE = 0.95
 
 LOST = 1.0
-"""Relative deviation from which a quantity is lost: its error is as large as the quantity itself."""
+"""Relative deviation from which a quantity counts as lost: the error is as large as the quantity itself."""
 
 BOUNDED, WALK = 0.25, 0.75
-"""Exponents of growth below which a deviation counts as bounded, and as a random walk."""
+"""Below the exponent BOUNDED a deviation counts as bounded, below WALK as a random walk."""
 
 
 @dataclass(frozen=True)
@@ -82,9 +82,9 @@ def fit(
 ) -> Drift:
     """Return the drift of relative deviations from an initial value, sampled after the start.
 
-    ``times`` increase, or decrease in a backward run. ``peaks`` are the largest absolute deviations up to
-    each sample since the sample before, by default the samples themselves. Values from the first one that is
-    not finite on are not used for the slope; the largest deviation is then infinite.
+    ``times`` increase, or decrease in a backward run. A peak is the largest absolute deviation in the
+    interval that ends at a sample; ``peaks`` are by default the absolute values of the samples. If a value is
+    not finite, the slope is fitted to the values before it, and the largest deviation is infinite.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift

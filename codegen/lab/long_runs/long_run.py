@@ -46,12 +46,13 @@ class Kept:
 class LongRun:
     """A run of ``steps`` steps of size ``h``.
 
-    ``failure`` is the message of a step that failed; the results are then those of the steps before it, and
-    ``kept`` is empty if these are too few. ``reversals`` are numbers of steps with the distance from the
-    initial state after a run forward and back: for the whole run and, because chaos amplifies rounding, for
-    a hundredth of it. ``symplectic`` is the symplectic defect of one step; None if the scene is not
-    Hamiltonian, if the run failed, or if the step is too long for the solver in 60 digits. ``rounding`` is
-    the growth of rounding errors in the quantities that the method conserves exactly.
+    ``failure`` is the message of a step that failed. The results then describe the steps before the failure,
+    and ``kept`` is empty if there are too few steps. ``reversals`` are pairs: a number of steps, and the
+    distance from the initial state after that many steps forward and back. They describe the whole run and,
+    because chaos amplifies rounding, a hundredth of the run. ``symplectic`` is the symplectic defect of one
+    step; None if the scene is not Hamiltonian, if the run failed, or if the step is too long for the solver
+    in 60 digits. ``rounding`` is the growth of rounding errors in the quantities that the method conserves
+    exactly.
     """
 
     scene: str
@@ -116,7 +117,7 @@ def long_run(
 
 
 def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple[int, float], ...]:
-    """Return numbers of steps, and the distance from the initial state after as many steps back."""
+    """Return pairs: a number of steps, and the distance from the start after the run forward and back."""
     reversals = []
     for k in (len(trajectory.counts) // 100, len(trajectory.counts) - 1):
         n = trajectory.counts[k]
@@ -126,7 +127,7 @@ def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple
 
 
 def _kept(trajectory: Trajectory, conserved: Collection[str]) -> tuple[Kept, ...]:
-    """Return the quantities with their drifts; all of the deviation of a ``conserved`` one is rounding."""
+    """Return the quantities with their drifts; the deviation of a ``conserved`` quantity is all rounding."""
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < 2 * BLOCKS:
         return ()

@@ -1,12 +1,13 @@
 """The growth of rounding errors over many steps, with and without compensated summation.
 
-It is measured in the quantities that a method conserves exactly in exact arithmetic: the manifold equations,
-and invariants that one step in 60 digits does not change. Independent rounding errors make such a quantity a
-random walk, whose deviation grows like the square root of the number of steps (Brouwer 1937). Biased
-rounding errors make it drift proportionally to the number of steps: a body that rotates by the same angle in
-every step makes the same rounding error in every step, and compensation does not remove it. Deviations are
-computed in 60 digits for several starts along one trajectory. The exponent is that of their root mean
-square; its interval is from the jackknife over the starts.
+The growth is measured in the quantities that a method conserves exactly in exact arithmetic: the manifold
+equations, and invariants that one step in 60 digits does not change. Independent rounding errors make such a
+quantity a random walk, whose deviation grows like the square root of the number of steps (Brouwer 1937).
+Biased rounding errors make such a quantity drift proportionally to the number of steps. For example, a body
+that rotates by the same angle in every step makes the same rounding error in every step, and compensation
+does not remove this error. Deviations are computed in 60 digits for several starts along one trajectory. The
+exponent of growth is fitted to the root mean square of the deviations over all starts. The confidence
+interval of the exponent comes from the jackknife over the starts.
 """
 
 from __future__ import annotations
@@ -33,14 +34,14 @@ APART = 37
 """Steps from one start to the next."""
 
 TIMES = 9
-"""Number of times at which deviations are measured, each after twice as many steps as the one before."""
+"""Number of times at which deviations are measured; the number of steps doubles from one time to the next."""
 
 EXACT = 1e-30
 """A quantity is conserved exactly if one step in 60 digits changes it by less than this, relatively."""
 
 
 NEARLY = 1e-14
-"""The same for a state that is off the manifold by rounding."""
+"""The bound that replaces EXACT for a state that is off the manifold by rounding errors."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class Growth:
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
     """Return the growth of rounding in every exactly conserved quantity, plain and compensated.
 
-    A step without a compensated form gives the plain results only; a run that fails gives none.
+    If the step has no compensated form, only the plain results are returned. If a run fails, none are.
     """
     scene, plain = compiled.scene, Emitted(compiled, "c")
     domain = PreciseDomain(0, DIGITS)
@@ -112,9 +113,9 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return times and states along a trajectory, of the compensated step if there is one.
+    """Return times and states along a trajectory, computed with the compensated step if there is one.
 
-    A start that is off the manifold keeps its distance while it rotates, so starts must be accurate.
+    Starts must be accurate, because a state off the manifold keeps its distance from it while it rotates.
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -130,10 +131,10 @@ def exactly_conserved(
 ) -> dict[str, Evaluate]:
     """Return the quantities, as functions over 60 digits, that steps in 60 digits do not change.
 
-    ``starts`` are times and states. The first state is exact, so the quantity must not change at all. The
-    others are off the manifold by rounding, so a change of the size of rounding is allowed. A step from the
-    initial state alone is not enough, because a quantity may be stationary there. Empty if the interpreter
-    cannot make a step.
+    ``starts`` are times and states. The first state is exact, so a change of at most :data:`EXACT` is
+    allowed. The other states are off the manifold by rounding, so a change up to :data:`NEARLY` is allowed. A
+    step from the initial state alone is not enough, because a quantity may be stationary there. The result is
+    empty if the interpreter cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
@@ -156,7 +157,7 @@ def exactly_conserved(
 
 
 def _distance(name: str, values: Vector, before: Vector) -> float:
-    """Return the largest change; of an invariant relative to its size, if that is not zero."""
+    """Return the largest change; for an invariant, relative to its size before unless that is zero."""
     scale = 1 if name == MANIFOLD else max(abs(x) for x in before) or 1
     return float(max(abs(a - b) for a, b in zip(values, before, strict=True)) / scale)
 

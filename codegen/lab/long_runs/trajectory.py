@@ -1,6 +1,6 @@
 """The record of a long run: conserved quantities at every step, and states at evenly spaced samples.
 
-Quantities are evaluated on arrays of states, in chunks, so that the largest deviation is over all steps while
+Quantities are evaluated on arrays of states, in chunks. So the largest deviation is over all steps, although
 only the samples are stored.
 """
 
@@ -31,10 +31,10 @@ FUNCTIONS = {name: getattr(numpy, name) for name in ("sqrt", "sin", "cos", "exp"
 
 @dataclass
 class Series:
-    """One quantity: signed deviations from the start at the samples, and the largest in each interval
-    between.
+    """One quantity: its signed deviations at the samples, and the largest deviation between samples (peaks).
 
-    ``start`` is the initial value of an invariant, zero for the manifold equations.
+    Deviations are differences from ``start``: the initial value of an invariant, or zero for the manifold
+    equations.
     """
 
     start: float

@@ -1,1 +1,1 @@
-"""The measurements of the report, one class a file."""
+"""The measurements of the report, one class in each file."""

@@ -1,4 +1,4 @@
-"""Which method to use: the fastest for each requirement and accuracy."""
+"""Advice on the choice of a method: the fastest for each requirement and accuracy."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class Advice(Measurement[Recommendations]):
 
 
 def table(result: Recommendations) -> dict[str, object]:
-    """Return the table by requirement and accuracy; ``unmet`` are requirements that no method meets."""
+    """Return the table by requirement and accuracy; ``unmet`` lists the requirements that no method meets."""
     return {
         "errors": [decade(k) for k in DECADES],
         "rows": [

@@ -18,10 +18,10 @@ from orderconds.derivation import derive
 from orderconds.families import names
 
 DEEPEST = 4
-"""Order up to which all conditions are shown; beyond it only the violated ones."""
+"""Order up to which all conditions are shown; at higher orders only the violated conditions are shown."""
 
 LONGEST = 48
-"""Characters of an exact residual that fit a line; longer ones are shown in decimals."""
+"""Number of characters that fit a line; longer exact residuals are shown in decimals."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:
-        """Return a table a family, and the violated conditions."""
+        """Return a table for each family, and the violated conditions."""
         if not result.methods:
             return None
         families = [
@@ -90,7 +90,7 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names():
-            continue  # a variant that only the compiler has; it has no index sums
+            continue  # a family that only the compiler knows; its conditions have no index sums
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
 

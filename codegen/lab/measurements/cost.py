@@ -34,7 +34,7 @@ class Cost(Measurement[CostResult]):
     about = "error against CPU time, beside peers; the operations of a step"
 
     def run(self, subject: Subject) -> CostResult:
-        """Measure all methods, the ones with step-size control, and the peers."""
+        """Measure all methods with equal steps, the methods with step-size control, and the peers."""
         scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
         candidates: list[Candidate] = []
         for method in subject.compiled.measured:

@@ -25,7 +25,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
 
     def section(self, result: tuple[CompiledMethod, ...], subject: Subject) -> Section | None:
-        """Return one entry a method."""
+        """Return one entry for each method."""
         if not result:
             return None
         entries = [_entry(m) for m in result]

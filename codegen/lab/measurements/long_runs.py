@@ -16,7 +16,7 @@ from codegen.lab.page.formatting import Picture, scientific
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
 LEAST = 1e-17
-"""Smallest deviation in a logarithmic plot; smaller ones are drawn there."""
+"""Smallest deviation in a logarithmic plot; smaller deviations are drawn at this value."""
 
 Result = MethodResults[LongRun]
 
@@ -46,7 +46,7 @@ class LongRuns(Measurement[Result]):
         return subject.each(measure)
 
     def as_json(self, result: Result) -> object:
-        """Return one object a method."""
+        """Return one object for each method."""
         return [*(run.as_json() for run in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
@@ -95,7 +95,7 @@ def _pictures(runs: Sequence[LongRun], command: str) -> list[Picture]:
 
 
 def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
-    """Return the running maximum of the deviation: a point where it increases, and the last one."""
+    """Return the running maximum of the deviation: the points where it increases, and the last point."""
     for kept in run.kept:
         if kept.name != name:
             continue

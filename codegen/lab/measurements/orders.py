@@ -31,7 +31,7 @@ class Orders(Measurement[Result]):
         return subject.each(lambda m: order_study(m.compiled, exact, progress, cache))
 
     def as_json(self, result: Result) -> object:
-        """Return one object a method."""
+        """Return one object for each method."""
         return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
@@ -39,7 +39,7 @@ class Orders(Measurement[Result]):
         return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
-        """Return one line a method."""
+        """Return one line for each method."""
         name = subject.scene.name
         for study in result.measured:
             yield f"{name} {study.method.label} {study.compiled.sentence()}"

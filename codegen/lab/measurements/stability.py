@@ -45,11 +45,11 @@ class StabilityTests(Measurement[Result]):
         return subject.each(measure)
 
     def as_json(self, result: Result) -> object:
-        """Return one object a method."""
+        """Return one object for each method."""
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Whether no result is wrong."""
+        """Whether every method was tested, no result is wrong, and every endurance run holds."""
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:

@@ -1,12 +1,13 @@
 """The observed order from errors at a sequence of step sizes, with a verdict against the stated order.
 
-Slopes are taken between neighbouring runs and divided by the true logarithm of the step ratio. Runs whose
-error may be rounding are excluded, and so are all finer ones. For a smooth problem the error is C h^p (1 +
-O(h)), so a slope differs from p by O(h). Dividing h by r divides this difference by r, so the last change of
-the slope divided by r - 1 estimates what remains. Slopes have *settled* when this estimate has been at most
-:data:`SETTLED` twice in a row. The last slope must then be within :data:`TOLERANCE` of the stated order,
-from below and from above. This is two and a half times the estimate and a quarter of the distance to the
-next order, so that a method whose order is higher than stated fails as well.
+A slope is the logarithm of the error ratio of neighbouring runs, divided by the logarithm of the ratio of
+their step sizes. Runs whose error may be rounding are excluded, and so are all finer runs. For a smooth
+problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). Dividing h by r divides this
+difference by r, so the last change of the slope divided by r - 1 estimates the remaining difference. Slopes
+have *settled* when this estimate has been at most :data:`SETTLED` twice in a row. The last slope must then be
+within :data:`TOLERANCE` of the stated order, below or above. The tolerance is two and a half times the bound
+:data:`SETTLED` and a quarter of the distance to the next order, so a method whose order is higher than stated
+fails as well.
 """
 
 from __future__ import annotations

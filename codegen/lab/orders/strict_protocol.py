@@ -23,7 +23,10 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return ``stated``, else the claim of the tableau file, else the certified order."""
+    """Return the order to compare with.
+
+    This is ``stated`` if given, else the claim of the tableau file if there is one, else the certified order.
+    """
     if stated is not None:
         return CertifiedOrder(stated, "stated")
     for claim in method.tableau.claims.orders:

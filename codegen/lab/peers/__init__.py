@@ -1,9 +1,9 @@
 """Peers: other integrators, run on the ambient equations of a scene for comparison with emitted code.
 
-A peer integrates y' = f(y).y in the coordinates of the state, compiled where its library permits. A peer
-whose name ends in *projected* is projected onto the manifold after each step. LSODA has no projected
-variant, because its steps depend on past values. Work before the first step (compilation, Taylor
-recurrences) is set-up time and is reported separately, as for emitted code.
+A peer integrates y' = f(y).y in the coordinates of the state, with compiled code if its library permits. A
+peer whose name ends in *projected* projects the state onto the manifold after each step. LSODA has no
+projected variant, because its steps depend on past values. The time before the first step (compilation,
+Taylor recurrences) is set-up time and is reported separately, as for emitted code.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from orderconds.errors import InputError, UnknownName
 
 
 class PeerFailed(ArithmeticError):
-    """A peer that stopped before the end of the span; the message is its own reason."""
+    """A peer that stopped before the end of the span; the message is the reason that the peer reports."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """The final state of a run, its number of steps, and of field evaluations if the peer counts them."""
+    """The final state of a run, the number of steps, and the number of field evaluations if it is counted."""
 
     state: tuple[float, ...]
     steps: int
@@ -60,7 +60,7 @@ class PeerModule(Protocol):
     """A module of this package that runs peers."""
 
     def peer(self, name: str) -> Peer:
-        """Return the peer of that name."""
+        """Return the named peer."""
 
 
 PEERS = {
@@ -98,7 +98,7 @@ def installed(name: str) -> bool:
 
 
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
-    """Return the named peers in the order of :data:`PEERS`; a group gives its installed members.
+    """Return the named peers in the order of :data:`PEERS`; the name of a group means its installed members.
 
     :class:`UnknownName` for an unknown name, :class:`InputError` for a named peer that is not installed.
     """

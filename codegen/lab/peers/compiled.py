@@ -1,9 +1,9 @@
 """Classical integrators in C on the ambient equations: DOP853 with its own step control, and projected RK4.
 
 The code is generated from the straight-line field that the other peers use, and is built with the flags of
-emitted modules. Coefficients of DOP853 come from the library; its second error estimator is the rule of
-order 3 through nodes 1, 9 and 12 that its authors chose (Hairer, Norsett and Wanner I, section II.10), and
-the step is chosen as in section II.4 there.
+emitted modules. Coefficients of DOP853 come from the library of tableaux. The second error estimator of
+DOP853 is the rule of order 3 through nodes 1, 9 and 12 that the authors of DOP853 chose (Hairer, Norsett and
+Wanner I, section II.10). The step size is controlled as in section II.4 of that book.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Projection of a state onto its manifold, which users of general integrators apply after each step.
 
-A rotation matrix takes one Newton step towards its polar factor, g (3 - g^T g)/2, which squares its defect.
-A point on which a rotation group acts is scaled to its initial distance from the origin. Momenta do not
-change.
+A rotation matrix g is replaced by g (3 - g^T g)/2, one Newton step towards the polar factor of g. This step
+squares the distance of g from orthogonality. A point on which a rotation group acts is scaled to its initial
+distance from the origin. Momenta do not change.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from codegen.loader import StepFailed
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""CPU seconds that a run may take. If ten million steps take longer, fewer are made and reported."""
+"""CPU seconds that a run may take. If all steps would take longer, fewer steps are made and reported."""
 
 TRIAL = 1000
 
@@ -24,10 +24,10 @@ TRIAL = 1000
 class Endurance:
     """A run of ``steps`` steps.
 
-    ``defect`` is the distance from the manifold at the end (None if the manifold is a vector space),
-    ``returned`` the distance from the initial state after a run forward and back. ``failure`` is the status
-    message if the run stopped early. A run holds if it stopped with a status, or if its final state is finite
-    and off the manifold by no more than rounding.
+    ``defect`` is the distance from the manifold at the end (None if the manifold is a vector space).
+    ``returned`` is the distance from the initial state after a run forward and back. ``failure`` is the
+    status message if the run stopped early. A run holds if it stopped with a status, or if the final state is
+    finite and its distance from the manifold can be explained by rounding.
     """
 
     name: str
@@ -54,7 +54,7 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Run a method with steps of a hundredth of the span: forward, and forward and back."""
+    """Run a method twice with steps of a hundredth of the span: once forward, once forward and back."""
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100
     start = time.process_time()

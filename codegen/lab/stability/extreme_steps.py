@@ -1,20 +1,22 @@
 """Single steps on extreme input: emitted C compared with the interpreter in 60 digits on the same doubles.
 
-The result of a step is compared with the exact result and with probes. A probe changes the input, the result
-of every operation of the step program and both sides of the equations of an implicit step by one rounding
-error. The change of the exact result under the probes shows how many digits are *determined* by the input.
+The result of a step is compared with the exact result and with probes. A probe is an exact step in which the
+input, the result of every operation of the step program, and both sides of the equations of an implicit step
+are changed by one rounding error. The change of the exact result under the probes shows how many digits are
+*determined* by the input.
 
 - A result is *accurate* if it has at least :data:`LEAST` digits and rounding explains its error.
 - It is *undetermined* if rounding explains its error but leaves fewer digits (a rotation by 1e20 radians has
   no correct digit). The emitted code should return a status for such a step.
 - It is *wrong* if it is finite and rounding does not explain its error.
 
-Digits are relative to the larger of a block of the state before and after the step. Numbers below the least
-normal double count as zero.
+Digits are relative to the size of a block of the state, before or after the step, whichever is larger.
+Numbers below the least normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
-interpreter, its solution is taken. Otherwise Newton's method in 60 digits starts from the solution of emitted
-Python, which uses the algorithm of emitted C, and converges to a solution or shows that there is none.
+interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
+from the solution of emitted Python, which uses the algorithm of emitted C. Newton's method then converges to
+a solution near that result, or shows that there is none.
 """
 
 from __future__ import annotations
@@ -41,7 +43,7 @@ TINY = 2.0**-1022
 """The least normal double; smaller results count as zero."""
 
 ROUNDINGS = 256.0
-"""Factor by which the error of a step may exceed the effect of one rounding of every input and operation."""
+"""Largest ratio of the error of a step to the effect of one rounding of every input and operation."""
 
 LEAST = 3
 """Smallest number of correct digits of an accurate result."""
@@ -84,7 +86,7 @@ class Answer:
     determined: float | None = None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data. The digits of a state of zeros are null, because all are determined."""
+        """Return plain data. For a state of zeros all digits are determined, and their number is null."""
         digits = self.determined
         return {
             "case": self.case.name,
@@ -96,7 +98,7 @@ class Answer:
 
 
 def cases(compiled: Compiled) -> Iterator[Case]:
-    """Yield extreme cases of a method on a scene, around its initial state and a hundredth of its span."""
+    """Yield extreme cases: changes of the scene's initial state, and of a step of a hundredth of its span."""
     scene = compiled.scene
     state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
     t, h = float(scene.span[0]), float((scene.span[1] - scene.span[0]) / 100)
@@ -235,7 +237,7 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
     """Return the solved unknowns of each implicit block of a step of emitted Python, in order.
 
     None if the step fails or has no implicit block. Emitted code passes the unknowns of every substep to
-    ``_remember``, which prepares the next warm start; it is observed here.
+    ``_remember``, which prepares the next warm start. This function records the arguments of ``_remember``.
     """
     integrator = runner.python.integrator
     assert isinstance(integrator, InterpretedIntegrator)
@@ -263,8 +265,8 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 class Rounding(PreciseDomain):
     """Numbers of many digits in which every result of an operation has one rounding error of a double.
 
-    One side of every equation gets a rounding error of its own size and one of its neighbour's size. The
-    signs are random but the same throughout a probe, so that the equations remain smooth.
+    One side of every equation gets a rounding error of its own size and a rounding error of the size of the
+    next equation. The signs are random but do not change during a probe, so the equations remain smooth.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -279,14 +281,14 @@ class Rounding(PreciseDomain):
         return value * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON))
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the images of the unknowns of an equation with rounding errors."""
+        """Return the images (right-hand sides) of the unknowns, with rounding errors."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * EPSILON for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
         return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the step of a difference quotient; the effect of rounding is needed to a few digits only."""
+        """Return the offset of a difference quotient; a few digits of the effect of rounding are enough."""
         return self.context.mpf(2) ** -40 * max(1, abs(x))
 
 

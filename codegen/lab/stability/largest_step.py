@@ -2,8 +2,8 @@
 usable.
 
 A number of equal steps over the span is usable if no step fails, the final error is below a tenth of the
-state's size, and a conserved energy has changed by at most a tenth of its size. The first failure with one
-step fewer is the limit: the solver, numbers that are not finite, the energy, or the accuracy.
+state's size, and a conserved energy has changed by at most a tenth of its size. The stated reason is the
+failure with one step fewer: the solver, numbers that are not finite, the energy, or the accuracy.
 """
 
 from __future__ import annotations
@@ -26,7 +26,10 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """``steps`` of size ``h`` are usable, one fewer is not, for ``reason``; None if none are usable."""
+    """The least usable number of steps and their size; ``reason`` is why one step fewer is not usable.
+
+    ``h`` and ``steps`` are None if no number of steps up to :data:`MOST` is usable.
+    """
 
     h: float | None
     steps: int | None
@@ -56,7 +59,7 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
 
 
 def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) -> str | None:
-    """Return why a number of steps is not usable, or None if it is."""
+    """Return why a number of steps is not usable; None if it is usable."""
     scene = compiled.scene
     first, last = scene.span
     h = float(Fraction(last - first) / steps)

@@ -1,8 +1,8 @@
 """Linear stability: the stability function of a tableau and its stability intervals on both axes.
 
-For y' = lambda y a Runge-Kutta method gives y1 = R(h lambda) y0. A method on a group solves the frozen
-linear part of the field exactly by its exponentials. For the remaining part, R of the same tableau applies,
-so the stability region of the tableau bounds the step there.
+For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0. A method on a group solves the
+frozen linear part of the field exactly, by exponentials. The stability function R of its tableau applies to
+the remaining part of the field, so the stability region of the tableau bounds the step size for that part.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ SLACK = 1e-9
 
 @dataclass(frozen=True)
 class Quotient:
-    """A rational function of complex numbers, by ascending coefficients."""
+    """A rational function of a complex number; coefficients are in ascending order of powers."""
 
     numerator: tuple[float, ...]
     denominator: tuple[float, ...]
@@ -33,10 +33,10 @@ class Quotient:
 
 @dataclass(frozen=True)
 class Region:
-    """R as a function of complex numbers, and how far |R| <= 1 reaches from zero along both axes.
+    """The stability function R (``value``) and the intervals from zero on both axes on which |R| <= 1.
 
-    ``real`` is the length of the interval on the negative real axis, ``imaginary`` on the imaginary axis;
-    infinity if it reaches beyond :data:`FARTHEST`.
+    ``real`` is the length of the interval on the negative real axis, ``imaginary`` the length of the interval
+    on the positive imaginary axis. A length is infinity if it exceeds :data:`FARTHEST`.
     """
 
     label: str

@@ -1,8 +1,9 @@
 """Order reduction: the observed order on stiff variants of a scene, with steps longer than the fast time
 scale.
 
-Steps are halved, from one step over the span. Slopes between runs with h times the rate above one show the
-order in the stiff regime; their median is compared with the stated order.
+Steps are halved, beginning with one step over the span. The slopes between runs with h times the rate of the
+fast motion above one show the order in the stiff regime. The median of these slopes is compared with the
+stated order.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from codegen.method import Method
 from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
-"""Number of runs; each has twice as many steps as the one before."""
+"""Number of runs; the number of steps doubles from run to run."""
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
 """Step size, error (None if the run failed), and the reason of a failure."""

@@ -23,7 +23,7 @@ from codegen.scenes import stiff_variants
 
 @dataclass(frozen=True)
 class Findings:
-    """The results that have to be measured, apart from the linear stability of the tableau."""
+    """The measured results; linear stability is computed from the tableau and not part of them."""
 
     limit: Limit
     answers: tuple[Answer, ...]
@@ -53,7 +53,7 @@ class Stability:
 
     @property
     def held(self) -> bool:
-        """Whether it is honest and every result is accurate or a status, none undetermined."""
+        """Whether the method is honest and every result is accurate or a status, none undetermined."""
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
     def as_json(self) -> dict[str, object]:
