@@ -1,4 +1,5 @@
-"""The natural maps between rings: Q into everything, number fields into balls, any ring into its series."""
+"""The natural maps between rings: Q into everything, number fields into balls, any ring into power series
+over it."""
 
 from __future__ import annotations
 
