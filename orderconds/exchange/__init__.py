@@ -30,7 +30,7 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""For the name of a format, its module, with ``write`` and ``read``, and its suffix."""
+"""The module of each format, which defines ``write`` and ``read``, and the format's suffix."""
 
 
 def export(data: Data, to: str) -> bytes:

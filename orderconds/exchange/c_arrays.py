@@ -92,8 +92,8 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return C source without strings and comments, except comments in initialisers; and the comments before
-    them.
+    """Return C source without strings and comments, except comments in initialisers, and the list of comments
+    before the first initialiser.
     """
     kept: list[str] = []
     comments: list[str] = []

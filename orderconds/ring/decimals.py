@@ -61,8 +61,7 @@ def rational_decimal(x: fmpq, digits: int) -> str:
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n; flint converts any integer, but Python refuses more than 4300
-    digits."""
+    """Return the decimal digits of n; Python refuses more than 4300, flint does not."""
     return str(fmpz(n))
 
 

@@ -1,5 +1,5 @@
-"""The natural maps between rings: Q into everything, number fields into balls, any ring into power series
-over it."""
+"""The natural maps between rings: Q into every ring, number fields into balls, a ring into its power
+series."""
 
 from __future__ import annotations
 

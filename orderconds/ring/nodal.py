@@ -94,8 +94,7 @@ class NodalAlgebra:
 
 
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
-    """Return the algebra of the nodes c_i = sum_j a_ij of the first matrix; None if its maps are not
-    rational.
+    """Return the algebra of the nodes c_i = sum_j a_ij of the first matrix; None if it is not rational.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))

@@ -17,8 +17,7 @@ PRIMES = (2147483647, 2147483629)
 
 
 class Residues:
-    """The ring (Z/prime)^samples; a rational number is an element if the prime does not divide its
-    denominator.
+    """The ring (Z/prime)^samples; it contains p/q if the prime does not divide q.
 
     >>> R = Residues(101, 2)
     >>> R.text(R.rational(1, 2) * 2 + R.one)

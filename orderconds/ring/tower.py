@@ -55,8 +55,7 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the final ring (Q if nothing was adjoined) and the map that lifts earlier numbers into
-        it."""
+        """Return the final ring (Q if nothing was adjoined) and the map of earlier numbers into this ring."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift

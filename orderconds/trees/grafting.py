@@ -48,8 +48,7 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
-    r"""Return, with repetitions, all forests that arise when each tree of ``word`` is hung from a vertex of
-    ``onto``.
+    r"""Return, with repetitions, all forests with each tree of ``word`` hung from some vertex of ``onto``.
 
     Trees hung from the same vertex keep their order and are placed left of the vertex's own branches.
 

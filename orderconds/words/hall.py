@@ -51,8 +51,7 @@ class HallBasis:
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
-        """Return the coordinates of any bracket of letters; ValueError for a bracket above the largest
-        weight.
+        """Return the coordinates of any bracket of letters; ValueError above the largest weight.
 
         >>> HallBasis("AB", 3).rewrite((("A", "B"), "A"))
         {('A', ('A', 'B')): Fraction(-1, 1)}
