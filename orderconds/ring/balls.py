@@ -96,6 +96,8 @@ class Balls:
     def text(self, x: Ball) -> str:
         """Return x as a tableau coefficient: a point exactly, any other ball as a decimal with ``~``.
 
+        The sign ``~`` means an error of at most one unit in the last digit.
+
         >>> R = Balls(64)
         >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
         ('-0.375', '0.8177~')

@@ -1,5 +1,4 @@
-"""The natural maps between rings: Q into every ring, number fields into balls, a ring into its power
-series."""
+"""The natural maps between rings: Q into every ring, number fields into balls, rings into power series."""
 
 from __future__ import annotations
 

@@ -7,11 +7,11 @@ Expanding the step about (q0, mu1) gives each stage velocity and momentum as a s
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's]``,
 
-where Phi_w(i) is the coefficient of the word w in stage i's group element. Brackets denote the coefficient of
-a word in a group element; the letter x is a variation of the velocity of stage i and occurs once. The method
-has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's value for every tree with at most p vertices.
-Families differ only in the way in which velocities become group elements: products of exponentials here (VCG,
-VCF), one exponential of a Lie series in :mod:`orderconds.series.action_lie`.
+where Phi_w(i) is the coefficient of the word w in stage i's group element. Square brackets denote the
+coefficient of a word in a group element; the letter x is a variation of the velocity of stage i and occurs
+once. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's value for every tree with at most
+p vertices. Families differ only in the way in which velocities become group elements: products of
+exponentials here (VCG, VCF), one exponential of a Lie series in :mod:`orderconds.series.action_lie`.
 """
 
 from __future__ import annotations
@@ -35,8 +35,9 @@ Row = tuple[Exponential, ...]
 
 
 class ActionSeries(ABC):
-    """Coefficients of one method over one ring; every value is computed once. ``weights`` are the b_i, all
-    invertible in ``ring``. Row ``stages`` (the last row) belongs to the update.
+    """Coefficients of one method over one ring; every value is computed once.
+
+    ``weights`` are the b_i, all invertible in ``ring``. Row ``stages`` (the last row) belongs to the update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -154,9 +155,9 @@ class ActionSeries(ABC):
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
 
-    ``rows`` are the stages' exponentials and then the update's; b_i is the sum of the update's coefficients
-    at stage i. Equation (3.18) for VCG; for VCF the discrete Lagrangian has the same form, and its Hamilton
-    equations contain the coefficient of each exponential.
+    ``rows`` are the exponentials of each stage and, last, of the update; b_i is the sum of the update's
+    coefficients at stage i. For VCG this is equation (3.18); for VCF the discrete Lagrangian has the same
+    form, and its Hamilton equations contain the coefficient of each exponential.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

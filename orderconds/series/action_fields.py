@@ -190,8 +190,7 @@ class ActionFields:
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the covector x -> derivative of H along x, then the tree's word, and the tree's
-        covectors."""
+        """Return the covector x -> derivative of H along x, the tree's word and the tree's covectors."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -26,8 +26,7 @@ Varied = dict[int, Element]
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The action series of the tableau (A, b) used in VRKMK, with dexpinv truncated after the power
-    ``cutoff``.
+    """The action series of the tableau (A, b) in VRKMK, with dexpinv truncated after the power ``cutoff``.
 
     A word is evaluated at all stages together, and for the variations of all stages together.
 

@@ -216,8 +216,7 @@ class _Search:
     def program(
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
-        """Return the arguments, with ``before[i]`` computed just before u_i; None if that takes too many
-        brackets."""
+        """Return a program with ``before[i]`` just before u_i; None if it has too many brackets."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -295,7 +294,7 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return a solution; if requested, after a random change of some unknowns."""
+        """Return a solution; with a random generator, some unknowns may be changed at random first."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -314,8 +313,7 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return the polynomial that each unknown multiplies, for y = ``right`` and the part ``left`` of
-        x."""
+        """Return the polynomial that each unknown multiplies; ``right`` is y and ``left`` a part of x."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:

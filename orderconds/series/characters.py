@@ -84,8 +84,7 @@ class Character:
         return undone
 
     def adjoint(self) -> Character:
-        """Return the inverse of the step with -h (HLW II.3, Definition 3.1); symmetric methods are
-        self-adjoint.
+        """Return the inverse of the step with -h (HLW II.3, Def. 3.1); symmetric methods are self-adjoint.
 
         >>> from orderconds.ring import QQ
         >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))

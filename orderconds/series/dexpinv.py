@@ -72,8 +72,7 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word``, with at least n letters, in every u_i^n, or in u^n of the
-        step."""
+        """Return the coefficient of a word with at least n letters in every u_i^n, or in the step's u^n."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:

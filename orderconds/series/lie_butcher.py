@@ -1,4 +1,4 @@
-"""Lie-Butcher series: values on ordered forests of products of exponentials and of the exact flow.
+"""Lie-Butcher series: the values of products of exponentials and of the exact flow on ordered forests.
 
 A forest is a word of ordered trees, the first acting first. For g = exp(X_m) ... exp(X_1) with X_J a
 combination of trees, and k = f(g y0), the coefficient of a word is
