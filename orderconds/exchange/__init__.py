@@ -1,9 +1,9 @@
 """Tableaux to and from the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Every import and export uses the keys of a tableau file (:func:`orderconds.tableau.record.from_data`).
-So an imported tableau obeys the same grammar, and no input is ever executed. An exported method reads back as
-exactly the same method, rounded decimals with all their digits. TOML and JSON hold everything in a file; the
-other formats hold no proof (:func:`left_out`). Foreign decimals with 12 significant digits or more count as
+Every import and export uses the keys of a tableau file (:func:`orderconds.tableau.record.from_data`). So an
+imported tableau obeys the same grammar, and no input is ever executed. Importing an exported method gives
+exactly the same method; rounded decimals keep all their digits. TOML and JSON keep every key of a file; the
+other formats omit the proof (:func:`left_out`). Foreign decimals with 12 significant digits or more count as
 rounded (``~``), shorter ones as exact.
 """
 
@@ -30,7 +30,7 @@ FORMATS = {
     "latex": ("orderconds.exchange.latex_array", ".tex"),
     "c": ("orderconds.exchange.c_arrays", ".c"),
 }
-"""For the name of a format, its module, with ``write`` and ``read``, and its suffix."""
+"""The module of each format, which defines ``write`` and ``read``, and the format's suffix."""
 
 
 def export(data: Data, to: str) -> bytes:

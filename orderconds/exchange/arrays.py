@@ -1,10 +1,11 @@
 """A tableau as named arrays of coefficients in text form: the content of tables, matrices and C arrays.
 
-The proof of rounded decimals is left out, because it refers to names in the file.
-``rk`` gives A, b and embedded_b with embedded_order; ``prk`` A, b, A_hat, b_hat; ``composition`` gamma, or
-alpha and beta. ``cf`` gives the exponentials of all stages and of the update as rows of ``exponentials``.
-``count`` has the number of exponentials of each stage and, last, of the update; ``start`` has the stage from
-which each starts, 0 for y0. With embedded_order the last product is the embedded update.
+The proof of rounded decimals is left out, because it refers to names in the file. The arrays of a family are:
+for ``rk`` A, b and embedded_b with embedded_order; for ``prk`` A, b, A_hat, b_hat; for ``composition`` gamma,
+or alpha and beta. For ``cf`` they are the exponentials of all stages and of the update as rows of
+``exponentials``. ``count`` has the number of exponentials of each stage and, last, of the update. ``start``
+has the stage from which each product starts, 0 for y0. With embedded_order the last product is the embedded
+update.
 """
 
 from __future__ import annotations
@@ -72,7 +73,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
 
 
 def data_without_names(tableau: Tableau) -> Data:
-    """Return the keys of a tableau's file, without names in coefficients other than those of roots.
+    """Return the keys of a tableau's file, with no names in coefficients except names of roots.
 
     Exact coefficients are in lowest terms; rounded ones keep the digits of the file.
 

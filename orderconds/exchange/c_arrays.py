@@ -92,8 +92,9 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
-    """Return C source without strings and comments, except comments in initialisers; and the comments before
-    them.
+    """Return C source without strings, and the comments before the first initialiser.
+
+    Comments in initialisers stay in the source; all others are removed.
     """
     kept: list[str] = []
     comments: list[str] = []

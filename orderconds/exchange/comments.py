@@ -1,6 +1,6 @@
 """Texts of a tableau in comments of source files: one line each, so that no text ends its comment.
 
-A backslash and every character that could end a line, a comment, or change the direction of writing is
+A backslash and every character that could end a line or a comment, or change the direction of writing, is
 escaped as in Python; ``*/`` and ``/*`` are separated for C.
 """
 

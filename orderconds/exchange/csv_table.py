@@ -1,7 +1,7 @@
 """CSV: each line holds a name and then an array, or a name and then one row of a matrix.
 
 A plain Butcher tableau can be read as well. Each of its lines holds c_i and a row of A; a line that begins
-with an empty cell holds b, a second one the embedded weights. Blank cells elsewhere are zeros.
+with an empty cell holds b, a second such line the embedded weights. Blank cells elsewhere are zeros.
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _unique(pairs: list[tuple[str, object]]) -> Data:
-    """Return an object; raise an error for a repeated name, of which Python would take the last."""
+    """Return an object; raise an error for a repeated name, since Python would keep only the last value."""
     members: Data = {}
     for name, value in pairs:
         if name in members:

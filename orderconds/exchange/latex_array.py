@@ -1,4 +1,4 @@
-r"""LaTeX: a Butcher tableau as an ``array`` with rules, other methods as matrices by name.
+r"""LaTeX: a Butcher tableau as an ``array`` with rules, other methods as named matrices.
 
 The reader accepts ``\begin{array}{c|cc}`` with c, A (blank cells are zeros), a rule and b, and
 ``A = \begin{pmatrix} ... \end{pmatrix}``.
@@ -36,7 +36,7 @@ _NAMED = re.compile(r"([A-Za-z_\\{}]{1,64})\s{0,9}=\s{0,9}$")
 
 
 def write(data: Data) -> bytes:
-    r"""Return LaTeX for a display.
+    r"""Return LaTeX for a displayed formula.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode())
     % name: m

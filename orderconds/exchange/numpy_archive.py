@@ -1,6 +1,6 @@
 """NumPy: an ``.npz`` archive with float64 arrays, and for each an array of exact texts (``A_exact``).
 
-An archive without exact texts is read by its floats, as decimals with all their digits.
+In an archive without exact texts, the floats are read as decimals with all their digits.
 """
 
 from __future__ import annotations

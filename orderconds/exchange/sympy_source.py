@@ -86,7 +86,7 @@ def _root(coefficients: list[str], place: int) -> str:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file from such source, which is not executed.
+    """Return the keys of a tableau file from Python source, which is not executed.
 
     >>> read(b"A = Matrix([[Rational(1, 2)]])\\nb = [1]", "m.py")["A"]
     [['(1/2)']]

@@ -1,8 +1,8 @@
 """Unevaluated coefficients: the expressions of a file, with every name replaced by its definition.
 
-Tables and arrays have no names, and rounded decimals must keep their digits, which a computed ball loses.
-So the method is built over a ring of expressions: those of the file, and sums and products of them where a
-format is expanded (low-storage schemes). Only operations with zero and one are simplified.
+Tables and arrays cannot hold named numbers. Rounded decimals must keep their digits, which a computed ball
+would lose. So the method is built over a ring of expressions: the expressions of the file, and their sums and
+products where a format is expanded (low-storage schemes). Only operations with zero and one are simplified.
 """
 
 from __future__ import annotations
@@ -132,7 +132,7 @@ class UnevaluatedNumbers:
         return self.text(x)
 
     def text(self, x: Unevaluated) -> str:
-        """Return the coefficient; raise :class:`CoefficientTooLong` if a file may not hold it."""
+        """Return the coefficient; raise :class:`CoefficientTooLong` if it is too long for a file."""
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(

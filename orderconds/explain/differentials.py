@@ -1,7 +1,7 @@
 """Texts of the elementary differentials and Hamiltonians that belong to trees.
 
-Each function serves one kind of tree. ``f''(x, y)`` is a derivative applied to vectors; subscripts name the
-variables of partial derivatives, one letter each. Words stand for commutators of fields.
+Each function handles one kind of tree. ``f''(x, y)`` is a derivative applied to vectors; subscripts name the
+variables of partial derivatives, one letter each. Words denote commutators of fields.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ def hamiltonian(tree: levels.Tree) -> str:
 def frozen_differential(forest: levels.Forest) -> str:
     r"""Return the differential operator of an ordered forest, or the vector field of an ordered tree.
 
-    ``f[x y]`` is f differentiated along the frozen fields x and y, the innermost derivative along y: the
-    order of the word, in which x acts first. A forest is the product of its operators (Munthe-Kaas and
-    Wright, Found. Comput. Math. 8 (2008) 227).
+    ``f[x y]`` is f differentiated along the frozen fields x and y, with the innermost derivative along y.
+    This is the order of the word, in which x acts first. The operator of a forest is the product of the
+    operators of its trees (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 
     >>> frozen_differential(b"\0\1\2\1"), frozen_differential(b"\0\1\0")
     ('f[f[f] f]', 'f[f] f')

@@ -25,10 +25,10 @@ Member = Any
 class Kind:
     """One kind of trees, words or forests.
 
-    ``members`` enumerates those of an order; ``count`` computes their number independently, from generating
-    functions. ``text`` is the text of a member, ``diagram`` its drawing, ``names`` the text of its elementary
-    differential or Hamiltonian. With ``independent`` the members have an independent set of conditions of the
-    family that illustrates the kind, else all of its conditions.
+    ``members`` enumerates the members of an order; ``count`` computes their number independently, from
+    generating functions. ``text`` is the text of a member, ``diagram`` its drawing, ``names`` the text of its
+    elementary differential or Hamiltonian. A family illustrates the kind. If ``independent`` is true, the
+    members have an independent set of the family's conditions, otherwise all of them.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]

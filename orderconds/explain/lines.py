@@ -10,7 +10,7 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 
 @dataclass(frozen=True)
 class Style:
-    """The signs of one way of drawing.
+    """The characters of one drawing style.
 
     ``fork`` and ``last`` join a branch to its parent, ``rail`` runs down beside the branches of a fork.
     A force is followed by its position in the word at its vertex, ``(▸*▸)`` for f(t * u).

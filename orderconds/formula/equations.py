@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable
 
 LINE = 60
-"""The largest width of a line in signs, about the text width of an article."""
+"""The largest width of a line in characters, about the text width of an article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
@@ -69,7 +69,7 @@ def _terms(latex: str, within: int) -> list[str]:
 
 
 def _width(latex: str) -> float:
-    """Estimate the width of a formula in signs; fractions and scripts are smaller."""
+    """Estimate the width of a formula in characters; fractions and scripts are narrower."""
     scripts = sum(len(script) for script in re.findall(r"[_^]\{([^}]*)\}", latex))
     plain = re.sub(r"[_^]\{[^}]*\}|\\hat|\\Big[lr]", "", latex)
     plain = re.sub(r"\\tfrac\{(\d+)\}\{(\d+)\}", lambda m: max(m.groups(), key=len), plain)

@@ -1,7 +1,7 @@
 """The syntax tree of index sums, its text, and functions that build and simplify formulas.
 
-Bound indices must have names of their own while a formula is being built (:func:`fresh` gives them);
-:func:`named` then renames them readably. Upper-case indices run over exponentials, others over stages.
+Bound indices must have unique names while a formula is being built (:func:`fresh` gives them); :func:`named`
+then renames them readably. Upper-case indices run over exponentials, others over stages.
 """
 
 from __future__ import annotations
@@ -219,8 +219,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
     """Name bound indices in reading order: i, j, k ... for stages, I, J, K ... for exponentials.
 
-    Free indices are renamed by ``names``, if they occur there. Sums that differ by the names of bound
-    indices only become identical.
+    A free index is renamed if ``names`` has an entry for it. Sums that differ only by the names of bound
+    indices become identical.
 
     >>> i = fresh()
     >>> named(index_sum((i,), (), coefficient("b", i))).text()

@@ -47,8 +47,7 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the limits: ``i < j`` gives i the range 1..j-1 inside the sum over j, or j a range from i+1 for
-    free i."""
+    """Return the limits: ``i < j`` restricts i to 1..j-1 in a sum over j; if i is free, j starts at i+1."""
     limits, remaining = [], list(indices)
     while remaining:
         # SymPy's innermost limit comes first: take an index that bounds no remaining index.

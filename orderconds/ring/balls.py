@@ -1,7 +1,7 @@
 """Certified real balls (Arb) of a fixed working precision.
 
-A ball encloses one unknown real number. A ball without zero proves that the number is not zero. Only the
-exact point zero proves equality, so structural zeros of a tableau stay zeros.
+A ball encloses one unknown real number. A ball that does not contain zero proves that the number is not zero.
+Only the exact point zero proves that the number is zero, so structural zeros of a tableau stay zeros.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from orderconds.ring.roots import isolate
 
 
 class Balls:
-    """The ring of real balls computed with ``bits`` of precision; equal bits, equal ring.
+    """The ring of real balls computed with ``bits`` of precision; rings with equal ``bits`` are equal.
 
     >>> R = Balls(128)
     >>> third = R.rational(1, 3)
@@ -74,7 +74,7 @@ class Balls:
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return how far, in bits, the largest number in x is from 1; the mantissas are bounded."""
+        """Return the size of the binary exponent of x; mantissas are bounded by the precision."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -94,7 +94,9 @@ class Balls:
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Return x as a tableau coefficient: points exactly, others with ``~`` (one unit in the last digit).
+        """Return x as a tableau coefficient: a point exactly, any other ball as a decimal with ``~``.
+
+        The sign ``~`` means an error of at most one unit in the last digit.
 
         >>> R = Balls(64)
         >>> R.text(R.rational(-3, 8)), R.text(R.around(fmpq(81772, 100000), fmpq(1, 100000)))
@@ -113,7 +115,7 @@ class Balls:
         return f"{sign}{body[:-places]}.{body[-places:]}~"
 
     def key(self, x: Ball) -> tuple[int, ...]:
-        """Return the exact ends as integers."""
+        """Return the exact end points as integers."""
         low, high = endpoints(x.value)
         return int(low.p), int(low.q), int(high.p), int(high.q)
 
@@ -138,11 +140,11 @@ class Balls:
 
 
 class Enclosures:
-    """The same ring on flint's own balls, for a block that sets the working precision once.
+    """The ring of real balls with flint's own balls as elements; the caller sets the working precision once.
 
-    Elements are ``arb``, without a precision of their own. Inside ``with precision(bits)`` each operation
-    gives the same ball as :class:`Balls`, but faster. Division by a ball that contains zero gives a ball that
-    is not finite; :class:`Ball` raises an error.
+    Elements are ``arb``, which have no precision of their own. Inside ``with precision(bits)`` each operation
+    gives the same ball as in :class:`Balls`, but faster. Division by a ball that contains zero gives a ball
+    that is not finite, whereas :class:`Ball` raises an error.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -172,7 +174,7 @@ class Enclosures:
         return Balls(self.bits).text(Ball(x, self.bits))
 
     def key(self, x: arb) -> tuple[int, ...]:
-        """Return the exact ends as integers."""
+        """Return the exact end points as integers."""
         return Balls(self.bits).key(Ball(x, self.bits))
 
     def approximate(self, x: arb, digits: int = 20) -> str:
@@ -190,7 +192,7 @@ def _supported_places(radius: fmpq) -> int:
     """Return the most decimal places d with radius + half a unit <= one unit, that is 10^-d >= 2 radius."""
     places = len(str(radius.q)) - len(
         str(radius.p)
-    )  # flint converts integers of any length, Python at most 4300 digits
+    )  # flint converts integers of any length, Python only up to 4300 digits
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
     return places

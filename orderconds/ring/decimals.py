@@ -1,7 +1,7 @@
 """Exact numbers as decimals and doubles, rounded once and correctly.
 
-A number is given as a rational or as an enclosure that can be asked for more bits; the enclosure is refined
-until both of its ends round to the same answer, so the result never depends on a working precision.
+A number is given as a rational or as an enclosure that can be asked for more bits. The enclosure is refined
+until both of its ends round to the same answer. So the result never depends on a working precision.
 """
 
 from __future__ import annotations
@@ -61,12 +61,12 @@ def rational_decimal(x: fmpq, digits: int) -> str:
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n; flint converts any integer, Python none beyond 4300 digits."""
+    """Return the decimal digits of n; Python refuses more than 4300, flint does not."""
     return str(fmpz(n))
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Place the point: plain notation near one, scientific far from it."""
+    """Insert the decimal point: plain notation for numbers near one, scientific notation for others."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:

@@ -33,9 +33,9 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of that size, 3 modulo 4, that divide none of the numbers ``avoided``.
+        """Yield different primes of ``bits`` bits, 3 modulo 4, that divide none of the numbers ``avoided``.
 
-        Modulo such a prime a square root is a power.
+        Modulo such a prime p, the power (p + 1)/4 of a square is a square root.
 
         >>> next(Draws("one file").primes(61)).bit_length()
         61

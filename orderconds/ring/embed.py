@@ -1,4 +1,4 @@
-"""The natural maps between rings: Q into everything, number fields into balls, any ring into its series."""
+"""The natural maps between rings: Q into every ring, number fields into balls, rings into power series."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """Real number fields: exact algebraic numbers that decide zero.
 
-A field Q(a) is a monic irreducible polynomial together with enclosures of the real root a; an element is a
-polynomial in a of lower degree. It is zero iff that polynomial is. Fields are built by
-:class:`orderconds.ring.tower.Tower`, one root at a time, and an element of a smaller field of the tower joins
-arithmetic in a larger one by itself.
+A field Q(a) is represented by a monic irreducible polynomial and enclosures of its real root a. An element is
+a polynomial in a of lower degree; it is zero iff this polynomial is zero.
+:class:`orderconds.ring.tower.Tower` builds fields, one root at a time. In arithmetic, an element of a smaller
+field of a tower is lifted to the larger field automatically.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""From this degree on division is a linear system."""
+"""From this degree on, division solves a linear system."""
 
 REMEMBERED = 1000
-"""How many numbers of smaller fields a field remembers with their images."""
+"""The largest number of elements of smaller fields whose lifts a field caches."""
 
 
 class Generator(Struct, frozen=True):
     """A root adjoined to a field: its symbol, the index n of a radical (0 for a named root), its enclosure.
 
-    The symbol of a radical ``radicand^(1/index)`` is its radicand, that of a named root its name. ``degree``
-    is the degree of the field over the one before. ``minpoly`` is kept for named roots, so that a file can be
-    written.
+    The symbol of a radical ``radicand^(1/index)`` is its radicand; the symbol of a named root is its name.
+    ``degree`` is the degree of the field over the preceding field. Named roots keep their ``minpoly``,
+    because a tableau file states it.
     """
 
     symbol: str
@@ -54,9 +54,10 @@ class Generator(Struct, frozen=True):
 class NumberField:
     """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
 
-    ``generators`` are the adjoined roots, ``images`` their polynomials in x, ``parent`` the field before
-    the last generator and ``parent_image`` the image of its x. ``reciprocals`` have been computed before: a
-    method divides by the same few weights, and one division costs as much as many products.
+    ``generators`` are the adjoined roots; ``images`` are these roots as polynomials in x. ``parent`` is the
+    field before the last root was adjoined; ``parent_image`` is the parent's primitive element as a
+    polynomial in x. ``reciprocals`` is a cache, because a method divides by the same few weights, and one
+    division costs as much as many products.
     """
 
     def __init__(
@@ -85,7 +86,7 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """A key that equal fields share: their generators with the enclosed roots, in order."""
+        """The generators with the enclosed roots, in order: equal fields have equal keys."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -322,13 +323,13 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return y with x y = 1 by linear algebra, where Euclid's remainders would have long coefficients."""
+        """Return y with x y = 1 by linear algebra, because Euclid's algorithm has long coefficients."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
 
     def _multiples(self) -> list[fmpq_poly]:
-        """Return x a^k, a the primitive element: the columns of multiplication by x."""
+        """Return x a^k for the primitive element a: the columns of the matrix of multiplication by x."""
         columns, image = [], self.polynomial
         for _ in range(self.field.degree):
             columns.append(image)

@@ -1,7 +1,7 @@
 """Balls with gradients: values and first derivatives of any formula, enclosed together.
 
-Automatic differentiation in forward mode. The precision is that of the caller, who computes inside ``with
-precision(bits)``; the enclosures of the value and of all partial derivatives are then rigorous.
+This is automatic differentiation in forward mode. The caller sets the precision with ``with
+precision(bits)``. The enclosures of the value and of all partial derivatives are rigorous.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable of that place, enclosed by ``value``."""
+        """Return the variable with index ``place``, enclosed by ``value``."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
-        """Return a number that does not vary."""
+        """Return a constant, a number with zero gradient."""
         return Jet(value, self.width)
 
     def rational(self, p: int, q: int = 1) -> Jet:
@@ -62,7 +62,7 @@ class Jets:
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 
     def is_zero(self, x: Jet) -> bool | None:
-        """Return True for the constant zero, False where zero lies outside, else None."""
+        """Return True for the constant zero, False if the enclosure excludes zero, else None."""
         if not x.value.contains(0):
             return False
         flat = x.slopes is None or all(g.is_zero() for g in x.gradient)
@@ -84,7 +84,7 @@ class Jets:
 class Jet:
     """A value and its gradient, all flint balls; ``slopes`` None means that the gradient is zero.
 
-    The gradient is a matrix of one row, on which flint computes at once.
+    The gradient is a matrix of one row, so that one flint call computes with all its entries.
     """
 
     __slots__ = ("slopes", "value", "width")

@@ -1,7 +1,8 @@
-"""Laurent polynomials over Q: polynomials in which monomials, as the weights b_i, may be divided by.
+"""Laurent polynomials over Q, which can be divided by monomials such as the weights b_i.
 
-Families that divide by b_i (SPRK, VCG) are expanded for a fixed number of stages over this ring. An
-element is a flint polynomial over a monomial without common factor, so equal elements are equal pairs.
+Families that divide by b_i (SPRK, VCG) are expanded for a fixed number of stages over this ring. An element
+is a fraction in lowest terms, a flint polynomial over a monomial. So equal elements have equal numerators and
+equal denominators.
 """
 
 from __future__ import annotations

@@ -1,13 +1,14 @@
 """Vectors over the stages as polynomials in the nodes, for methods where these polynomials are rational.
 
-Let the nodes c_i of a method be the simple roots of one polynomial M over Q, as those of Gauss, Radau and
-Lobatto methods are. A vector x over the stages is then p(c) for one polynomial p modulo M, componentwise
-products are those of polynomials modulo M, and a matrix A is a linear map of polynomials. Where A c^k is a
-*rational* polynomial in c, and b.c^k a rational number, for k < s, all computations stay in Q: for five Radau
-nodes, which generate a field of degree 24, a product costs one flint operation and not 5 of degree 24.
+Let the nodes c_i of a method be the simple roots of one polynomial M over Q, as in Gauss, Radau and Lobatto
+methods. Each vector x over the stages is then p(c) for exactly one polynomial p modulo M. The componentwise
+product of vectors is the product of polynomials modulo M, and a matrix A is a linear map of polynomials. If A
+c^k is a *rational* polynomial in c and b.c^k a rational number for all k < s, all computations stay in Q. For
+example, five Radau nodes generate a field of degree 24, but a product costs one flint operation instead of
+five of degree 24.
 
-The rational polynomials are guessed from balls and then verified exactly in the field. ``A p = int_0^z p`` up
-to multiples of M and corrections at few powers, none where A is a collocation method's.
+The rational polynomials are guessed from balls and then verified exactly in the field. ``A p`` is ``int_0^z
+p`` modulo M, plus corrections at a few powers; a collocation method has no corrections.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
-"""Precision of the balls that rational numbers are guessed from."""
+"""The precision of the balls from which rational numbers are guessed."""
 
 Matrix = Sequence[Sequence[Element]]
 
@@ -31,8 +32,9 @@ Matrix = Sequence[Sequence[Element]]
 class NodalAlgebra:
     """Q[z]/M for the nodes of a method, with its matrices and weights as maps.
 
-    ``corrections[kind]`` are pairs (k, polynomial): A z^k minus its integral; ``moments`` are pairs (k,
-    number): b.c^k minus 1/(k + 1). Vectors are ``fmpq_poly`` of degree below the number of stages.
+    ``corrections[kind]`` holds pairs (k, polynomial), the non-zero differences of A z^k and the integral of
+    z^k. ``moments`` holds pairs (k, number), the non-zero differences b.c^k - 1/(k + 1). Vectors are
+    ``fmpq_poly`` of degree below the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -63,7 +65,7 @@ class NodalAlgebra:
         return x * y % self.modulus
 
     def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
-        """Return A x, A the matrix of that number."""
+        """Return A x, where A is the matrix with index ``kind``."""
         image = x.integral() % self.modulus
         for k, correction in self.corrections[kind]:
             image = image + correction * x[k]
@@ -77,7 +79,7 @@ class NodalAlgebra:
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the rational matrices of A - 1 b^T and of A, the first one, on polynomials in the nodes.
+        """Return the matrices of A - 1 b^T and of A on polynomials in the nodes, for the first matrix A.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -92,7 +94,7 @@ class NodalAlgebra:
 
 
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
-    """Return the algebra of the nodes c_i = sum_j a_ij of the first matrix, None where it is not rational.
+    """Return the algebra of the nodes c_i = sum_j a_ij of the first matrix; None if it is not rational.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -105,7 +107,7 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """Coefficients by identity, so that the orders of one check share an algebra."""
+    """A cache key: coefficients compared by identity, so that the orders of one check share one algebra."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -153,7 +155,7 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """Interpolation at the nodes in balls."""
+    """Guess the rational coefficients of a polynomial by interpolation at the nodes with balls."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)

@@ -1,6 +1,6 @@
 """Truncated power series in h over any base ring: h^0 ... h^order are kept, the rest is dropped.
 
-Run over this ring, a step program yields the exact Taylor coefficients of its local error.
+A step program that runs over this ring yields the exact Taylor coefficients of its local error.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class PowerSeries:
         return self.constant(self.base.rational(p, q))
 
     def constant(self, x: Element) -> Series:
-        """Take an element of the base ring as a constant."""
+        """Return an element of the base ring as a constant series."""
         return Series(self, (x, *self.zero.coefficients[1:]))
 
     def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:

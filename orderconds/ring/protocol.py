@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import Any, Protocol
 
 Element = Any
-"""An element of some ring, or a second operand: rings are duck-typed, so that objects of flint, mpmath and
-NumPy serve unwrapped. This and :data:`Key` are the only places where a ring's types are left open."""
+"""An element of some ring, or a second operand. Rings are duck-typed, so objects of flint, mpmath and NumPy
+need no wrapper. Only this alias and :data:`Key` leave the types of a ring open."""
 
 Key = tuple[Any, ...]
 """A key by which elements of one ring are compared: hashable, and totally ordered within the ring."""
@@ -31,7 +31,7 @@ class Ring(Protocol):
         """Decide x = 0; None if the ring cannot decide (a ball that contains zero never proves zero)."""
 
     def text(self, x: Element) -> str:
-        """Return x as exact text, in the grammar of tableau files where that has a form for it."""
+        """Return x as exact text, in the grammar of tableau files where the grammar can express x."""
 
     def key(self, x: Element) -> Key:
         """Return a hashable, totally ordered key; equal elements of this ring have equal keys."""
@@ -44,7 +44,7 @@ class RingWithRoots(Ring, Protocol):
     """A ring in which real roots of elements can be taken."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root of x of that index."""
+        """Return the real ``index``-th root of x."""
 
 
 class RealRing(Ring, Protocol):

@@ -1,4 +1,4 @@
-"""Which columns are combinations of those before them: the echelon form of a matrix modulo a prime."""
+"""Linear dependences between the columns of a matrix modulo a prime, from its echelon form."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from orderconds.ring.residues import Residue
 
 
 def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
-    """Return the places of the columns that are no combination of earlier ones; their number is the rank.
+    """Return the places of the columns that are no combination of earlier columns: as many as the rank.
 
-    The rows are the samples: with random samples the answer is that for the functions that the columns
-    sample, except with probability about (number of columns) / prime, and never more columns than that.
+    Each column holds the values of one function, one sample in each row. With random samples the answer is
+    also correct for the functions, except with probability about (number of columns) / prime. The number of
+    pivots never exceeds the rank of the functions.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

@@ -20,10 +20,10 @@ def rank(rows: Sequence[Row]) -> int:
 
 
 def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction]]]:
-    """Yield a basis of the vectors x with ``rows`` x = 0, each by its entries (place, value) that are not 0.
+    """Yield a basis of the vectors x with ``rows`` x = 0, each as its non-zero entries (place, value).
 
-    Pivots are taken from the left, so that each basis vector has the entry 1 at a place of its own, which
-    comes first, and otherwise entries at pivots only.
+    Pivots are taken from the left. Each basis vector has the entry 1 at one column that is no pivot, listed
+    first, and its other entries at pivot columns.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

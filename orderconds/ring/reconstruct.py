@@ -10,8 +10,8 @@ from math import isqrt, prod
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
     """Return the one fraction p/q with |p| and q at most sqrt(M/2), M the product of the primes.
 
-    Chinese remainders, then Euclid's algorithm stopped halfway (von zur Gathen and Gerhard, *Modern Computer
-    Algebra*, Section 5.10). Raises ArithmeticError where there is none.
+    It is found by Chinese remainders and then by Euclid's algorithm, stopped halfway (von zur Gathen and
+    Gerhard, *Modern Computer Algebra*, Section 5.10). Raises ArithmeticError if no such fraction exists.
 
     >>> primes = (10007, 10009)
     >>> print(rational_number([-5 * pow(12, -1, p) % p for p in primes], primes))

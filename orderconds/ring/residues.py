@@ -17,7 +17,7 @@ PRIMES = (2147483647, 2147483629)
 
 
 class Residues:
-    """The ring (Z/prime)^samples, a quotient of Q wherever denominators avoid the prime.
+    """The ring (Z/prime)^samples; it contains p/q if the prime does not divide q.
 
     >>> R = Residues(101, 2)
     >>> R.text(R.rational(1, 2) * 2 + R.one)
@@ -78,7 +78,7 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    __array_ufunc__ = None  # numpy scalars on the left must give way to __radd__ and friends
+    __array_ufunc__ = None  # so that NumPy scalars on the left leave the operation to __radd__ etc.
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:
         self.ring, self.values = ring, values

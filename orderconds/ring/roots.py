@@ -59,7 +59,7 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 
 
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
-    """Return the shortest decimal, of at least 10 places, within one unit of which this root lies alone.
+    """Return the shortest decimal, of at least 10 places, whose last unit isolates ``root`` from other roots.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision
@@ -90,7 +90,7 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
-    """Return balls around the real roots, ascending: an index names the same root at any precision.
+    """Return balls around the real roots, ascending, so that an index denotes the same root at any precision.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]

@@ -1,8 +1,8 @@
-"""Residues modulo a prime, many samples at once, without NumPy, whose import takes as long as a check.
+"""Vectors of residues modulo a prime, without NumPy, whose import takes as long as a whole check.
 
-The ring (Z/p)^n of n samples is (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))), the sample k being the value at
-z = k: sums and products of polynomials are those of all samples. Coefficients are a linear change of
-coordinates of the samples, so that ranks can be computed from them.
+The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))): sample k is the
+value of a polynomial at z = k. One sum or product of polynomials thus computes all samples. The coefficients
+are an invertible linear map of the samples, so ranks can be computed from the coefficients.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class Samples:
         return Sample(self, total)
 
     def random(self, generator: Random) -> Sample:
-        """Return independent uniform residues: coefficients are as random as values."""
+        """Return independent uniform residues; uniform coefficients give uniform samples."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )
@@ -62,7 +62,7 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return as many residues as there are samples, a linear image of them that determines them."""
+        """Return the ``count`` coefficients, an invertible linear map of the samples."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -143,9 +143,9 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return the places of the columns that are no combination of earlier ones modulo ``prime``: pivots.
+    """Return the pivots: the places of columns that are no combination of earlier columns modulo ``prime``.
 
-    With them every other column as a combination of pivots: column to {pivot: residue}.
+    The second value maps every other column to its combination of pivot columns, {pivot: residue}.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

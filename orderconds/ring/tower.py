@@ -1,9 +1,9 @@
-"""Number fields from radicals and named roots, one at a time, until one field holds every coefficient.
+"""Number fields to which radicals and named roots are adjoined until one field holds every coefficient.
 
 To adjoin a root b of a separable polynomial over K = Q(a), form the algebra K[x]/(polynomial), find an
-element c (b, ab, b + a, b - a, ...) whose powers span it, and its characteristic polynomial. The
-irreducible factor that c satisfies as a real number is chosen by balls. So sqrt(8) = 2 sqrt(2) is seen: the
-factor then has the degree of K, and b is returned as an element of K.
+element c (b, ab, b + a, b - a, ...) whose powers span it, and its characteristic polynomial. Balls decide
+which irreducible factor vanishes at the real number c. If this factor has the degree of K, b is already an
+element of K, and is returned as one: thus sqrt(8) becomes 2 sqrt(2).
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""Fields of larger degree are refused: balls serve better there."""
+"""Fields of larger degree are refused, because balls are then more efficient."""
 MAX_DIMENSION = 64
-"""Algebras of larger dimension are not even formed."""
+"""Algebras of larger dimension are refused before they are formed."""
 
 
 class DegreeError(ArithmeticError):
@@ -55,7 +55,7 @@ class Tower:
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the final ring, Q where nothing was adjoined, and the lift of earlier numbers into it."""
+        """Return the final ring (Q if nothing was adjoined) and the map of earlier numbers into this ring."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
@@ -66,9 +66,10 @@ class Tower:
         return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
 
     def root(self, x: Algebraic, index: int) -> Algebraic:
-        """Return the real root of x of that index, adjoining it if need be.
+        """Return the real ``index``-th root of x, adjoining it if necessary.
 
-        Raises ValueError for an even root of a negative number, :class:`DegreeError`.
+        Raises ValueError for an even root of a negative number, and :class:`DegreeError` for too large a
+        field.
         """
         sign = x.field.sign(x)
         if sign == 0 or index == 1:
@@ -82,7 +83,7 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational times the root of the least integer: p/q = p q^(k-1) / q^k."""
+        """Return x^(1/index) as a rational times the root of the least integer, by p/q = p q^(k-1) / q^k."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -118,7 +119,7 @@ class Tower:
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
         """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``.
 
-        Raises ValueError where there is not exactly one, :class:`DegreeError`.
+        Raises ValueError unless there is exactly one, and :class:`DegreeError` for too large a field.
         """
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
@@ -129,7 +130,7 @@ class Tower:
     def _adjoin(
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
-        """Adjoin b with b^k = sum_j powers[j] b^j, k = len(powers); return b in the field it then lies in."""
+        """Adjoin b with b^k = sum_j powers[j] b^j, k = len(powers); return b in the new field."""
         field = self.field
         if len(powers) == 1:
             return powers[0]
@@ -238,7 +239,7 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Factor a positive integer, the part beyond 128 bits left whole once small primes are out."""
+    """Factor a positive integer; above 128 bits, only small primes are divided out."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

@@ -1,7 +1,8 @@
-"""Recorded arithmetic: elements are places in a straight-line program, to be run later on any numbers.
+"""Recorded arithmetic: an element is the place (index) of an operation in a straight-line program.
 
-An engine that runs once over this ring records the list of its operations. Equal operations are recorded
-once, operations with the constants 0 and 1 not at all.
+An engine that runs once over this ring records its operations. The program can later be evaluated at any
+inputs. Equal operations are recorded once; operations with the constants 0 and 1 are simplified and not
+recorded.
 """
 
 from __future__ import annotations
@@ -14,13 +15,14 @@ from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""Operations: x + y, x y, x / y of two places, the n-th root of one, a rational number, an input."""
+"""Operations: x + y, x y or x / y of two elements, the n-th root of one element, a rational number, an
+input."""
 
 
 @dataclass(frozen=True)
 class Operation:
-    """One step of a program; ``left`` and ``right`` are places before it, ``value`` a constant, an input or
-    the index of a root."""
+    """One step of a program; ``left`` and ``right`` are places of earlier operations, ``value`` a constant,
+    an input or the index of a root."""
 
     kind: int
     left: int = 0

@@ -7,11 +7,11 @@ Expanding the step about (q0, mu1) gives each stage velocity and momentum as a s
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's]``,
 
-where Phi_w(i) is the coefficient of the word w in stage i's group element, and x is, once, a
-variation of the velocity of stage i. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's
-value for every tree with at most p vertices. Families differ only in the way in which velocities become group
-elements: products of exponentials here (VCG, VCF), one exponential of a Lie series in
-:mod:`orderconds.series.action_lie`.
+where Phi_w(i) is the coefficient of the word w in stage i's group element. Square brackets denote the
+coefficient of a word in a group element; the letter x is a variation of the velocity of stage i and occurs
+once. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's value for every tree with at most
+p vertices. Families differ only in the way in which velocities become group elements: products of
+exponentials here (VCG, VCF), one exponential of a Lie series in :mod:`orderconds.series.action_lie`.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """Coefficients of one method over one ring; every value is computed once.
 
-    ``weights`` are the b_i, all invertible in ``ring``. Row ``stages`` (the last) is the update's.
+    ``weights`` are the b_i, all invertible in ``ring``. Row ``stages`` (the last row) belongs to the update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -60,7 +60,7 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v in it, where x is a variation of the velocity of that stage."""
+        """Return the coefficient of u x v in the row, where x is a variation of the velocity of ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
         """Return :meth:`coefficient` for every stage."""
@@ -130,7 +130,7 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return sum_i b_i tau_t(i): a tree's coefficient in the update, and its Hamiltonian's.
+        """Return sum_i b_i tau_t(i): the coefficient of the tree in the update and of its Hamiltonian.
 
         Intermediate values for this tree only are not cached, so that all trees of an order fit in memory.
         """
@@ -142,12 +142,12 @@ class ActionSeries(ABC):
         """Return the coefficient of every word with at most that many vertices in the update's group element.
 
         With ``F(t)`` the right-invariant field of t at (q0, mu1), divided by its symmetry, the step moves a
-        function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, the field of the first letter
-        being the first to move the point. The momentum has no coefficients of its own: mubar1 - mubar0, with
-        mubar1 = Ad*_{q1} mu1, is the sum over t = (v, M) of the coefficient of the one-letter word t times
-        the covector ``x -> -D_q H(x v | M)``, x acting first; and the coefficient of ``<mu1, ad t_1 ... ad
-        t_k x>`` in mubar1 is that of the word ``t_k ... t_1``. (mubar is taken relative to q0.)
-        :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates both.
+        function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, where the field of the first
+        letter moves the point first. The same coefficients determine the momentum. Let mubar be the momentum
+        relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum over t = (v, M) of the
+        coefficient of the one-letter word t times the covector ``x -> -D_q H(x v | M)``, where x acts first.
+        The coefficient of ``<mu1, ad t_1 ... ad t_k x>`` in mubar1 is the coefficient of the word ``t_k ...
+        t_1``. :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates both.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -155,9 +155,9 @@ class ActionSeries(ABC):
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
 
-    ``rows`` are the stages' exponentials and then the update's; b_i is the sum of the update's coefficients
-    at stage i. Equation (3.18) for VCG; for VCF the discrete Lagrangian of the same form, whose Hamilton
-    equations carry each exponential's own coefficient.
+    ``rows`` are the exponentials of each stage and, last, of the update; b_i is the sum of the update's
+    coefficients at stage i. For VCG this is equation (3.18); for VCF the discrete Lagrangian has the same
+    form, and its Hamilton equations contain the coefficient of each exponential.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

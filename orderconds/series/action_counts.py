@@ -4,10 +4,10 @@ from __future__ import annotations
 
 
 def tree_counts(order: int) -> tuple[int, ...]:
-    """Return the numbers of unrooted trees, elementary Hamiltonians, with 1..order vertices.
+    """Return the numbers of unrooted trees (elementary Hamiltonians) with 1..order vertices.
 
-    U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W = 1/(1 - T): an upper bound of the number of
-    independent conditions.
+    Their generating function is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W = 1/(1 - T).
+    The numbers are upper bounds of the numbers of independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -31,7 +31,7 @@ def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees under root switching.
 
     A class is an unrooted tree, with one vertex more than edges along which the root moves. Hence the number
-    of classes is that of rooted trees minus that of trees with a marked force.
+    of classes is the number of rooted trees minus the number of trees with a marked force.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]

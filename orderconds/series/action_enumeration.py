@@ -1,9 +1,9 @@
 """Enumerate action trees with a given number of vertices on demand, simplest first.
 
-The cost of a tree is a sum of non-negative parts of its subtrees, so that all trees up to a limit consist
-of subtrees up to that limit; since parts are tried in order of cost, the first one beyond the limit ends the
-search. A long list is enumerated in bands of rising limits, and only as far as necessary: of the 6331 trees
-with six vertices, those that decide most methods are among the simplest few hundred.
+The cost of a tree is a sum of non-negative costs of its subtrees. Hence all trees up to a cost limit consist
+of subtrees up to the same limit. Subtrees are tried in order of cost, so the search ends at the first one
+beyond the limit. A long list is enumerated in bands of rising limits, and only as far as necessary: of the
+6331 trees with six vertices, the simplest few hundred decide most methods.
 """
 
 from __future__ import annotations
@@ -142,7 +142,7 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return the multisets that cost no more than ``limit``, with their costs, sorted by these."""
+    """Return the multisets that cost no more than ``limit``, with their costs, sorted by cost."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 

@@ -1,10 +1,10 @@
 """The exact flow's action series: iterated integrals over [0, 1], as univariate polynomials over Q.
 
 A stage becomes a time s, sums over stages become ordered integrals, a_ji becomes 1 for i earlier than j, and
-1/b_i drops:
+the factor 1/b_i disappears:
 
 - ``Phi_w(s)`` is the iterated integral of tau over 0 <= s_1 <= ... <= s_k <= s;
-- ``psi_{L(t_1...t_k)}(s)`` that over 1 >= s_1 >= ... >= s_k >= s;
+- ``psi_{L(t_1...t_k)}(s)`` is the iterated integral over 1 >= s_1 >= ... >= s_k >= s;
 - ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``, where the word v is read
   between s and s': ``Phi_v(s, s') = sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
 """

@@ -1,8 +1,8 @@
 """The elementary velocities and covectors of action trees for one Hamiltonian, and the local error.
 
-Derivatives are exact: a multilinear derivative of H is the coefficient of eps_1 ... eps_k where every eps
-squares to zero. So H may be any polynomial in the entries of q and the coordinates of mu, over any ring, and
-the group any matrix group: a right-invariant derivative replaces q by (1 + eps X) q.
+Derivatives are exact: a multilinear derivative of H is the coefficient of eps_1 ... eps_k in a value of H,
+where every eps squares to zero. So H may be any polynomial in the entries of q and the coordinates of mu,
+over any ring, and the group any matrix group: a right-invariant derivative replaces q by (1 + eps X) q.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ... whose squares are zero: a value for each bit mask of them.
+    """A polynomial in eps_1, eps_2, ... whose squares are zero; a bit mask denotes a product of them.
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -68,8 +68,9 @@ class ActionFields:
     """The elementary velocities xi_t and covectors m_p of one Hamiltonian at one point (q, mu).
 
     ``hamiltonian(q, mu)`` takes a matrix (tuple of rows) and the coordinates of mu, and uses ``+ - *`` only.
-    ``basis`` are matrices that span the Lie algebra, ``coordinates`` turns a matrix of it into coordinates;
-    mu has its coordinates in the dual basis. Trees are evaluated without their symmetry factors, h = 1.
+    ``basis`` are matrices that span the Lie algebra, ``coordinates`` converts a matrix in this algebra to
+    coordinates. The coordinates of mu refer to the dual basis. Trees are evaluated with h = 1 and without
+    symmetry factors.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -165,8 +166,9 @@ class ActionFields:
     def local_error(self, defects: Mapping[Word, Element]) -> tuple[Matrix, Coordinates]:
         """Return the coefficients of h^(p+1) of q1 - q(h) (a matrix) and of mu1 - mu(h) (coordinates).
 
-        ``defects`` are method minus flow of the update's coefficients (``update_words``) for every word with
-        p + 1 vertices, all shorter ones being zero. In the leading term trees may be taken at (q, mu) itself.
+        ``defects`` maps each word with p + 1 vertices to the coefficient of the method's update
+        (``update_words``) minus the coefficient of the flow. For all shorter words the difference must be
+        zero. In the leading term, trees may be evaluated at (q, mu) itself.
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -183,12 +185,12 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # This is the error of mu0 as a function of mu1; that of mu1 as a function of mu0 is its negative.
+            # This is the error of mu0 as a function of mu1; the error of mu1 has the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return ``x -> D_q H`` along x and then the tree's word, and along its covectors."""
+        """Return the covector x -> derivative of H along x, the tree's word and the tree's covectors."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

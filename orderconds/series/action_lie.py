@@ -1,8 +1,8 @@
 """The action series of VRKMK: group elements are single exponentials of a Lie series in the stage velocities.
 
-``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, and ``Y`` with b_j for the update (3.16). A variation of one
-stage's velocity is one more letter, which belongs to that stage alone and occurs once. So the coefficient of
-``u x v`` is that of a word in which the letter x is written between u and v.
+``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, and ``Y``, with b_j in place of a_ij, for the update (3.16). A
+variation of the velocity of one stage is an additional letter x, which belongs to this stage only and occurs
+once. So the coefficient of ``u x v`` is the coefficient of the word in which x is written between u and v.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from orderconds.series.b_series import Sums, sparse
 from orderconds.series.dexpinv import dexpinv_terms
 
 Terms = tuple[tuple[Fraction, int, int], ...]
-"""Coefficients of X^n xi X^m, with m and n."""
+"""Triples (coefficient, m, n) of the terms X^n xi X^m."""
 
 Varied = dict[int, Element]
 """The coefficient of a word u x v, by the stage whose velocity x varies; zeros may be missing."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The action series of the tableau (A, b) read as VRKMK with dexpinv cut after the power ``cutoff``.
+    """The action series of the tableau (A, b) in VRKMK, with dexpinv truncated after the power ``cutoff``.
 
     A word is evaluated at all stages together, and for the variations of all stages together.
 
@@ -42,7 +42,7 @@ class MuntheKaasActionSeries(ActionSeries):
     ) -> None:
         super().__init__(ring, b)
         self._cutoff = cutoff
-        # The arguments of the stages, and that of the update.
+        # The arguments of the stages, and the argument of the update.
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
         self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}
@@ -64,7 +64,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v there, x the variation of that stage's velocity."""
+        """Return the coefficient of u x v in the row's exponential; x varies the velocity of ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -97,7 +97,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _power(self, update: int, n: int, word: Word) -> Stages:
-        """Return the coefficient of a word, of n letters at least, in every X_i^n, or in Y^n."""
+        """Return the coefficient of a word with at least n letters in every X_i^n, or in Y^n."""
         values = self._powers.get((update, n, word))
         if values is None:
             if n == 1:
@@ -127,7 +127,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the coefficients of u x v in X_i X_i^(n-1): the first factor takes a head of the word."""
+        """Add the coefficients of u x v in X_i X_i^(n-1): a head of the word comes from X_i."""
         for cut in range(1, len(before) + len(after) + 3 - n):
             rest = cut - len(before) - 1  # letters of v in the head, if x is in the head
             if rest >= 0:
@@ -208,10 +208,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms of dexpinv that see a letter between words of these lengths.
+        """Return the terms of dexpinv that contribute to a letter between words of these lengths.
 
-        In a word the first letter acts first: X^n xi X^m reads the word of X^m first. A power of X has a
-        word's coefficient only if the word is empty where the power is 1.
+        In a word the first letter acts first, so in X^n xi X^m the word of X^m comes first. The power X^0 = 1
+        contributes only if its word is empty.
         """
         known = self._in_sight.get((before, behind))
         if known is None:
@@ -238,7 +238,7 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series with the inverse of dexp cut off: dexp_(r),X_j v_j = xi_j, X_i = h sum_j a_ij v_j.
+    """The action series with the inverse of truncated dexp: dexp_(r),X_j v_j = xi_j, X_i = h sum_j a_ij v_j.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

@@ -1,10 +1,10 @@
 """Independent action conditions: rank modulo products of lower ones, on random tableaux modulo a prime.
 
 A condition of order n is superfluous if its value, for every method **and for the flow**, is the same
-combination of the other values of order n and of products of values of lower order. The values at many
-random methods and at the flow decide that, vectorised; greedy pivots in the canonical order keep the
-simplest trees. Without the flow, a condition that a family cannot meet would count as dependent (VRKMK with
-dexpinv cut too early).
+combination of the other values of order n and of products of values of lower order. This is decided from the
+values at many random methods and at the flow, computed together. Pivots are chosen greedily in the canonical
+order, so that the simplest trees are kept. Without the flow, a condition that a family cannot meet would
+count as dependent (for example VRKMK with dexpinv truncated too early).
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ memory."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
-    """Return, for each order 1..order, the trees whose conditions are independent of simpler and lower ones.
+    """Return, for each order 1..order, the trees whose conditions are independent of all simpler conditions.
 
-    Computed modulo two primes. A rank modulo a prime is never larger than over Q. Hence the returned trees
-    are proved to be independent, with all products of lower ones; the larger set is used. With high
-    probability no tree is missing; this is proved if their number is the bound of
-    :func:`~orderconds.series.action_counts.tree_counts` allows (VCF).
+    The rank is computed modulo two primes, and the larger set of trees is used. A rank modulo a prime is
+    never larger than the rank over Q. Hence the returned trees, with all products of trees of lower order,
+    are proved to be independent. With high probability no tree is missing. This is proved if the number of
+    trees equals the bound of :func:`~orderconds.series.action_counts.tree_counts` (VCF).
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -97,9 +97,9 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 
 
 def _largest_rank(order: int) -> int:
-    """Return the largest possible number of independent conditions and products of these at one order.
+    """Return the largest possible number of independent conditions and of their products at one order.
 
-    The generating function of polynomials in U_1 + U_2 + ... graded unknowns.
+    It is the number of monomials of degree ``order`` in U_n unknowns of each degree n = 1, 2, ...
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -1,9 +1,10 @@
-"""Why the other action conditions are dependent: each is a polynomial in the independent ones.
+"""Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
 The value of a tree, for every method of the family and for the flow, is a combination of monomials of its
-degree in the values of independent trees. Trees that are one unrooted tree have one value; the coefficients
-of the rest solve linear equations at random methods, modulo two primes, from which the fractions are
-recovered. Three relations of order 4 that VCG has and VCF has not follow from ``psi_{L(H|L)} = 3 psi_{L(HH)}
+degree in the values of independent trees. Trees with the same unrooted tree have the same value. For the
+other trees, the coefficients of the combination solve linear equations at random methods. These are solved
+modulo two primes, and the fractions are recovered from the residues. Three relations of order 4 hold for VCG
+but not for VCF. They follow from ``psi_{L(H|L)} = 3 psi_{L(HH)}
 - psi_{L(H)}^2``.
 """
 
@@ -21,15 +22,15 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""Coefficients and the trees whose values are multiplied."""
+"""The terms of a polynomial: a coefficient and the trees whose values are multiplied."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
     """Return the polynomial that each dependent tree of the last order equals.
 
     ``independent`` are the independent trees of each order 1, 2, ..., by
-    :func:`orderconds.series.action_rank.independent_trees`. Exact unless chance, about one in 10^8, hides a
-    difference at every sample; the tests verify relations over Q at methods of their own.
+    :func:`orderconds.series.action_rank.independent_trees`. The result is exact, except with a probability of
+    about 10^-8 that every sample hides a difference. The tests verify the relations over Q at other methods.
 
     >>> from functools import partial
     >>> from orderconds.families import get

@@ -1,8 +1,8 @@
 """Root switching: trees with the same unrooted tree have the same condition for every method.
 
-A force that hangs on the root vertex can become the root instead: ``o(w | M, H(u*v | N))`` and ``o(u o(w |
-M) v | N)`` have equal coefficients, for every method and for the flow, because the sum over the stages of
-the edge between them may be taken last. Hence one tree of each class is enough.
+A force that hangs on the root vertex can become the root instead: ``o(w | M, H(u*v | N))`` and ``o(u o(w | M)
+v | N)`` have equal coefficients, for every method and for the flow, because either sum over the stages at the
+ends of the connecting edge may be taken last. Hence one tree of each class is enough.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
-    """Yield the trees whose root is a neighbour, along a force, of this tree's.
+    """Yield the trees that arise when the root moves along a force to a neighbouring vertex.
 
     >>> list(switched(velocity((), (force(), force()))))
     [o(o(|f(*))), o(o(|f(*)))]
@@ -40,7 +40,7 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes one after the other, that of the simplest tree first; each is computed once.
+    """Yield the classes one by one, first the class of the simplest tree; each is computed once.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)

@@ -1,16 +1,17 @@
 """The trees of the action series on T*G, by which a variational Lie group method is expanded.
 
-Every vertex is a copy of H, except that a :class:`Transport` costs nothing. Two mutually recursive kinds:
+Every vertex is a copy of H, except a :class:`Transport`, which is not counted. Two kinds of trees contain
+each other:
 
 - g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: ``D_mu H`` differentiated along
   the word of right-invariant fields w (the first letter acts first) and along the covectors of M;
-- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, which is ``D_q H`` with its own direction standing in
-  the word between u and v, or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ...
-  ad t_k x>``.
+- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, which is ``D_q H`` whose own direction is placed between
+  the words u and v, or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ... ad t_k
+  x>``.
 
-A velocity names at the same time the elementary Hamiltonian that has its root vertex without the outgoing
-leg: ``o(w | M)`` is the coefficient of ``H_{q..mu..}[w; M]`` in the generating function. Nodes are
-interned, so that identity is equality. :mod:`orderconds.series.action_enumeration` lists them.
+A velocity also denotes the elementary Hamiltonian with the same root vertex, but without the outgoing leg:
+``o(w | M)`` is the coefficient of ``H_{q..mu..}[w; M]`` in the generating function. Nodes are interned, so
+equal trees are identical objects. :mod:`orderconds.series.action_enumeration` lists all trees.
 """
 
 from __future__ import annotations
@@ -152,7 +153,7 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the cost of different letters: one repeated is a power of a sum, others need ordered sums.
+    """Return the reading cost of different letters: only a repeated letter is a power of one sum.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -161,7 +162,7 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of H(u * v), to which its momenta add theirs.
+    """Return the cost of H(u * v), without the costs of its momenta.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -226,7 +227,7 @@ def multiset(momenta: Momenta) -> Momenta:
 
 
 def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
-    """Return the g-valued tree (w, M); the order inside M does not matter, that inside w does.
+    """Return the g-valued tree (w, M); the order inside w matters, the order inside M does not.
 
     >>> velocity((velocity(),), (force(), transport((velocity(),))))
     o(o|f(*) L(o))

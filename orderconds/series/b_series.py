@@ -28,7 +28,7 @@ class StageAlgebra(Protocol):
         """Return the componentwise product."""
 
     def apply(self, kind: int, x: Element) -> Element:
-        """Return A x, where A is the matrix of that number."""
+        """Return A x, where A is the matrix with index ``kind``."""
 
     def weigh(self, x: Element) -> Element:
         """Return b.x."""
@@ -103,7 +103,7 @@ class StageVectors:
         return tuple(p * q for p, q in zip(x, y, strict=True)) if x is not self.one else tuple(y)
 
     def apply(self, kind: int, x: Sequence[Element]) -> tuple[Element, ...]:
-        """Return A x, A the matrix of that number."""
+        """Return A x, where A is the matrix with index ``kind``."""
         return tuple(self._matrices[kind](x))
 
     def weigh(self, x: Sequence[Element]) -> Element:
@@ -115,8 +115,8 @@ class StageVectors:
 class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows of weights.
 
-    Rows that begin with the same weights, the very same objects, share partial sums: those of a composition
-    need 2 s products where a full matrix needs s^2.
+    Rows that begin with the same weights (identical objects) share partial sums. So the rows of a composition
+    need 2 s products, whereas a full matrix needs s^2.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)
@@ -127,7 +127,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """Each partial sum: the one before, the place of x, its weight."""
+        """For each partial sum: the place of the preceding partial sum, the place of x, and the weight of
+        x."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

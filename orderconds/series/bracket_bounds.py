@@ -1,14 +1,18 @@
 """A lower bound of the number of brackets in any program for given arguments, by linear algebra.
 
-An argument u_i is computed before its stage value, so that no letter of a bracket in it is newer than
-q_(i-1). Let N be the number of brackets, in any program for u_1, ..., u_i, that have a letter from q_m to
-q_(i-1). Older brackets and single letters give an argument no word of two letters and more that holds one of
-these, so N is at least the dimension of the span of such words in the arguments. Further, the first such
-bracket is [x + sum c_n q_n, y + sum d_n q_n], x and y of older letters. Its part in which they occur only
-once is sum_n ad_(P_n) q_n, where all P_n = d_n x - c_n y are Lie elements. If such parts of the arguments
-span d dimensions and only for zero are all P_n Lie elements, that of the first bracket is not among them, and
-N is at least d + 1. For the letters before q_m and those from q_m to q_(i-1), the brackets are others: bounds
-add up.
+An argument u_i is computed before its stage value. So no letter of a bracket in u_i is newer than q_(i-1).
+Call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets, in any program for u_1, ..., u_i,
+that contain a new letter. The other brackets and single letters contribute to an argument no word of two or
+more letters with a new letter. So N is at least the dimension of the span of the arguments' parts that
+consist of such words.
+
+The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain older letters
+only. The part of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where all P_n = d_n x -
+c_n y are Lie elements. Suppose that such parts of the arguments span d dimensions, and that zero is the only
+element of the span whose P_n are all Lie elements. Then the part of the first bracket is not in the span, and
+N is at least d + 1.
+
+Bounds for the letters before q_m and for the new letters count different brackets, so they can be added.
 """
 
 from __future__ import annotations
@@ -20,9 +24,9 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for n >= ``first``, sum_n ad_(P_n) q_n the part of x in which these letters occur once.
+    """Return P_n for n >= ``first``: sum_n ad_(P_n) q_n is the part of x with one such letter q_n.
 
-    They come from the words that end in q_n, without constants.
+    P_n is read from the words of at least two letters that end in q_n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -35,7 +39,7 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x minus a Lie element; zero if and only if x, which has no constant, is one.
+    """Return x, without constant term, minus a Lie element; zero if and only if x is a Lie element.
 
     Right-normed brackets multiply a Lie element of length n by n (Dynkin).
 

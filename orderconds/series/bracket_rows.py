@@ -1,7 +1,7 @@
-"""Rows of a bracket program with fewer terms: brackets with equal left factors may share their right ones.
+"""Bracket programs with fewer terms: terms move between brackets with equal left factors.
 
 If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]: a term moves from one bracket to another, and the
-rows that use C subtract t B. The number of brackets stays.
+rows that use C subtract t B. The number of brackets does not change.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield the programs without some term of a later bracket, or of a row with both brackets."""
+    """Yield programs in which a move removes a term from a later bracket or from a row with both brackets."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)

@@ -1,7 +1,7 @@
-"""The Lie-Butcher series of a step whose arguments hold explicit brackets, from its definition.
+"""The Lie-Butcher series of a step whose arguments contain brackets, from the step's definition.
 
-As everywhere, the first letter of a word acts first: the product x y, in which y acts first, reads y's word
-before x's.
+The first letter of a word acts first. In the product x y, y acts first, so the word of y comes before the
+word of x.
 """
 
 from __future__ import annotations
@@ -74,5 +74,5 @@ class BracketedSeries:
 
 
 def _cuts(word: Forest) -> list[int]:
-    """Return the places that cut a word in two words that are not empty."""
+    """Return the places at which a word can be cut into two non-empty words."""
     return [place for place in range(1, len(word)) if word[place] == 0]

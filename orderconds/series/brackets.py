@@ -151,8 +151,9 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return for each stage i the combinations u_j + c u_i with a later stage j that need one bracket only.
 
-    The newest stage value q in brackets is the same for u_i and u_j. Each of them needs two brackets with q.
-    Their combination needs one, since its part ad_P q has a Lie element P. Then u_j follows from it and u_i.
+    The newest stage value q that occurs in brackets is the same for u_i and u_j. Each of the two arguments
+    needs two brackets with q. Their combination needs only one, since P is a Lie element in its part ad_P q.
+    Then u_j follows from this combination and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -199,7 +200,7 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """The search for one argument after another; ``pool`` has the elements for combinations, with their rows.
+    """The search for one argument after another; ``pool`` lists known elements and their rows.
 
     It uses at most ``most`` brackets.
     """
@@ -215,8 +216,7 @@ class _Search:
     def program(
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
-        """Return the arguments, with ``before[i]`` computed just before u_i; None if that takes too many
-        brackets."""
+        """Return a program with ``before[i]`` just before u_i; None if it has too many brackets."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -294,7 +294,7 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return a solution; if requested, after a random change of some unknowns."""
+        """Return a solution; with a random generator, some unknowns may be changed at random first."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -313,7 +313,7 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return the polynomial that each unknown multiplies: ``right`` is y and ``left`` in x so far."""
+        """Return the polynomial that each unknown multiplies; ``right`` is y and ``left`` a part of x."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:

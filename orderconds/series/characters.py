@@ -1,8 +1,9 @@
 """The group of steps: composition, inverse and adjoint of B-series and of Lie-Butcher series.
 
-A step is a character: its value on several components is the product of its values on each, and on the empty
-one it is 1. It is a function of canonical rooted trees (B-series, a(t) = sum_i b_i tau_t(i), so that y1 = y0
-+ sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher, see :mod:`orderconds.series.lie_butcher`).
+A step is a character: its value on several components is the product of its values on each component, and its
+value on the empty forest is 1. It is a function of canonical rooted trees (B-series, a(t) = sum_i b_i
+tau_t(i), so that y1 = y0 + sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher, see
+:mod:`orderconds.series.lie_butcher`).
 """
 
 from __future__ import annotations
@@ -32,14 +33,15 @@ class TreeAlgebra:
 
 
 ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
-"""B-series: canonical unordered rooted trees; the exact flow is 1/gamma (HLW III.1, Theorem 1.5)."""
+"""B-series: canonical unordered rooted trees; the values of the exact flow are 1/gamma (HLW III.1, Theorem
+1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
 """Lie-Butcher series: ordered forests, the first tree acting first."""
 
 
 class Character:
-    """A step of size h, by its value on each tree or forest, elements of ``ring``.
+    """A step of size h, given by its value in ``ring`` on each tree or forest.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -82,7 +84,7 @@ class Character:
         return undone
 
     def adjoint(self) -> Character:
-        """Return the inverse of the step with -h (HLW II.3, Definition 3.1); symmetric methods are their own.
+        """Return the inverse of the step with -h (HLW II.3, Def. 3.1); symmetric methods are self-adjoint.
 
         >>> from orderconds.ring import QQ
         >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))

@@ -1,9 +1,10 @@
-"""Admissible cuts of trees and forests, over which the series of two steps in sequence is a sum.
+"""Admissible cuts of trees and forests: the series of two steps in sequence is a sum over all cuts.
 
-A cut of a tree or forest leaves a rest, which holds the roots, and components above it. Unordered trees may
-be cut at any edges of which no two lie on one path (Connes and Kreimer 1998; HLW III.1.4, ordered subtrees).
-Ordered forests are cut so that at every vertex, and among the roots, the branches cut off are leftmost and
-form one component (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+A cut divides a tree or forest into a rest, which contains the roots, and components above the rest. Unordered
+trees may be cut at any edges of which no two lie on one path (Connes and Kreimer 1998; HLW III.1.4, ordered
+subtrees). Ordered forests are cut so that at every vertex, and among the roots, the branches cut off are
+leftmost and form one component (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008)
+227).
 """
 
 from __future__ import annotations

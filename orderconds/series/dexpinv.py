@@ -1,9 +1,9 @@
 """The series of a Runge-Kutta-Munthe-Kaas method, from its definition in the free associative algebra.
 
-Stage arguments ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j``, ``k_j = f(exp(u_j) y0)``, step ``exp(h sum_j
-b_j dexpinv_{(r),u_j} k_j)``; dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 = -1/2 (HLW IV.8.3).
-Letters are ordered trees. In a word the first letter acts first, so the product xy of two elements, in
-which y acts first, reads y's word before x's.
+Stage arguments ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j``, ``k_j = f(exp(u_j) y0)``, step ``exp(h sum_j b_j
+dexpinv_{(r),u_j} k_j)``; dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 = -1/2 (HLW IV.8.3). Letters
+are ordered trees. In a word the first letter acts first. In the product xy of two elements, y acts first, so
+the word of y comes before the word of x.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from orderconds.trees.levels import Forest, Tree, branches
 class DexpinvSeries:
     """The series of RKMK with the tableau (A, b) over ``ring``; ``cutoff`` None keeps all of dexpinv.
 
-    Only words shorter than the one asked for enter its value, so implicit tableaux need no iteration. A word
-    is evaluated at all stages together.
+    The value of a word depends on shorter words only, so implicit tableaux need no iteration. A word is
+    evaluated at all stages together.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -35,7 +35,7 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # The arguments of the stages, and that of the step.
+        # The arguments of the stages, and the argument of the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -49,7 +49,7 @@ class DexpinvSeries:
         return self._exponential(1, forest)[0]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value on a forest of exp(u_i), which leads to stage i (counted from 0)."""
+        """Return the value on a forest of exp(u_i), which maps y0 to stage i (counted from 0)."""
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
@@ -59,7 +59,7 @@ class DexpinvSeries:
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
 
     def _exponential(self, step: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word`` in every exp(u_i), or in that of the step."""
+        """Return the coefficient of ``word`` in every exp(u_i), or in the exponential of the step."""
         if not word:
             return [self._ring.one] * len(self._rows[step])
         values = self._exponentials.get((step, word))
@@ -72,7 +72,7 @@ class DexpinvSeries:
         return values
 
     def _power(self, step: int, n: int, word: Forest) -> list[Element]:
-        """Return the coefficient of ``word``, of n letters at least, in every u_i^n, or in the step's."""
+        """Return the coefficient of a word with at least n letters in every u_i^n, or in the step's u^n."""
         values = self._powers.get((step, n, word))
         if values is None:
             if n == 1:
@@ -101,7 +101,7 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient that dexpinv gives a letter k_j between two words, None for zero."""
+        """Return the coefficient in dexpinv of a letter k_j between two words, None for zero."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -117,8 +117,8 @@ class DexpinvSeries:
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
         """Return the terms u^n k u^m of dexpinv that contribute to a letter between words of these lengths.
 
-        ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and u^m, rightmost, acts first. A word is in u^m only
-        if it has m letters at least, and the empty one in u^0 alone.
+        ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and the rightmost factor u^m acts first. A word occurs
+        in u^m only if it has at least m letters; the empty word occurs in u^0 only.
         """
         terms_kept = self._in_sight.get((before, behind))
         if terms_kept is None:
@@ -167,7 +167,7 @@ def bernoulli(k: int) -> Fraction:
 
 
 def _cuts(word: Forest) -> list[int]:
-    """Return the places that cut a word in two words that are not empty."""
+    """Return the places at which a word can be cut into two non-empty words."""
     return [place for place in range(1, len(word)) if word[place] == 0]
 
 

@@ -1,4 +1,4 @@
-"""Words of letters in a product of exponentials: one sweep over the factors, over any ring.
+"""Coefficients of words in a product of exponentials, by one sweep over the factors, over any ring.
 
 In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k the word k_1 ... k_n, k_1 acting first, has the coefficient
 

@@ -1,7 +1,7 @@
-"""Polynomials in graded letters that do not commute, cut off above a grade: where brackets are computed.
+"""Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
 
 A polynomial maps words of letters, numbered from 0, to coefficients; letters have grades, and products above
-a largest grade vanish. The product is abstract: no order of action is meant.
+a largest grade vanish. The product implies no order of action.
 """
 
 from __future__ import annotations
@@ -75,9 +75,9 @@ class GradedAlgebra:
 def solve(
     ring: Ring, columns: Sequence[Mapping[Key, Element]], target: Mapping[Key, Element]
 ) -> list[Element] | None:
-    """Return numbers with ``sum_n x_n columns[n] = target``, or None; earlier columns serve first.
+    """Return numbers with ``sum_n x_n columns[n] = target``, or None; earlier columns are preferred.
 
-    Gaussian elimination over a ring in which numbers other than zero can be divided by.
+    This is Gaussian elimination; the ring must divide by every non-zero number it contains.
 
     >>> from orderconds.ring import QQ
     >>> [str(x) for x in solve(QQ, [{"a": QQ.rational(2)}, {"a": QQ.one}], {"a": QQ.one})]

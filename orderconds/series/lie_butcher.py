@@ -1,12 +1,12 @@
-"""Lie-Butcher series: values on ordered forests of products of exponentials and of the exact flow.
+"""Lie-Butcher series: the values of products of exponentials and of the exact flow on ordered forests.
 
 A forest is a word of ordered trees, the first acting first. For g = exp(X_m) ... exp(X_1) with X_J a
 combination of trees, and k = f(g y0), the coefficient of a word is
 
     sum over J_1 <= ... <= J_k of prod x_{J_l}(t_l) / prod (run lengths)!
 
-and the tree whose branches are that word has this value in k (Owren and Marthinsen, BIT 39 (1999) 116; HLW
-IV.8).
+and this is also the value in k of the tree whose branches are the word (Owren and Marthinsen, BIT 39 (1999)
+116; HLW IV.8).
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ class ExponentialsSeries:
 
     ``stages[i]`` are the exponentials that lead from y0 to stage i, ``update`` those of the step, each a
     sparse row of coefficients over the stages; the first acts first. Stages may depend on each other in any
-    way (implicit). Products that begin with the same rows, by identity of their coefficients, share them: all
-    products make one tree of places, and a word has one coefficient at each place, that in the exponentials
-    on the way there.
+    way (implicit). Products that begin with the same rows (compared by identity of coefficients) share these
+    rows. All products thus form one tree of places, in which each place is a partial product. A word has one
+    coefficient at each place: its coefficient in the partial product.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -54,7 +54,8 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """Each place but the first: its number, that of the place before, and the row between them."""
+        """For each place but the first: its number, the number of the preceding place, and the row between
+        them."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -116,7 +117,7 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a word that is not empty, right at ``places``."""
+        """Return the coefficients of a non-empty word, computed only at ``places`` and zero elsewhere."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
         # The last r letters of the word come from the last exponential, the others from before it.
@@ -156,9 +157,10 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
-    The flow g of g' = f(g y0) g has the iterated integral of its letters on each word, the first letter
-    earliest; by homogeneity the integral over [0, s] is e s^n for n vertices, and d/ds removes the last
-    letter, whose own value is that of the word of its branches.
+    Let g be the flow of g' = f(g y0) g. Its value on a word is the iterated integral of the letters, with the
+    first letter at the earliest time. By homogeneity, the integral over [0, s] is e s^n for n vertices. The
+    derivative with respect to s removes the last letter. The value of this letter is the value of the word of
+    its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -172,9 +174,9 @@ def exact_value(forest: Forest) -> Fraction:
 def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
     """Return the value a(w) of a series on every ordered forest w with ``order`` vertices.
 
-    They predict steps: a function phi has phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0) for w = t_1 ...
-    t_k, where X_l differentiates along the fixed element F(t_l) of the Lie algebra and F([t_1 ... t_k]) =
-    (X_1 ... X_k f)(y0); for matrices g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1).
+    These values determine the step: a function phi satisfies phi(y1) = sum_w h^|w| a(w) (X_1 ... X_k phi)(y0)
+    for w = t_1 ... t_k, where X_l differentiates along the fixed element F(t_l) of the Lie algebra and F([t_1
+    ... t_k]) = (X_1 ... X_k f)(y0); for matrices g1 = sum_w h^|w| a(w) F(t_k) ... F(t_1).
 
     >>> {str(x) for x in forest_values(exact_value, 2).values()}
     {'1/2'}
@@ -183,7 +185,7 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
 
 
 def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Forest, Element]:
-    """Return values less the exact flow's: at order p + 1 the leading coefficients of the local error.
+    """Return the values minus the exact flow's: at order p + 1 the leading terms of the local error.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)

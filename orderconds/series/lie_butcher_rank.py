@@ -1,9 +1,9 @@
 """Select independent values on forests within a family, by ranks modulo products of lower ones.
 
 A condition is superfluous if its left-hand side, for every method, is a combination of simpler ones of its
-order and of products of lower ones, **and** the exact flow's values obey the same relation. The exact flow
-is therefore one of the samples; where it breaks the relation (RKMK(0) at order 3) the condition cannot
-be met and stays.
+order and of products of lower ones, **and** the exact flow's values obey the same relation. The exact flow is
+therefore one of the samples. If it breaks the relation (RKMK(0) at order 3), the condition cannot be met and
+is kept.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from orderconds.trees.counts import ordered_forest_count
 from orderconds.trees.levels import Forest
 
 RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
-"""A function that returns the series of random methods of a family, one a sample."""
+"""A function that returns the series of random methods of a family, one for each sample."""
 
 SPARE_SAMPLES = 20
 """Rows beyond the largest possible rank, so that chance does not hide a dependence."""
@@ -31,8 +31,8 @@ def independent_forests(
 ) -> tuple[tuple[Forest, ...], ...]:
     """Return those of ``candidates``, one sequence for each order 1, 2, ..., that are independent.
 
-    Computed modulo two primes; a rank modulo a prime can only be too small, so the larger set is kept.
-    Without the exact flow among the samples the result says which left-hand sides are independent.
+    The rank is computed modulo two primes. A rank modulo a prime can only be too small, so the larger set is
+    kept. If the exact flow is not among the samples, only the left-hand sides are independent.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries

@@ -26,13 +26,14 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""For each map its series and that of its inverse, without constant terms."""
+"""For each map: its power series and the power series of its inverse, without constant terms."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
     """Return the values of Omega with exp(Omega) = the product of exp(exponents), the first acting first.
 
-    With ``transform`` ``cay`` both are cay(x) = (1 - x/2)^-1 (1 + x/2). A single exponent is its own.
+    With ``transform`` ``cay``, cay(x) = (1 - x/2)^-1 (1 + x/2) replaces exp on both sides. For a single
+    exponent, Omega is this exponent.
 
     >>> from orderconds.ring import QQ
     >>> A, B = ({(k,): QQ.one}.get for k in (1, 2))

@@ -1,8 +1,8 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b, where a = exp(b) in the
-sense of composition: a = sum_j (1/j!) L^(j-1) b, L acting by cuts with one component (HLW IX.9.1; on ordered
-forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b. Here a = exp(b) with
+respect to composition: a = sum_j (1/j!) L^(j-1) b, where L sums over cuts with one component (HLW IX.9.1; on
+ordered forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class VectorField:
     """A field f~, by its value on each tree (B-series) or forest (Lie-Butcher: zero on proper shuffles).
 
     B-series: f~ = sum h^(|t|-1) b(t)/sigma(t) F(t). Lie-Butcher: f~ = sum h^(|w|-1) b(w) F(t_k) ... F(t_1)
-    for matrices, which the law of shuffles makes an element of the Lie algebra.
+    for matrices; this sum is an element of the Lie algebra, because b is zero on proper shuffles.
 
     >>> from orderconds.ring import QQ
     >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -36,7 +36,7 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function that gives the values, which may ask for values on smaller trees."""
+        """Set the function that computes the values; it may use values on smaller trees."""
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:
@@ -56,7 +56,7 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the value of the flow minus that of the field: the contribution of smaller trees."""
+        """Return the value of the flow minus the value of the field: the contribution of smaller trees."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
@@ -78,7 +78,7 @@ class VectorField:
 
 
 def modified_field(step: Character) -> VectorField:
-    """Return the field whose flow over h the step is (HLW IX.9.1).
+    """Return the field whose flow over time h equals the step (HLW IX.9.1).
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -96,8 +96,8 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
 
     H(t) for t = [t_1 ... t_m] is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)); the sum is over free
     trees with at most ``order`` vertices that are not superfluous (HLW IX.9.2). Raises
-    :class:`~orderconds.errors.InputError` where b(u o v) + b(v o u) = 0 is not known to hold, so that the
-    field may not be Hamiltonian, and for a Lie-Butcher series.
+    :class:`~orderconds.errors.InputError` for a Lie-Butcher series, and unless b(u o v) + b(v o u) = 0 is
+    known to hold, since otherwise the field may not be Hamiltonian.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

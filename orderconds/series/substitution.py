@@ -1,9 +1,9 @@
 """Substitution: the series of a step when the field f is replaced by another one that is a series itself.
 
-For B-series a tree is divided into connected components, to which the field applies, and the quotient tree,
-in which each component is a vertex and to which the step applies (Chartier, Hairer and Vilmart, Found.
-Comput. Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation
-and left grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For B-series a tree is divided into connected components. The field is evaluated at the components, and the
+step at the quotient tree, in which each component is one vertex (Chartier, Hairer and Vilmart, Found. Comput.
+Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left
+grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of ``step`` applied to ``field`` in place of f; both over one ring.
+    """Return the series of ``step`` applied to ``field`` in place of f; both have the same ring.
 
-    The flow of f, with the modified field of a method in place of f, is that method.
+    For example, the exact flow of the modified field of a method is the method itself.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.characters import exact_flow
@@ -55,9 +55,9 @@ def substituted(field: VectorField, step: Character) -> Character:
 def modifying_field(step: Character) -> VectorField:
     """Return the field to which ``step`` must be applied so that the result is the exact flow of f.
 
-    A method applied to this *modifying* field is a method of any order (Chartier, Hairer and Vilmart, Math.
-    Comp. 76 (2007) 1941). ``step`` must be a consistent B-series; for another one this raises
-    :class:`~orderconds.errors.InputError`.
+    Truncated, this *modifying* field gives methods of arbitrarily high order (Chartier, Hairer and Vilmart,
+    Math. Comp. 76 (2007) 1941). ``step`` must be a consistent B-series. Raises
+    :class:`~orderconds.errors.InputError` for any other step.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -86,7 +86,7 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Sum over the partitions of a tree; without ``whole`` the tree as one component is left out."""
+    """Sum over the partitions of a tree; ``whole=False`` omits the partition into one component."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:
@@ -100,7 +100,7 @@ def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bo
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return the components and the skeleton of a canonical tree for each set of cut edges.
+    r"""Return the components and the skeleton (quotient tree) of a canonical tree for each set of cut edges.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
@@ -135,7 +135,7 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """The substitution of the field for every vertex in words of trees, up to a number of vertices."""
+    """Combinations of forests that arise when the field replaces every vertex of a word of trees."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

@@ -1,9 +1,9 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
 Colour 0 (black) belongs to the first part y of a partitioned system, colour 1 (white) to the second, z.
-Encoding: bytes in preorder, ``2 level + colour``, branches in falling order. Apart from the colour of
-the root this is that of :mod:`orderconds.trees.directed`: an edge that leads to a white vertex carries
-the second method's coefficient.
+Encoding: bytes in preorder, ``2 level + colour``, branches in descending order. Apart from the colour of the
+root, this is the encoding of :mod:`orderconds.trees.directed`: an edge to a white vertex has kind 1, a
+coefficient of the second method.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
     """Return every free tree whose neighbours differ in colour once, rooted at a vertex of least height.
 
     They are the trees of symplectic partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993;
-    HLW VI.7.2). A free tree that a symmetry reverses is the same in both colourings.
+    HLW VI.7.2). If a symmetry of a free tree exchanges the colours, both colourings are the same tree.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
@@ -47,7 +47,7 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
 
 
 def alternating(colour: int, tree: Tree) -> BicolouredTree:
-    r"""Colour an uncoloured rooted tree, neighbours differently, the root as given.
+    r"""Colour a rooted tree so that neighbours differ and the root has the given colour.
 
     >>> text(alternating(1, b"\0\1\2\1"))
     '([o].)'
@@ -57,7 +57,7 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Return the encoding whose branches are in falling order at every vertex.
+    """Return the encoding whose branches are in descending order at every vertex.
 
     >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
     True
@@ -85,7 +85,7 @@ def children(tree: BicolouredTree) -> tuple[BicolouredTree, ...]:
 
 
 def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
-    """Join trees to a new root of a colour, in canonical order.
+    """Join trees to a new root of the given colour, in canonical order.
 
     >>> text(rooted(1, [bytes((0,)), bytes((1,))]))
     '(o.)'
@@ -103,7 +103,7 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
-    r"""Yield u, v and the tree rooted in v for each edge at the root, which parts the tree in u and v.
+    r"""For each edge at the root, yield the parts u and v that it separates, and the tree rooted in v.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]

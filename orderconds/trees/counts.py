@@ -1,6 +1,6 @@
-"""How many trees there are, from generating functions: independent of every enumeration.
+"""Numbers of trees from generating functions, computed independently of every enumeration.
 
-Section numbers are those of OEIS: A000055, A000081, A000108, A000151, A000238.
+The sequences are A000055, A000081, A000108, A000151 and A000238 of the OEIS.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Count multisets: from the number of kinds of weight 1, 2, ... to that of multisets of weight 1, 2, ...
+    """Return the numbers of multisets of weight 1, 2, ... of elements, given how many have weight 1, 2, ...
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -46,7 +46,7 @@ def ordered_tree_count(vertices: int) -> int:
 
 
 def ordered_forest_count(vertices: int) -> int:
-    """Count ordered forests: remove the root of a tree with one vertex more.
+    """Count ordered forests: each is an ordered tree with one more vertex, without its root.
 
     >>> [ordered_forest_count(n) for n in range(6)]
     [1, 1, 2, 5, 14, 42]
@@ -66,7 +66,7 @@ def free_tree_count(vertices: int) -> int:
 
 
 def essential_free_tree_count(vertices: int) -> int:
-    """Count free trees that no edge parts in two equal halves (HLW VI.7.1, Table 7.1).
+    """Count free trees that no edge divides into two equal halves (HLW VI.7.1, Table 7.1).
 
     >>> [essential_free_tree_count(n) for n in range(1, 11)]
     [1, 0, 1, 1, 3, 4, 11, 19, 47, 97]
@@ -75,7 +75,9 @@ def essential_free_tree_count(vertices: int) -> int:
 
 
 def alternating_free_tree_count(vertices: int) -> int:
-    """Count free trees whose neighbours differ in colour: two colourings, one where a symmetry swaps them.
+    """Count free trees of two colours whose neighbours differ in colour.
+
+    An uncoloured free tree has two such colourings, or one if a symmetry exchanges the colours.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -84,12 +86,12 @@ def alternating_free_tree_count(vertices: int) -> int:
 
 
 def _in_equal_halves(vertices: int) -> int:
-    """Count the free trees that an edge parts in two equal rooted trees."""
+    """Count the free trees that an edge divides into two equal rooted trees."""
     return rooted_tree_count(vertices // 2) if vertices % 2 == 0 else 0
 
 
 def directed_free_tree_count(vertices: int) -> int:
-    """Count free trees with directed edges (A000238): rooted ones less those rooted at an edge (Otter).
+    """Count free trees with directed edges (A000238): rooted trees minus trees rooted at an edge (Otter).
 
     >>> [directed_free_tree_count(n) for n in range(1, 9)]
     [1, 1, 3, 8, 27, 91, 350, 1376]
@@ -101,8 +103,8 @@ def directed_free_tree_count(vertices: int) -> int:
 def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
     """Count Lyndon words of a weight when there are ``letters(k)`` letters of weight k.
 
-    Words factor uniquely into falling Lyndon words, so that prod (1 - x^n)^-L(n) = 1/(1 - sum letters(k)
-    x^k).
+    Every word is a unique product of non-increasing Lyndon words. Hence the numbers L(n) satisfy prod (1 -
+    x^n)^-L(n) = 1/(1 - sum letters(k) x^k).
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

@@ -1,10 +1,11 @@
-"""Rooted and free trees whose edges carry a direction: the trees of symplectic partitioned methods.
+"""Rooted and free trees with directed edges: the trees of symplectic partitioned methods.
 
-The edge from parent i to child j is of kind 0 when it carries a_ij (it points away from the root) and of
-kind 1 when it carries ahat_ij (it points to the root). As b_i ahat_ij = b_i b_j - b_j a_ji, moving the
-root across an edge changes its kind, not its direction, so that conditions belong to free trees.
+An edge from parent i to child j has kind 0 if its coefficient is a_ij (it points away from the root), and
+kind 1 if its coefficient is ahat_ij (it points to the root). Because b_i ahat_ij = b_i b_j - b_j a_ji, moving
+the root across an edge changes the kind of the edge but not its direction. Hence conditions belong to free
+trees.
 
-Encoding: bytes in preorder, ``2 level + kind``; branches are in falling order.
+Encoding: bytes in preorder, ``2 level + kind``; branches are in descending order.
 """
 
 from __future__ import annotations
@@ -73,7 +74,7 @@ def symmetry(tree: DirectedTree) -> int:
 
 @lru_cache(maxsize=1 << 16)
 def text(tree: DirectedTree) -> str:
-    r"""Write a tree in brackets, ``^`` before each subtree that hangs from an ahat-edge.
+    r"""Write a tree in brackets, with ``^`` before each subtree below an edge of kind 1.
 
     >>> text(b"\0\3\2")
     '[^..]'
@@ -94,7 +95,7 @@ def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
-    """Yield the same trees one by one, on demand.
+    """Yield the trees of :func:`directed_rooted_trees` one by one, on demand.
 
     >>> text(next(directed_rooted_trees_in_turn(50))).count("[")
     49
@@ -111,8 +112,8 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
     """
     if vertices < 1:
         return ()
-    # A free tree has either one centroid, where no branch has half of the vertices, or two, joined by an edge
-    # that leads from one half to the other.
+    # A free tree has one or two centroids. At a single centroid, no branch has half of the vertices. Two
+    # centroids are joined by an edge that divides the tree into halves.
     central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
     if vertices % 2 == 0:
         halves = directed_rooted_trees(vertices // 2)
@@ -124,7 +125,7 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 def representative(tree: DirectedTree) -> DirectedTree:
     """Return, of all rootings of a tree, the one whose condition reads most simply.
 
-    That is: as few edges as can be of the rarer kind, then least height, then fewest ahat.
+    The criteria, in this order, are: fewest edges of the rarer kind, least height, fewest edges of kind 1.
 
     >>> text(representative(bytes((0, 3, 5))))
     '[[.]]'
@@ -146,7 +147,7 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
-    r"""Yield u, v and the tree rooted in v for each edge at the root, which parts the tree in u and v.
+    r"""For each edge at the root, yield the parts u and v that it separates, and the tree rooted in v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]

@@ -1,8 +1,9 @@
 """Free (unrooted) trees, and the effect of moving the root of a tree.
 
-The conditions of symplectic Runge-Kutta methods belong to free trees, for b_i a_ij + b_j a_ji = b_i b_j gives
-phi(u o v) + phi(v o u) = phi(u) phi(v), o being Butcher's product (Sanz-Serna and Abia 1991; HLW VI.7.1). A
-tree with u o u among its rootings then has phi = phi(u)^2/2 and is superfluous.
+The conditions of symplectic Runge-Kutta methods belong to free trees, because b_i a_ij + b_j a_ji = b_i b_j
+implies phi(u o v) + phi(v o u) = phi(u) phi(v), where o is Butcher's product (Sanz-Serna and Abia 1991; HLW
+VI.7.1). If u o u is a rooting of a tree, then phi = phi(u)^2/2, and the condition of this tree is
+superfluous.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""The trees u and v of a root that moved along one edge, from u o v to v o u."""
+"""The trees (u, v): the root moves along one edge, from u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
@@ -47,7 +48,7 @@ def superfluous(tree: Tree) -> bool:
 
 
 def representative(tree: Tree) -> Tree:
-    r"""Return the rooting of least height, of these the greatest level sequence.
+    r"""Return the rooting of least height; among several, the one with the greatest level sequence.
 
     >>> representative(b"\0\1\2")
     b'\x00\x01\x01'

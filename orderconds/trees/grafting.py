@@ -48,9 +48,9 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
-    r"""Return, with repetitions, all forests that arise when every tree of ``word`` is hung from ``onto``.
+    r"""Return, with repetitions, all forests with each tree of ``word`` hung from some vertex of ``onto``.
 
-    Each tree goes to any vertex. Trees at one vertex keep their order and come left of its own branches.
+    Trees hung from the same vertex keep their order and are placed left of the vertex's own branches.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')
@@ -68,7 +68,7 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Hang a word from one tree: one part from the root, in front, the other from the branches."""
+    """Hang one subword from the root of a tree, left of its branches, and the other from the branches."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
@@ -76,7 +76,7 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return the 2^k ways of parting a word of k trees in two subwords.
+    r"""Return the 2^k ways of dividing a word of k trees into two subwords.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

@@ -107,8 +107,8 @@ def parse(written: str) -> Forest:
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
 
-    Raises :class:`~orderconds.errors.InputError` for anything else than balanced brackets, each with
-    something in it, and dots.
+    Raises :class:`~orderconds.errors.InputError` unless the text consists of dots and balanced, non-empty
+    brackets.
     """
     levels, depth = bytearray(), 0
     if len(written) > 4 * _LARGEST:

@@ -1,7 +1,7 @@
 """Ordered (planar) rooted trees and ordered forests, each level sequence from the one before it, in place.
 
-The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests
-with n vertices, and those that never return to 0 are the trees; both are listed in falling lexicographic
+The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests with
+n vertices. The sequences that never return to 0 are the trees. Both are listed in descending lexicographic
 order.
 """
 
@@ -25,7 +25,7 @@ def ordered_trees(vertices: int) -> Iterator[Tree]:
 
 
 def ordered_forests(vertices: int) -> Iterator[Forest]:
-    """Yield every ordered forest with this many vertices once; for none, the empty forest.
+    """Yield every ordered forest with this many vertices once; for zero vertices, the empty forest.
 
     >>> from orderconds.trees.levels import text
     >>> [text(forest) for forest in ordered_forests(3)]

@@ -1,9 +1,9 @@
 """The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's coefficients of words.
 
-A Lie element is known from its coefficients at Lyndon words: bracketed Lyndon words are the word itself plus
-greater ones, so that coordinates follow by forward substitution within each multidegree (Reutenauer, Free
-Lie Algebras, Thm 5.1). The coefficients have a closed form (Goldberg, Duke Math. J. 23 (1956) 13), so nothing
-is multiplied out.
+A Lie element is determined by its coefficients at Lyndon words. A bracketed Lyndon word is the word itself
+plus greater words, so the coordinates follow by forward substitution within each multidegree (Reutenauer,
+Free Lie Algebras, Thm 5.1). The coefficients have a closed form (Goldberg, Duke Math. J. 23 (1956) 13), so
+nothing is multiplied out.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ Expansion = dict[str, int]
 
 
 def bch(length: int) -> dict[Word, Fraction]:
-    """Return log(exp A exp B) in the basis of bracketed Lyndon words, to brackets of this length.
+    """Return log(exp A exp B) in the basis of bracketed Lyndon words, up to brackets of this length.
 
     A product xy is the word xy. Zeros are left out; shorter words come first.
 
@@ -49,9 +49,9 @@ def bch(length: int) -> dict[Word, Fraction]:
 def goldberg(word: str) -> Fraction:
     """Return the coefficient of a word over A and B, not empty, in log(exp A exp B).
 
-    With run lengths s_1, ..., s_m of a word that begins with A it is the integral over [0, 1] of
-    t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. Exchanging A
-    and B gives the sign (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
+    For a word that begins with A and has run lengths s_1, ..., s_m, the coefficient is the integral over [0,
+    1] of t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'.
+    Exchanging A and B gives the sign (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)
@@ -78,7 +78,7 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
-    """Return the coordinates of the degree of ``words``, its Lyndon words in rising order."""
+    """Return the coordinates within one multidegree; ``words`` are its Lyndon words in ascending order."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:

@@ -1,4 +1,4 @@
-"""Compositions of an integer: the ways in which a word falls into runs."""
+"""Compositions of an integer: the ways of dividing a word into runs."""
 
 from __future__ import annotations
 

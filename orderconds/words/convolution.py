@@ -1,7 +1,8 @@
-"""Functions on words, which are series: their product and their power series, at one word at a time.
+"""Convolution of functions on words, and power series of a function, evaluated at one word at a time.
 
-A product cuts the word in two, the first factor's part acting first. Values lie in any ring; a factor without
-value at the empty word makes every power series finite, so that nothing is truncated.
+A function on words is a series. A product cuts the word into two parts; the part of the first factor acts
+first. Values lie in any ring. If a function is zero at the empty word, each of its power series is a finite
+sum at every word, so nothing is truncated.
 """
 
 from __future__ import annotations
@@ -31,7 +32,8 @@ def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0
 def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
     """Return the value at ``word``, not empty, of sum_{m>=1} scales[m - 1] f^m.
 
-    f vanishes at the empty word and is not asked for it; scales beyond the length of the word do not matter.
+    f vanishes at the empty word and is not evaluated there. Scales beyond the length of the word do not
+    matter.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))

@@ -1,8 +1,8 @@
 """The flow of Y' = A(t) Y, A(t) = X_1 + t X_2 + t^2 X_3 + ..., in words: Magnus, Fer, Cayley expansions.
 
-Letter k is X_k and has weight k; values are those at t = 1, since a word of weight n carries t^n. Words
+Letter k is X_k and has weight k. A word of weight n has the factor t^n, so values are given at t = 1. Words
 are written in the order of action: the word k_1 ... k_n is the product X_{k_n} ... X_{k_1}
-(:func:`orderconds.words.lie.backwards` turns one into the other). Iserles, Munthe-Kaas, Noersett and Zanna,
+(:func:`orderconds.words.lie.backwards` converts between the two). Iserles, Munthe-Kaas, Noersett and Zanna,
 Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
 """
 
@@ -39,7 +39,7 @@ def iterated_integral(word: Word) -> Fraction:
 def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion, the Lie element Omega with Y = exp(Omega).
 
-    At weight three Omega holds -[X_1, X_2]/12, and [X_1, X_2] is the word 2 1 less the word 1 2.
+    At weight three Omega contains -[X_1, X_2]/12, and [X_1, X_2] is the word 2 1 minus the word 1 2.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -74,7 +74,9 @@ def fer(n: int, word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def fer_remainder(word: Word) -> Fraction:
-    """Return the coefficient of a word in log(exp(-F_1) Y): F_2, and from weight ten on brackets with F_3.
+    """Return the coefficient of a word in log(exp(-F_1) Y).
+
+    This logarithm is F_2 + F_3 + ..., plus brackets of these terms from weight ten on.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True

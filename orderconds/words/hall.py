@@ -18,7 +18,7 @@ Coordinates = dict[Bracket, Fraction]
 
 
 class HallBasis:
-    """The Hall basis of the free Lie algebra on ``letters``, to a weight.
+    """The Hall basis of the free Lie algebra on ``letters``, up to a weight.
 
     ``letters`` are in rising order; ``weigh`` gives each its weight, a positive integer.
 
@@ -51,7 +51,7 @@ class HallBasis:
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
-        """Return the coordinates of any bracket of letters; ValueError for one too heavy.
+        """Return the coordinates of any bracket of letters; ValueError above the largest weight.
 
         >>> HallBasis("AB", 3).rewrite((("A", "B"), "A"))
         {('A', ('A', 'B')): Fraction(-1, 1)}
@@ -74,7 +74,7 @@ class HallBasis:
         return self.from_lyndon(lyndon_coordinates(element, order.__getitem__))
 
     def from_lyndon(self, coordinates: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the coordinates of a Lie element given in the Lyndon basis, as that of ``bch``.
+        """Return the coordinates of a Lie element given in the Lyndon basis, such as ``bch``.
 
         >>> from orderconds.words.bch import bch
         >>> {str(x): str(value) for x, value in HallBasis("AB", 2).from_lyndon(bch(2)).items()}

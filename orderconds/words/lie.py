@@ -1,8 +1,8 @@
 """Free Lie elements and their coordinates in the Lyndon basis.
 
-The standard bracketing of a Lyndon word w is w plus greater words of the same letters, so that coordinates
-follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm
-5.1). In this module a product xy is the word xy; words in the order of action are products read backwards
+The standard bracketing of a Lyndon word w is w plus greater words of the same letters. Hence coordinates
+follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
+In this module a product xy is the word xy; words in the order of action are products read backwards
 (:func:`backwards`).
 """
 
@@ -96,8 +96,8 @@ def coordinates_from_values(
 def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None) -> dict[Word, Fraction]:
     """Return the coordinates of a Lie element in the basis of bracketed Lyndon words (Reutenauer, Thm 5.1).
 
-    ``key`` orders the letters where they do not order themselves. Raises :class:`ValueError` for a series
-    that is no Lie element.
+    ``key`` gives the order of letters that cannot be compared directly. Raises :class:`ValueError` for a
+    series that is no Lie element.
 
     >>> element = expand((("A", "B"), "A"))
     >>> {"".join(word): int(value) for word, value in lyndon_coordinates(element).items()}

@@ -1,4 +1,4 @@
-"""Lie series that have a name, as sums of brackets: BCH, symmetric BCH, Magnus, dexp and its inverse.
+"""Named Lie series as sums of brackets: BCH, symmetric BCH, Magnus, dexp and its inverse.
 
 The terms are brackets of a basis of the free Lie algebra: bracketed Lyndon words, or a Hall basis. A bracket
 is [x, y] = x y - y x.
@@ -108,7 +108,7 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return the coordinates of a Lie element that is known by the coefficients of its words as products."""
+    """Return the coordinates, up to any weight, of a Lie element given by the coefficients of products."""
 
     def coordinates(weight: int) -> Coordinates:
         place = {letter: number for number, letter in enumerate(letters(weight))}.__getitem__

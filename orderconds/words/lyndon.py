@@ -1,8 +1,8 @@
-"""Lyndon words: those smaller than each of their proper suffixes; their coordinates generate all others'.
+"""Lyndon words: words smaller than each of their proper suffixes. Their values determine all others.
 
 The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1): a group-like series is given by its values on them, and these
-values are independent.
+Reutenauer, Free Lie Algebras, Thm 6.1): hence a group-like series is determined by its values on Lyndon
+words, and these values are independent.
 """
 
 from __future__ import annotations
@@ -30,8 +30,9 @@ def lyndon_words(
     weights = [weigh(letter) for letter in letters]
     if any(w < 1 for w in weights):
         raise ValueError("letters need positive weights")
-    # K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths: a prefix of a
-    # Lyndon word with period p goes on with the letter p places before, or with a greater one and no period.
+    # K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths. A prefix of a Lyndon
+    # word with period p is extended by the letter p places before, which keeps the period, or by a greater
+    # letter; the period is then the whole length.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:
@@ -54,7 +55,7 @@ def lyndon_words(
 def lyndon_factors(
     word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None
 ) -> list[tuple[Letter, ...]]:
-    """Factor a word into Lyndon words that do not rise (J.-P. Duval, J. Algorithms 4 (1983) 363).
+    """Factor a word into non-increasing Lyndon words (J.-P. Duval, J. Algorithms 4 (1983) 363).
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
     ['B', 'AN', 'AN', 'A']

@@ -1,8 +1,8 @@
 """The functionals on words that vanish on a two-sided ideal: coordinates of the quotient's group.
 
-A homomorphism of a free algebra onto a quotient by an ideal J is determined by the combinations of words that
-are orthogonal to J. Modulo products of lighter ones they are the dual of the quotient's Lie algebra
-(Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
+The values of the functionals that vanish on an ideal J determine an element of the quotient of the free
+algebra by J. Modulo products of functionals of lower weight, these functionals are the dual of the quotient's
+Lie algebra (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
@@ -18,13 +18,14 @@ from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Series, Word
 
 Functional = tuple[tuple[Word, int], ...]
-"""Words with integer coefficients, without common factor, the word it is named after first."""
+"""Words with coprime integer coefficients; the first word names the functional."""
 
 
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
     """Return a basis of the functionals on words of this length that vanish on the ideal of ``generators``.
 
-    Each is named after a word of its own, Lyndon words where that is possible, and holds few others.
+    Each functional is named after a word that no other functional is named after, a Lyndon word if possible,
+    and contains few other words.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -32,7 +33,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Pivots are taken from the left, so that the words at the right stay free and name functionals.
+        # Pivots are taken from the left, so that functionals are named after words at the right.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -40,7 +41,7 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
-    """Return those that are independent of the ones before on Lie elements, Lyndon words' first.
+    """Return the functionals that are independent on Lie elements; those of Lyndon words are preferred.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
     ((((0, 1), 1),),)
@@ -78,7 +79,7 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield u g v for every generator g and all words u, v that give this content."""
+    """Yield the products u g v with this content, for every generator g and all words u and v."""
     for generator in generators:
         some = next(iter(generator))
         left = list(content)

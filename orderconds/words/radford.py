@@ -1,8 +1,9 @@
 """Every word as a polynomial in Lyndon words under the shuffle product (Radford 1979).
 
 A word with Lyndon factors l_1^{i_1} ... l_k^{i_k}, l_1 > ... > l_k, is the shuffle product of the factors
-divided by i_1! ... i_k!, minus smaller words (Reutenauer, Free Lie Algebras, Thm 6.1). Values of a product of
-exponentials multiply over shuffles, so these polynomials are the relations between its values.
+divided by i_1! ... i_k!, minus smaller words (Reutenauer, Free Lie Algebras, Thm 6.1). On a product of
+exponentials, the value of a shuffle product is the product of the values. So these polynomials are the
+relations between the values.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from math import factorial
 from typing import Any
 
 Letter = Any
-"""A letter: anything hashable, and ordered where Lyndon words are meant. Words of one alphabet do not mix."""
+"""A letter: a hashable value; Lyndon words need letters with an order. Alphabets are not mixed."""
 
 Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
@@ -37,7 +37,7 @@ def shuffle(u: Sequence[Letter], v: Sequence[Letter]) -> Counter[Word]:
 
 
 def add(*scaled: tuple[Fraction | int, Mapping[Word, Fraction]]) -> Series:
-    """Add rational multiples of series, and drop words without coefficient.
+    """Add rational multiples of series, and drop words with coefficient zero.
 
     >>> add((2, {("A",): Fraction(1)}), (-1, {("A",): Fraction(2), ("B",): Fraction(3)}))
     {('B',): Fraction(-3, 1)}
