@@ -99,8 +99,9 @@ class Loop:
 
     The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
     in units of the largest unknown, at which an iteration may stagnate. ``close`` is the largest change after
-    which a contraction is trusted to finish. ``limit`` is the largest number of sweeps. ``only_unknowns_read`` says
-    that only the unknowns are read after the loop, so the last change may be larger.
+    which a contraction is trusted to finish. ``limit`` is the largest number of sweeps.
+    ``only_unknowns_read`` says that only the unknowns are read after the loop, so the last change may be
+    larger.
     """
 
     label: str

@@ -109,7 +109,7 @@ class Arrangement:
         outlined = {function.name for function, _ in self.outlined}
         names = {n.payload for n in walk(self.expressions()) if n.op == "call"}
         # Outlined functions are part of the kernel; the target needs no snippet for them.
-        called |= {name for name in names if name.partition(".")[0] not in made}
+        called |= {name for name in names if name.partition(".")[0] not in outlined}
         for _, inner in self.outlined:
             called |= set(inner.functions())
         return tuple(sorted(called))

@@ -322,7 +322,7 @@ def _outlined(
     if shorter is None:
         return None, ()
     # The rewritten roots have the order of the flat list; ``take`` returns them one after the other.
-    new = iter(found)
+    new = iter(shorter)
 
     def take(n: int) -> tuple[Expr, ...]:
         return tuple(next(new) for _ in range(n))
@@ -337,7 +337,7 @@ def _outlined(
     for old, rewritten in zip(flat, shorter, strict=True):
         if old.id in hints:
             # Rewritten expressions keep the names of the old expressions.
-            hints.setdefault(made.id, hints[old.id])
+            hints.setdefault(rewritten.id, hints[old.id])
     schedule = Assignments(changed, ends, hints, name)
     schedule.run()
     functions = []

@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from orderconds.ring.samples import Sample, Samples, pivots
+from orderconds.ring.samples import Sample, Samples, echelon
 
 PRIME = 2147483647
 
@@ -54,6 +54,6 @@ def test_pivots_are_the_first_independent_columns_in_any_coordinates() -> None:
     ring, generator = Samples(PRIME, 6), Random(1)
     x, y = ring.random(generator), ring.random(generator)
     columns = [ring.zero, x, 2 * x, y, x * y, x - y, ring.one]
-    assert pivots([ring.coordinates(c) for c in columns], PRIME) == (1, 3, 4, 6)
-    assert pivots([values(c) for c in columns], PRIME) == (1, 3, 4, 6)
-    assert pivots([], PRIME) == ()
+    assert echelon([ring.coordinates(c) for c in columns], PRIME)[0] == (1, 3, 4, 6)
+    assert echelon([values(c) for c in columns], PRIME)[0] == (1, 3, 4, 6)
+    assert echelon([], PRIME)[0] == ()
