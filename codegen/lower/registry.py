@@ -5,6 +5,8 @@ from __future__ import annotations
 from codegen.errors import MethodError
 from codegen.lower.base import Lowering
 from codegen.scene.problem import Problem
+from orderconds import families
+from orderconds.families import Family
 
 _registered: dict[str, Lowering] = {}
 
@@ -42,9 +44,11 @@ def _built_in() -> tuple[type[Lowering], ...]:
     )
 
 
-def register(lowering: type[Lowering]) -> type[Lowering]:
+def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
     """Make a lowering known to every command, and return it; it may be used as a decorator.
 
+    With ``family``, the class of its order conditions is registered by the same call
+    (:func:`orderconds.families.register`), so that all commands of both packages know the family.
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
     family that already has a lowering of another class.
     """
@@ -55,6 +59,8 @@ def register(lowering: type[Lowering]) -> type[Lowering]:
         raise MethodError(
             f"a second lowering of family {lowering.family}", where=lowering.__name__, expected="one"
         )
+    if family is not None:
+        families.register(family)
     # One instance for each family is enough, because lowerings have no state.
     _registered[lowering.family] = lowering()
     return lowering

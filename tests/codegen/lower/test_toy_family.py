@@ -24,6 +24,7 @@ from codegen.lower.field import FieldLowering
 from codegen.lower.stages import Stages
 from codegen.method import Method, parse
 from orderconds import families
+from orderconds.cli import program
 from orderconds.families.rk import RungeKuttaFamily, tree_conditions
 from orderconds.trees.rooted import rooted_trees
 from tests.strategies import field_scene, shipped
@@ -62,11 +63,27 @@ class OneSlopeLowering(FieldLowering):
 
 @pytest.fixture(autouse=True)
 def _registered():
-    families.register(OneSlopeFamily)
-    register(OneSlopeLowering)
+    register(OneSlopeLowering, OneSlopeFamily)
     yield
     unregister("one_slope")
     families.unregister("one_slope")
+
+
+def run(*words):
+    return CliRunner().invoke(program, words)
+
+
+def test_derive_check_solve_and_list_know_it(tmp_path):
+    derived = json.loads(run("derive", "one_slope", "--order", "2", "--json").stdout)
+    assert derived["counts"] == [1, 1]
+    (checked,) = json.loads(run("check", "rk4", "--family", "one_slope", "--json").stdout)
+    assert checked["orders"]["one_slope"]["order"] == 2  # its bound
+    file = tmp_path / "found.toml"
+    command = ["solve", "one_slope", "--stages", "2", "--order", "2", "--explicit", "--fix", "a21=1/2"]
+    assert run(*command, "-o", str(file)).exit_code == 0
+    (solved,) = json.loads(run("check", str(file), "--family", "one_slope", "--json").stdout)
+    assert solved["orders"]["one_slope"]["order"] == 2
+    assert "one_slope" in run("list", "families").stdout
 
 
 def test_it_is_offered_for_scenes_with_a_field_after_the_built_in_families():
@@ -80,8 +97,8 @@ def test_its_order_is_computed_from_its_own_conditions_and_is_that_of_its_progra
     method = Method("one_slope", shipped(tableau))
     assert certified_order(method, scene).order == order
     made = compile_method(scene, method)
-    for program in (made.lowered, made.program):
-        error = local_error(program, problem_for(scene, method), method.ring, order + 1)
+    for step in (made.lowered, made.program):
+        error = local_error(step, problem_for(scene, method), method.ring, order + 1)
         assert valuation(error) == order + 1
 
 
