@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: built-in scenes in 50 digits, against the claimed order; takes no SCENE.",
+    help="strict: compare orders on built-in scenes, in 50 digits, with the claims; give no SCENE.",
 )
 @click.option("--stated", type=click.IntRange(1, 20), help="The order to compare with.")
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")

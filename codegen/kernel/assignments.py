@@ -147,7 +147,7 @@ class Assignments:
 
     def _forget(self, k: int) -> None:
         """Forget the names of body values of block k: later statements compute them again."""
-        # Without these entries ``_place`` computes the values again, now from the corrected unknowns.
+        # Once its entry is deleted, ``_place`` computes a value again, from the corrected unknowns.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:

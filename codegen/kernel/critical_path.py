@@ -153,7 +153,7 @@ class _Chains:
                 linear = node.op in ("add", "sub", "neg") or (
                     node.op == "mul" and len(others) == 1 and self.level[others[0].id] < late
                 )
-                # The linear expression ends at this argument: the node is not linear in the late values.
+                # A node that is not linear in the late values ends the linear expression.
                 if late and not (linear and self.level[node.id] == late):
                     ends.add(arg.id)
         return frozenset(ends)

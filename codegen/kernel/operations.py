@@ -141,7 +141,7 @@ def _operations_in_text(root: Expr) -> dict[str, int]:
             case op:
                 own = {op: 1}
         for arg in node.args:
-            # Added for each reader, because the printed text repeats a subexpression without a name.
+            # An unnamed subexpression counts once for each use, because the text repeats it.
             own = _plus(own, counts[arg.id])
         counts[node.id] = own
     return counts[root.id]

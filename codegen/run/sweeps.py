@@ -5,9 +5,9 @@ iteration replaces the unknowns by the images, except in the last sweep. Values 
 therefore belong to the accepted unknowns. Newton's method adds the inverse of a matrix times the residuals to
 the unknowns, in the last sweep too. Its three forms use different matrices:
 
-- *Newton*: the exact matrix is computed in the first sweep if the memory has none. It is kept from sweep to
-  sweep and from step to step, until a change exceeds ``Newton.CONTRACTION`` times the previous change. The
-  loop fails if the change does not decrease right after the matrix was computed, or if the matrix is
+- *Newton*: the exact matrix is kept from sweep to sweep and from step to step, until a change exceeds
+  ``Newton.CONTRACTION`` times the previous change. If no matrix is stored yet, the first sweep computes it.
+  The loop fails if the change does not decrease right after the matrix was computed, or if the matrix is
   singular.
 - *simplified Newton*: the matrix to first order in h is computed before the sweeps of each step.
 - *residuals*: the matrix of residual equations r(u) = 0, to first order in h, is kept for ``Newton.period``

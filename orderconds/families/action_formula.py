@@ -83,7 +83,7 @@ class ActionFormula(ABC):
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
-        """Return tau_t at a stage, times its multiplier."""
+        """Return tau_t at a stage for t = ``tree``, times the multiplier of the tree."""
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
     def _psi_product(self, momenta: Momenta, stage: str) -> Formula:

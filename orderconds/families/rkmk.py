@@ -116,7 +116,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         )
         return (
             f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ...: a generating set "
-            f"for every method on a group. For {self.label()} those listed imply the others.{beyond}"
+            f"for every method on a group. For {self.label()} the conditions printed here imply the rest of "
+            f"that set.{beyond}"
         )
 
     def highest_order(self, limit: int) -> int:
