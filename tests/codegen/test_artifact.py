@@ -65,7 +65,7 @@ def test_a_choice_among_several_must_be_made(kernels, tmp_path):
     kernels.emission(kernels.rigid(), "c").write(tmp_path)
     with pytest.raises(InputError, match=r"2 modules match rigid.*one of rigid \(c\), rigid \(python\)"):
         read(tmp_path, "rigid")
-    with pytest.raises(InputError, match="0 modules answer to nobody"):
+    with pytest.raises(InputError, match="0 modules match nobody"):
         read(tmp_path, "nobody")
 
 
