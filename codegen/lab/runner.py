@@ -20,9 +20,12 @@ from codegen.lab.number_types import Scalar, Vector
 from codegen.loader import Integrator, Statistics, StepFailed, load
 from codegen.lower import problem_for
 from codegen.method import Method
+from codegen.printers import TARGETS
 from codegen.scene.problem import Problem
 
-TARGETS = ("c", "python", "interpreter")
+RUNNERS = (*TARGETS, "interpreter")
+"""Everything that can run a method: the targets of the compiler, and the interpreter."""
+
 DOUBLE = 16
 """Decimal digits up to which the interpreter computes with doubles."""
 
@@ -146,8 +149,8 @@ def runner(
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
     known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
     """
-    if target not in TARGETS:
-        raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")
+    if target not in RUNNERS:
+        raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(RUNNERS)}")
     if digits > DOUBLE and target != "interpreter":
         raise MethodError(
             f"{digits} digits for the target {target}",

@@ -24,10 +24,9 @@ from codegen.lab.peers import find
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.method import Method
+from codegen.printers import TARGETS
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
-
-TARGETS = ("c", "python")
 
 
 @dataclass(frozen=True)

@@ -130,8 +130,8 @@ class Refused:
         raise InputError(self.reason)
 
     def measure(self, control: float) -> Row:
-        """Never called, because :meth:`prepare` fails."""
-        raise NotImplementedError
+        """Raise InputError with the reason."""
+        raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
         """Stop at once."""

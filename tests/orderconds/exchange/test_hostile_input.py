@@ -31,7 +31,7 @@ HEUN = {
     "embedded": {"b": ["1", "0"], "order": 1},
 }
 TEXTS = [
-    "x\nimport os; os.system('touch /tmp/x')\n#",
+    "x\nimport os; os.system('touch x')\n#",
     "x */ int main(void) { } /* y",
     "\\begin{array}{c|c} 0 & 1 \\\\ \\hline & 1 \\end{array}",
     "double t_embedded_b[2] = {1, 0};",
