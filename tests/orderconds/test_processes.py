@@ -18,13 +18,13 @@ from orderconds.processes import in_processes
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
 COMMAND = """
-import signal, sys, time
+import os, signal, sys, time
 import click
 from orderconds import cli
 from orderconds.processes import in_processes
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job of a shell ignores it
 def work(seconds):
-    print("working", flush=True)
+    os.write(1, b"working\\n")  # one call: two workers may print their words first and their line ends later
     time.sleep(seconds)
 @click.command()
 @click.option("--lost", is_flag=True)
