@@ -1,4 +1,4 @@
-"""Running a method over the span of a scene, by the interpreter or by an emitted module.
+"""Run a method over the span of a scene, with the interpreter or with an emitted module.
 
 A :data:`Runner` computes the final state after a given number of steps. The same convergence test is
 therefore used for the interpreter in any precision, emitted Python and emitted C.
@@ -27,11 +27,11 @@ RUNNERS = (*TARGETS, "interpreter")
 """Everything that can run a method: the targets of the compiler, and the interpreter."""
 
 DOUBLE = 16
-"""Decimal digits up to which the interpreter computes with doubles."""
+"""The interpreter uses doubles for at most this number of decimal digits."""
 
 
 class RunFailed(ArithmeticError):
-    """A run that stopped: an iteration did not converge, or a number was not finite."""
+    """A run stopped early because an iteration did not converge, or because a number was not finite."""
 
 
 @dataclass
@@ -49,12 +49,12 @@ class Interpreted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test, about ten seconds."""
+        """The largest number of steps in a convergence test; a run with it takes about ten seconds."""
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
     def problem(self) -> Problem:
-        """The problem in which the method's family was lowered."""
+        """The scene in the form that the family of the method integrates."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
@@ -80,7 +80,7 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the fields of a flat state by name."""
+    """Return the fields of a state by name; ``state`` is the list of all its coordinates."""
     fields: dict[str, Vector] = {}
     start = 0
     for field in problem.state:
@@ -92,7 +92,7 @@ def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
 
 @dataclass
 class Emitted:
-    """An emitted module, compiled and loaded: the same text that ``orderconds emit`` writes."""
+    """A compiled method as an emitted module, with the same text that ``orderconds emit`` writes."""
 
     compiled: Compiled
     target: str
@@ -138,7 +138,7 @@ class Emitted:
 
 
 Runner = Interpreted | Emitted
-"""Runs one compiled method over the span: ``target``, ``final``, ``epsilon``, ``most_steps``."""
+"""An object that runs one compiled method; it has ``target``, ``final``, ``epsilon`` and ``most_steps``."""
 
 
 def runner(

@@ -1,4 +1,4 @@
-"""A bench: candidates on a scene, measured, ranked, and written as a table and a picture."""
+"""The bench: measure emitted methods and peers on a scene, rank them, and write a table and a picture."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Result:
-    """All rows by candidate, the fastest for each decade of accuracy, and the files written."""
+    """The rows of each candidate, the fastest candidate for each accuracy, and the files written."""
 
     scene: Problem
     entries: dict[str, tuple[Row, ...]]
@@ -45,7 +45,7 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """Candidate, seconds of emission, and the largest number of seconds of compilation over all runs."""
+        """For each candidate: name, seconds of emission, and seconds of the longest compilation of a run."""
         return tuple(
             (label, rows[0].emit_seconds, max(r.compile_seconds for r in rows))
             for label, rows in self.entries.items()
@@ -54,7 +54,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """Candidates on one scene, ready to run; results are written to ``folder`` unless it is None."""
+    """Candidates on one scene; :meth:`run` measures them and writes the results to ``folder`` if given."""
 
     scene: Problem
     exact: Reference
@@ -62,10 +62,10 @@ class Bench:
     folder: Path | None = None
 
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
-        """Measure all rows that the cache does not hold, rank the candidates, and write the files.
+        """Measure all rows that are not in the cache, rank the candidates, and write the files.
 
-        ``done`` is called with each row. The default cache is a hidden folder beside the files, from which an
-        interrupted bench continues. This folder is deleted when the files are complete.
+        ``done`` is called with each row. The default cache is a hidden folder beside the files, so that an
+        interrupted bench can continue. This folder is deleted when the files are complete.
         """
         name = self.scene.name
         own = MeasurementCache(self.folder / f".{name}.measured" if self.folder else None)
@@ -98,11 +98,12 @@ def bench(
     progress: Progress,
     adaptive: Sequence[str] = (),
 ) -> Bench:
-    """Return a bench of methods (by default :func:`methods_for` the scene) and peers on a scene.
+    """Return a bench of methods and peers on a scene.
 
-    Methods in ``adaptive`` run with step-size control by their embedded rows. Names and options are checked
-    before anything is measured (InputError). A method that cannot be emitted for the scene becomes a row with
-    the reason.
+    If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
+    ``adaptive`` run with step-size control by their embedded rows. Names and options are checked before the
+    first measurement (InputError). If a method cannot be emitted for the scene, its only row contains the
+    reason.
     """
     for target in targets:
         if target not in TARGETS:
@@ -128,7 +129,7 @@ def bench(
 def emitted(
     scene: Problem, method: Method, exact: Reference, target: str, budget: float, *, adaptive: bool = False
 ) -> Candidate:
-    """Return the candidate of a method, or a :class:`Refused` one if it cannot be emitted for the scene."""
+    """Return the candidate of a method; a :class:`Refused` if the method cannot be emitted for the scene."""
     kind = AdaptiveCandidate if adaptive else EmittedCandidate
     try:
         return kind(scene, method, exact, target, budget)

@@ -37,7 +37,8 @@ from codegen.scene.problem import Problem
 class EmittedCandidate:
     """A method emitted to a target, compiled, and run over the span in equal steps.
 
-    ``precompiled`` is the compiled method, if it exists already. Its emission then takes almost no time.
+    ``precompiled`` is the result of :func:`compile_method`, if the caller has it. ``emit_seconds`` then does
+    not include the time of :func:`compile_method`.
     """
 
     scene: Problem
@@ -58,7 +59,7 @@ class EmittedCandidate:
         self.overhead = math.inf
 
     def controls(self) -> Iterator[float]:
-        """Yield numbers of steps, each twice the one before."""
+        """Yield numbers of steps: 1, 2, 4, ..."""
         return doubled_steps()
 
     def prepare(self) -> None:
@@ -84,14 +85,17 @@ class EmittedCandidate:
         return self._row(control, h, steps, error, times, statistics)
 
     def _net(self, spent: Sequence[float], nothing: Callable[[], object]) -> list[float]:
-        """Subtract the overhead of a call from short times; the overhead is the least time of ``nothing``."""
+        """Return times without the overhead of a call; ``nothing`` is a call that makes no step.
+
+        Times above :data:`COUNTED` are not changed, because the overhead is negligible there.
+        """
         if spent[0] >= COUNTED:
             return list(spent)
         self.overhead = min(self.overhead, cost(nothing))
         return [s - min(self.overhead, s) for s in spent]
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop when the budget is reached, or when rounding dominates."""
+        """Whether the budget is reached or rounding errors dominate, so that finer runs are not needed."""
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
     def _row(
@@ -125,9 +129,9 @@ class EmittedCandidate:
         )
 
     def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
-        """Return how often operations are executed.
+        """Return the sum of ``cost`` over all operations that a run executes.
 
-        Operations outside of implicit blocks are executed once per step, others once per iteration.
+        Operations of an implicit block are executed once per iteration, all other operations once per step.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))

@@ -1,4 +1,4 @@
-"""Cost: error against CPU time, the fastest for each accuracy, and the operations of a step."""
+"""Cost: error against CPU time, the fastest method for each accuracy, and the operations of a step."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     return {
         "picture": Picture(
             Markup(picture),
-            "Error against the CPU time of the whole run, the least of several measurements. Dashed: peers.",
+            "Error against the CPU time of the whole run (least of several measurements). Dashed: peers.",
             subject.bench_command(),
         ),
         "places": [

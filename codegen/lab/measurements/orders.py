@@ -1,4 +1,4 @@
-"""Orders: the order from the order conditions, and the slopes that emitted code shows."""
+"""Orders: the order computed from the order conditions, and the order observed with emitted code."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Orders(Measurement[Result]):
         return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Whether every observed order is the computed one."""
+        """Whether every observed order equals the computed order."""
         return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
@@ -58,13 +58,13 @@ class Orders(Measurement[Result]):
         return Section('{% include "sections/orders.html.j2" %}', values)
 
     def overview(self, result: Result, subject: Subject) -> Section:
-        """Return the number of methods whose order holds."""
+        """Return the number of methods whose observed order equals the computed order."""
         held = sum(m.verdict == "holds" for m in result.measured)
         return Section(OVERVIEW, {"held": held, "all": len(result.measured) + len(result.failures)})
 
 
 def agreement(spread: float | None) -> str:
-    """Return the largest difference between the executors in words."""
+    """Return the largest difference between targets and interpreter, in words."""
     if spread is None:
         return "no run"
     return scientific(spread) if spread else "bit for bit"

@@ -6,7 +6,7 @@ import re
 from html import escape
 
 LETTERS = {"alpha": "α", "beta": "β", "gamma": "γ", "ahat": "â", "bhat": "b̂", "chat": "ĉ"}
-"""Names of coefficients to the letters that represent them in HTML."""
+"""The letter in HTML for each name of a coefficient."""
 
 _TOKEN = re.compile(
     r"sum_(?:\{(?P<range>[^}]*)\}|(?P<index>\w+))"
