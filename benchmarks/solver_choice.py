@@ -80,7 +80,7 @@ int main(int argc, char **argv)
 
 @dataclass
 class Side:
-    """One program: predicted time (None if the trial does not converge) and measured times, in ns per step."""
+    """One program: predicted time (None without convergence of the trial), measured times, in ns per step."""
 
     compiled: Compiled
     program: Path

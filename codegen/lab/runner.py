@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from codegen import printers
 from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder
 from codegen.emitter import Compiled, Optimised, compile_method, emit_compiled
@@ -20,11 +21,10 @@ from codegen.lab.number_types import Scalar, Vector
 from codegen.loader import Integrator, Statistics, StepFailed, load
 from codegen.lower import problem_for
 from codegen.method import Method
-from codegen.printers import TARGETS
 from codegen.scene.problem import Problem
 
-RUNNERS = (*TARGETS, "interpreter")
-"""Everything that can run a method: the targets of the compiler, and the interpreter."""
+INTERPRETER = "interpreter"
+"""The name that selects the interpreter in place of a target."""
 
 DOUBLE = 16
 """The interpreter uses doubles for at most this number of decimal digits."""
@@ -40,7 +40,7 @@ class Interpreted:
 
     compiled: Optimised
     digits: int = DOUBLE
-    target: str = "interpreter"
+    target: str = INTERPRETER
 
     @property
     def epsilon(self) -> float:
@@ -95,14 +95,14 @@ class Emitted:
     """A compiled method as an emitted module, with the same text that ``orderconds emit`` writes."""
 
     compiled: Compiled
-    target: str
+    target: str = printers.DEFAULT
     order: CertifiedOrder | None = None
     epsilon = 2.0**-52
 
     @property
     def most_steps(self) -> int:
         """The largest number of steps in a convergence test, about one second."""
-        return 81920 if self.target == "c" else 10240
+        return printers.target(self.target).most_steps
 
     @cached_property
     def artifact(self) -> Artifact:
@@ -115,9 +115,9 @@ class Emitted:
         return load(self.artifact)
 
     @cached_property
-    def python(self) -> Emitted:
-        """The same step emitted to Python, whose solver can be observed."""
-        return Emitted(self.compiled, "python", self.order)
+    def observed(self) -> Emitted:
+        """The same step emitted to a target in which the solved unknowns can be observed."""
+        return Emitted(self.compiled, printers.observable().name, self.order)
 
     @cached_property
     def initial(self) -> list[float]:
@@ -144,18 +144,19 @@ Runner = Interpreted | Emitted
 def runner(
     scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
 ) -> Runner:
-    """Return the runner for a target: ``c``, ``python`` or ``interpreter``.
+    """Return the runner for a target, or for ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
     known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
     """
-    if target not in RUNNERS:
-        raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(RUNNERS)}")
-    if digits > DOUBLE and target != "interpreter":
+    known = (*printers.names(), INTERPRETER)
+    if target not in known:
+        raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(known)}")
+    if digits > DOUBLE and target != INTERPRETER:
         raise MethodError(
             f"{digits} digits for the target {target}",
             expected="double precision",
             hint="add --target interpreter",
         )
     compiled = compile_method(scene, method)
-    return Interpreted(compiled, digits) if target == "interpreter" else Emitted(compiled, target, order)
+    return Interpreted(compiled, digits) if target == INTERPRETER else Emitted(compiled, target, order)

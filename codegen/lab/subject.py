@@ -18,6 +18,7 @@ from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lower import families_for
 from codegen.method import Method, parse
+from codegen.printers import DEFAULT
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
@@ -51,7 +52,7 @@ EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 @dataclass(frozen=True)
 class CompiledMethod:
-    """A method compiled for the scene, the seconds of its compilation, and the emitted C."""
+    """A method compiled for the scene, the seconds of its compilation, and the emitted module."""
 
     compiled: Compiled
     seconds: float
@@ -122,7 +123,7 @@ class Subject:
             try:
                 compiled = compile_method(self.scene, method)
                 seconds = time.perf_counter() - start
-                artifact = emit_compiled(compiled, "c", order=certified_order(method, self.scene))
+                artifact = emit_compiled(compiled, DEFAULT, order=certified_order(method, self.scene))
             except (InputError, ArithmeticError) as error:
                 failures.append(MethodFailure(method.label, str(error)))
                 continue

@@ -24,7 +24,7 @@ from codegen.lab.peers import find
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.method import Method
-from codegen.printers import TARGETS
+from codegen.printers import DEFAULT, names
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
@@ -70,10 +70,7 @@ class Bench:
         name = self.scene.name
         own = MeasurementCache(self.folder / f".{name}.measured" if self.folder else None)
         entries = {
-            c.label + (" (python)" if c.target == "python" else ""): measure_rows(
-                c, name, self.exact, cache or own, done
-            )
-            for c in self.candidates
+            entry_name(c): measure_rows(c, name, self.exact, cache or own, done) for c in self.candidates
         }
         result = Result(self.scene, entries, places(entries))
         if self.folder is None:
@@ -106,8 +103,8 @@ def bench(
     reason.
     """
     for target in targets:
-        if target not in TARGETS:
-            raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")
+        if target not in names():
+            raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(names())}")
     problem = scenes.load(scene)
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
@@ -124,6 +121,12 @@ def bench(
             ours.append(emitted(problem, method, exact, target, budget, adaptive=adapt))
     theirs = [PeerCandidate(problem, peer, exact, budget) for peer in others]
     return Bench(problem, exact, (*ours, *theirs), folder)
+
+
+def entry_name(candidate: Candidate) -> str:
+    """Return the label of a candidate, followed by its target if this is not the default target."""
+    other = candidate.target in names() and candidate.target != DEFAULT
+    return f"{candidate.label} ({candidate.target})" if other else candidate.label
 
 
 def emitted(
@@ -154,11 +157,11 @@ def table(rows: Sequence[Row]) -> str:
     """Return the rows as CSV with a header; unknown values are empty."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    names = [field.name for field in fields(Row)]
-    writer.writerow(names)
+    columns = [field.name for field in fields(Row)]
+    writer.writerow(columns)
     for row in rows:
         values = row.as_json()
-        writer.writerow(["" if values[n] is None else values[n] for n in names])
+        writer.writerow(["" if values[n] is None else values[n] for n in columns])
     return stream.getvalue()
 
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 
-from codegen.build import compile_files, find_compiler
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, compile_method
 from codegen.ir.operations import Operation
@@ -29,7 +26,8 @@ from codegen.lab.runner import Emitted, RunFailed
 from codegen.lab.timing import cost, samples
 from codegen.loader import Statistics
 from codegen.method import Method
-from codegen.printers.c.module import FLAGS
+from codegen.printers import DEFAULT
+from codegen.printers import target as known_target
 from codegen.scene.problem import Problem
 
 
@@ -44,7 +42,7 @@ class EmittedCandidate:
     scene: Problem
     method: Method
     exact: Reference
-    target: str = "c"
+    target: str = DEFAULT
     budget: float = BUDGET
     precompiled: Compiled | None = None
 
@@ -64,8 +62,9 @@ class EmittedCandidate:
 
     def prepare(self) -> None:
         """Compile without the cache, to measure the time of the compiler, then load the module."""
-        if self.target == "c":
-            self.compile_seconds = _compile_seconds(self.runner.artifact.files)
+        measure = known_target(self.target).compile_seconds
+        if measure is not None:
+            self.compile_seconds = measure(self.runner.artifact.files)
         self.runner.final(0)
 
     def measure(self, control: float) -> Row:
@@ -143,11 +142,3 @@ class EmittedCandidate:
             total += inside * iterations[block]
             block += 1
         return total
-
-
-def _compile_seconds(files: Mapping[str, str]) -> float:
-    with tempfile.TemporaryDirectory() as folder:
-        start = time.perf_counter()
-        flags = (*FLAGS, "-fPIC", "-shared")
-        compile_files(files, Path(folder), Path(folder) / "out", flags, find_compiler())
-        return time.perf_counter() - start

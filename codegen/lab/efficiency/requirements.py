@@ -16,6 +16,7 @@ from codegen.emitter import Compiled
 from codegen.lab.efficiency.ranking import seconds_to
 from codegen.lab.efficiency.work_precision import Row
 from codegen.lower import lowering
+from codegen.printers import target as known_target
 
 DECADES = (3, 6, 9, 12)
 """Recommendations are given for errors of 10^-k, for each k in this tuple."""
@@ -30,7 +31,8 @@ class Features:
 
     ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding.
     ``explicit``: no equations are solved, so all steps take the same time. ``stack`` is an upper bound of the
-    stack of a call in bytes, 0 if it is not known. ``lines`` is the number of lines of the emitted C.
+    stack of a call in bytes, 0 if it is not known. ``lines`` is the number of lines of the file that contains
+    the step.
     """
 
     label: str
@@ -43,9 +45,10 @@ class Features:
 
 
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
-    """Return the properties of a method as emitted to C; ``label`` defaults to the label of the method."""
-    source = artifact.files[f"{artifact.manifest['module']}.c"]
-    stack = re.search(r"stack: +at most (\d+) bytes", source)
+    """Return the properties of a method; ``label`` defaults to the label of the method."""
+    target = known_target(artifact.manifest["target"])
+    source = artifact.files[target.step_file(artifact.manifest["module"])]
+    stack = re.search(target.stack, source) if target.stack else None
     return Features(
         label or compiled.method.label,
         compiled.method.kind.keeps_manifold or compiled.scene.group.abelian,

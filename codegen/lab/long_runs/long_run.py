@@ -85,12 +85,12 @@ class LongRun:
 def long_run(
     compiled: Compiled, h: float, steps: int, *, back: bool = True, rounding: bool = False
 ) -> LongRun:
-    """Run emitted C from the initial state of the scene over many steps.
+    """Run emitted code from the initial state of the scene over many steps.
 
     ``back`` includes the run back, which doubles the time; ``rounding`` includes the growth of rounding
     errors with and without compensation (:mod:`codegen.lab.long_runs.rounding_growth`).
     """
-    scene, runner = compiled.scene, Emitted(compiled, "c")
+    scene, runner = compiled.scene, Emitted(compiled)
     first = float(scene.span[0])
     trajectory = record(scene, runner.integrator, runner.initial, h, steps, first)
     failure = trajectory.failure

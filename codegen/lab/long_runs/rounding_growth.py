@@ -28,6 +28,7 @@ from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import DIGITS, precise_step
 from codegen.lab.straight_line_field import straight_line
 from codegen.loader import Integrator, StepFailed, load
+from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
@@ -87,14 +88,14 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
     If the step has no compensated form, only the plain results are returned. If a run fails, the result is
     empty.
     """
-    scene, plain = compiled.scene, Emitted(compiled, "c")
+    scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
     first = float(scene.span[0])
     if not exactly_conserved(compiled, [(first, plain.initial)], h):
         return ()
     runs: list[tuple[bool, Integrator]] = [(False, plain.integrator)]
     with suppress(MethodError):
-        runs.append((True, load(emit_compiled(compensated(compiled), "c"))))
+        runs.append((True, load(emit_compiled(compensated(compiled), DEFAULT))))
     counts = [steps >> k for k in reversed(range(TIMES)) if steps >> k]
     growths = []
     try:

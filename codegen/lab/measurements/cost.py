@@ -16,6 +16,7 @@ from codegen.lab.page.figures import efficiency_figure
 from codegen.lab.page.formatting import Picture, decade, duration
 from codegen.lab.peers import find
 from codegen.lab.subject import Subject
+from codegen.printers import DEFAULT
 
 
 @dataclass(frozen=True)
@@ -38,11 +39,11 @@ class Cost(Measurement[CostResult]):
         scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
         candidates: list[Candidate] = []
         for method in subject.compiled.measured:
-            own = EmittedCandidate(scene, method.compiled.method, exact, "c", budget, method.compiled)
+            own = EmittedCandidate(scene, method.compiled.method, exact, DEFAULT, budget, method.compiled)
             own.emit_seconds += method.seconds
             candidates.append(own)
-        candidates += [Refused(f.method, "c", f.reason) for f in subject.compiled.failures]
-        candidates += [emitted(scene, m, exact, "c", budget, adaptive=True) for m in subject.adaptive]
+        candidates += [Refused(f.method, DEFAULT, f.reason) for f in subject.compiled.failures]
+        candidates += [emitted(scene, m, exact, DEFAULT, budget, adaptive=True) for m in subject.adaptive]
         candidates += [PeerCandidate(scene, peer, exact, budget) for peer in find(subject.peers)]
 
         def done(row: Row) -> None:

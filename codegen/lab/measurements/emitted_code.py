@@ -8,7 +8,7 @@ from codegen.lab.subject import CompiledMethod, Subject
 
 
 class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
-    """The emitted C of every method, as its manifest describes it."""
+    """The emitted module of every method, as its manifest describes it."""
 
     name = "emitted"
     title = "Emitted code"

@@ -15,7 +15,8 @@ is used. Numbers below the least normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
 interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
-from the solution of emitted Python, which uses the algorithm of emitted C. Newton's method then converges to
+from the solution of emitted code of a target in which the solution can be observed; all targets use the same
+algorithm. Newton's method then converges to
 a solution near that result, or shows that there is none.
 """
 
@@ -34,8 +35,9 @@ from codegen.ir.interpret import flatten, interpret
 from codegen.ir.values import Kind
 from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.runner import Emitted, split_state
-from codegen.loader import InterpretedIntegrator, StepFailed
+from codegen.loader import StepFailed
 from codegen.lower import problem_for
+from codegen.printers import target
 
 DIGITS = 60
 EPSILON = 2.0**-53
@@ -237,32 +239,20 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 
 
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
-    """Return the solved unknowns of each implicit block of a step of emitted Python, in order.
+    """Return the solved unknowns of each implicit block of one emitted step, in order.
 
-    None if the step fails or has no implicit block. Emitted code passes the unknowns of every substep to
-    ``_remember``, which prepares the next warm start. This function records the arguments of ``_remember``.
+    None if the step fails or has no implicit block.
     """
-    integrator = runner.python.integrator
-    assert isinstance(integrator, InterpretedIntegrator)
-    module: Scalar = integrator.module
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
         return None
-    remember, solved = module._remember, dict[int, list[float]]()
-
-    def observe(memory: object, solution: Sequence[float]) -> None:
-        solved[id(memory)] = list(solution)
-        remember(memory, solution)
-
-    module._remember = observe
+    observed = runner.observed
     try:
-        integrator.run(list(state), h, 1, t)
+        solved = target(observed.target).solutions(observed.integrator, state, t, h)
     except StepFailed:
         return None
-    finally:
-        module._remember = remember
     ends = list(accumulate(widths))
-    return [x[end - n : end] for x in solved.values() for n, end in zip(widths, ends, strict=True)]
+    return [x[end - n : end] for x in solved for n, end in zip(widths, ends, strict=True)]
 
 
 class Rounding(PreciseDomain):

@@ -62,7 +62,7 @@ def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> 
     scene = variant.scene
     compiled = compile_method(scene, method)
     order = certified_order(method, scene)
-    runner = Emitted(compiled, "c", order)
+    runner = Emitted(compiled, order=order)
     span = scene.span[1] - scene.span[0]
     size = max(1.0, math.hypot(*map(float, exact.state)))
     runs: list[StiffRun] = []

@@ -113,7 +113,7 @@ def findings(
     """Run all stability tests of one compiled method, on its scene and on the stiff variants given."""
     method = compiled.method
     name = f"{compiled.scene.name}, {method.label}"
-    runner = Emitted(compiled, "c")
+    runner = Emitted(compiled)
     answers = []
     for case in cases(compiled):
         progress(f"{name}: {case.name}")
