@@ -225,12 +225,13 @@ def all_offences() -> list[Offence]:
 
 
 def target_names(path: str, tree: ast.Module, known: Collection[str]) -> list[Offence]:
-    """Return every string that equals a target's name, also in arguments and defaults, outside its package."""
+    """Return the strings that equal a target's name, also in arguments and defaults, outside its package."""
+    parts = {id(part) for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in node.values}
     return [
         Offence(path, node.lineno, node.value, "string")
         for node in ast.walk(tree)
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value in known
-        if not path.startswith(f"codegen/printers/{node.value}/")
+        if id(node) not in parts and not path.startswith(f"codegen/printers/{node.value}/")
     ]
 
 
