@@ -53,7 +53,7 @@ LEAST = 3
 PROBES = 4
 
 SWEEPS, CORRECTIONS = 60, 30
-"""Largest numbers of iterations of the interpreter: fixed-point iteration, and Newton's method."""
+"""Largest numbers of fixed-point iterations and of Newton iterations in the interpreter."""
 
 ACCURATE, WRONG = "accurate", "WRONG"
 SILENT = f"undetermined: rounding leaves fewer than {LEAST} digits"
@@ -66,7 +66,7 @@ SCALES = (0.0, 5e-324, 1e-160, 1e-75, 1e75, 1e150, 1e308)
 
 @dataclass(frozen=True)
 class Case:
-    """One step. ``name`` describes the extreme input: state, time and step size."""
+    """The input of one step: state, time and step size. ``name`` states which number is extreme."""
 
     name: str
     state: tuple[float, ...]
