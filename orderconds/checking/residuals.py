@@ -170,8 +170,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals on demand: the first is computed alone, all others together when a second one is
-    needed."""
+    """Exact residuals on demand: the first one needed is computed alone; at the second, all others are
+    computed."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]

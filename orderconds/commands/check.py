@@ -58,7 +58,9 @@ WIDTH = 200
 @click.option(
     "--max-memory", type=click.IntRange(1), help="Stop each tableau above this many megabytes of memory."
 )
-@click.option("--json", "as_json", is_flag=True, help="One list of records on stdout, nothing else.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print one JSON list of records on stdout and nothing else."
+)
 def command(
     tableaux: Sequence[str],
     family: str | None,
@@ -74,7 +76,7 @@ def command(
     name from the library. A claimed order must equal the order found. If a limit ends the search, the order
     found is a lower bound.
 
-    Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
+    Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
     from orderconds.families import get
 
@@ -174,7 +176,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # format in the main process, which knows the terminal
+    if not job.one_of_many:  # only the main process knows the terminal
         _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
     with redirect_stdout(io.StringIO()) as printed:
@@ -183,7 +185,8 @@ def _checked(job: _Job) -> _Outcome:
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
-    """Return the names in the files DECIMAL of the directories: lines "NAME: reason"."""
+    """Return the tableau names in the files DECIMAL of the directories; a line has the form "NAME:
+    reason"."""
     names = set[str]()
     for argument in arguments:
         listed = Path(argument) / "DECIMAL"
@@ -194,7 +197,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str]) -> Iterator[str]:
-    """Yield each argument, a directory replaced by the tableau files below it in sorted order.
+    """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
     Other TOML files below a directory, such as ``pyproject.toml``, are skipped.
     """
@@ -202,7 +205,7 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
 
     for argument in arguments:
         if not argument.strip():
-            raise TableauError(f"{argument!r} names nothing", expected="a file, a folder or a tableau's name")
+            raise TableauError(f"an empty name {argument!r}", expected="a file, a folder or a tableau's name")
         if not os.path.isdir(argument):
             yield argument
             continue

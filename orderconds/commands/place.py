@@ -28,7 +28,7 @@ class Place(click.ParamType[str]):
         return value
 
 
-FOLDER = Place("folder", "type '.' for the present one")
+FOLDER = Place("folder", "type '.' for the current folder")
 FILE = Place("file", "leave the option out for stdout")
 
 

@@ -17,7 +17,7 @@ from orderconds.commands import screen
     show_default=True,
     help="Bracketed Lyndon words, or a Hall basis.",
 )
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, order: int, basis: str, as_json: bool) -> int:
     """Print the Lie series NAME as a sum of brackets [x, y] = x y - y x, with exact coefficients.
 

@@ -84,7 +84,7 @@ def read(content: bytes, where: str) -> Data:
     try:
         text = content.decode()
     except UnicodeDecodeError:
-        raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
+        raise TableauError("bytes that are not UTF-8", where=where, expected="LaTeX") from None
     entries = _texts(text)
     environments = list(_environments(_COMMENT.sub("", text), where))
     if (array := next((body for name, body in environments if name is None), None)) is not None:
@@ -140,7 +140,7 @@ def _butcher(body: str, where: str) -> Arrays:
     parts = [_rows(part, where) for part in re.split(r"\\hline", body) if part.strip()]
     if not 2 <= len(parts) <= 3 or any(len(part) != 1 for part in parts[1:]):
         raise TableauError(
-            "rules that part no tableau", where=where, expected=r"rows c & A, \hline, a row & b"
+            "rules that do not separate A from b", where=where, expected=r"rows c & A, \hline, a row & b"
         )
     return butcher(parts[0], [row[1:] for (row,) in parts[1:]])
 

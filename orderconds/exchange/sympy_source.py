@@ -94,7 +94,7 @@ def read(content: bytes, where: str) -> Data:
     try:
         text = content.decode()
     except UnicodeDecodeError:
-        raise TableauError("bytes that are no UTF-8", where=where, expected="Python source") from None
+        raise TableauError("bytes that are not UTF-8", where=where, expected="Python source") from None
     entries = _header(text)
     for name, value in _assigned(re.sub(r"#.*", "", text), where):
         if name in ROWS + MATRICES:

@@ -40,8 +40,8 @@ class Vertex:
     """A vertex with its branches from left to right.
 
     ``legs`` = (before, letters) means that the first ``letters`` branches are letters of one word, and that
-    the edge to the parent comes after ``before`` of them; None if there is no choice. ``label`` is the text
-    of a letter.
+    the edge to the parent is the letter after the first ``before`` of them. ``legs`` is None if the position
+    of this edge does not matter. ``label`` is the text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

@@ -100,7 +100,7 @@ def _certify(key: _Key, least: int) -> Certificate:
     tableau = key.tableau
     proof = tableau.proof
     if proof is None:
-        raise NotProved("the file names no equations")
+        raise NotProved("the file names no equations; add a table [proof]")
     if not proof.unknowns:
         raise NotProved(
             'pins name every decimal, so that none is left as an unknown; pin fewer, or leave out "~"'

@@ -43,7 +43,7 @@ Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 
 @dataclass(frozen=True)
 class Dependences:
-    """The independent conditions, and the dependent ones as combinations of the former modulo several
+    """The independent conditions, and the dependent ones as combinations of independent ones modulo several
     primes."""
 
     pivots: tuple[OrderCondition, ...]

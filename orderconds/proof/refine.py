@@ -26,7 +26,7 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""The largest change of a number; a larger one would lead to another method."""
+"""The largest accepted change of a decimal; a larger change would lead to another method."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ class Refined:
 
 
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
-    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and with the pinned
-    decimals.
+    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and with the list of
+    pinned decimals.
 
     The original digits are recorded as ``printed``, unless the file already has a table of this name. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` where Newton's method does not converge nearby.
@@ -120,7 +120,7 @@ def _newton(
         for place, j in enumerate(free):
             point[j] = (point[j] - step[place, 0]).mid()
             if not abs(point[j] - start[j]) < arb(TOLERANCE):
-                raise NotProved("Newton's method leaves the decimals: they solve no such equations")
+                raise NotProved("Newton's method leaves the decimals: they are not near a solution")
         if all(abs(step[place, 0]).upper() < arb(10) ** -(digits + 5) for place in range(len(free))):
             return [decimal_places(point[j], digits) for j in free]
     raise NotProved("Newton's method does not converge from the decimals")

@@ -46,8 +46,8 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Free coefficients are rounded to multiples of one of these units, the coarsest that leaves a good
-solution."""
+"""Free coefficients are rounded to multiples of the coarsest of these units for which a good solution
+remains."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
 """The units after the principal error was minimised. Near a minimum, rounding hardly changes the error."""

@@ -58,7 +58,7 @@ class Elimination:
                     raise InputError(
                         f"{constraint.text} contradicts the other constraints",
                         where="constraints",
-                        expected="constraints that some tableau meets",
+                        expected="constraints that some tableau satisfies",
                     )
                 continue
             pivot = max(unknown, key=rank.__getitem__)

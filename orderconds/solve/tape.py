@@ -1,7 +1,7 @@
 """A recorded program compiled for numpy: values and exact Jacobians at many points together.
 
-The operations that the outputs need are sorted into levels, each depending on earlier levels only. A few
-calls of numpy evaluate a level with any number of operations. The Jacobian is computed by forward
+The operations that the outputs need are sorted into levels; the operations of a level depend on earlier
+levels only. A few calls of numpy evaluate all operations of a level. The Jacobian is computed by forward
 differentiation: the gradient of each operation is computed with its value.
 """
 

@@ -25,7 +25,7 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Tableau:
-    """A named method over ``ring``; ``family`` is its file's format: ``rk``, ``prk``, ``cf`` ...."""
+    """A named method over ``ring``; ``family`` is the format of its file: ``rk``, ``prk``, ``cf``, ..."""
 
     name: str
     family: str
@@ -37,7 +37,7 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The equations that the rounded decimals solve, where the file names them."""
+    """The equations that the true values of the rounded decimals solve; None if the file names none."""
     file: File | None = field(default=None, compare=False, repr=False)
     """The file that was read; None once the coefficients are no longer those of a file."""
 

@@ -118,7 +118,7 @@ def test_every_command_takes_json(name: str) -> None:
 def test_an_option_of_one_value_is_not_given_twice(args: list[str], said: str) -> None:
     result = run(*args)
     assert (result.exit_code, result.stdout) == (2, "")
-    assert result.stderr.startswith(f"orderconds: {said}; it takes one value")
+    assert result.stderr.startswith(f"orderconds: {said}; give it once")
 
 
 def test_flags_and_options_of_several_values_may_be_repeated() -> None:

@@ -66,7 +66,7 @@ def test_a_file_that_cannot_be_read_fails_with_its_message(folder: Path) -> None
 def test_complete_demands_every_family(folder: Path) -> None:
     result = run(folder, "--orderconds-complete")
     assert result.returncode == 1
-    assert "no order is claimed in family cg, which it can serve: its order there is 1" in result.stdout
+    assert "no order is claimed in family cg, in which the method has order 1" in result.stdout
 
 
 def test_certified_demands_proofs(folder: Path) -> None:

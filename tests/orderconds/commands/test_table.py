@@ -62,7 +62,7 @@ def test_a_file_that_cannot_be_read_is_told_before_anything_is_computed(
     monkeypatch.setattr(table, "computed", None)
     (tmp_path / "latin.md").write_bytes(b"caf\xe9")
     for name, said in (
-        ("latin.md", "bytes that are no UTF-8"),
+        ("latin.md", "bytes that are not UTF-8"),
         ("absent.md", "no such file"),
         (".", "is a dir"),
     ):
