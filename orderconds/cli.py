@@ -36,7 +36,7 @@ BUILT_IN = {
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
     "construct": (
         "orderconds.commands.construct",
-        "Make a Gauss, Radau or Lobatto method from its definition.",
+        "Compute a Gauss, Radau or Lobatto method from its definition.",
     ),
     "convert": (
         "orderconds.commands.convert",
@@ -203,7 +203,7 @@ def _ask_for_traceback(ctx: click.Context, parameter: click.Parameter, asked: bo
     expose_value=False,
     callback=_ask_for_traceback,
     envvar="ORDERCONDS_TRACEBACK",
-    help="Show the traceback of an internal error; ORDERCONDS_TRACEBACK=1 does the same.",
+    help="Show the traceback of an internal error (or set the variable ORDERCONDS_TRACEBACK=1).",
 )
 def program() -> None:
     """Derive, prove and compile Lie group integrators."""

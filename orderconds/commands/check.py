@@ -36,7 +36,9 @@ WIDTH = 200
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
 @click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), claimed or not.")
-@click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
+@click.option(
+    "--order", "-p", type=click.IntRange(1, 20), help="Ignore the claims; require at least this order."
+)
 @click.option(
     "--complete",
     is_flag=True,
@@ -53,10 +55,10 @@ WIDTH = 200
     help="Evaluate at most this many conditions of one order. Default: 50000.",
 )
 @click.option(
-    "--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop each tableau after this time."
+    "--max-seconds", type=click.FloatRange(0, min_open=True), help="End each check after this many seconds."
 )
 @click.option(
-    "--max-memory", type=click.IntRange(1), help="Stop each tableau above this many megabytes of memory."
+    "--max-memory", type=click.IntRange(1), help="End each check if it uses more than this many megabytes."
 )
 @click.option(
     "--json", "as_json", is_flag=True, help="Print one JSON list of records on stdout and nothing else."

@@ -10,7 +10,7 @@ from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 
 
-@click.command(name="construct", short_help="Make a Gauss, Radau or Lobatto method from its definition.")
+@click.command(name="construct", short_help="Compute a Gauss, Radau or Lobatto method from its definition.")
 @click.argument("kind")
 @click.option("--stages", "-s", type=click.IntRange(1, 50), required=True, help="The number of stages.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")

@@ -16,10 +16,10 @@ FORMATS = ("text", "latex", "sympy", "json")
 
 @click.command(name="derive", short_help="Print the independent order conditions of a family.")
 @click.argument("family")
-@click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="Highest order.")
+@click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="The highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
 @click.option("--explicit", is_flag=True, help="With --stages: explicit methods, a_ij = 0 for j >= i.")
-@click.option("--format", "form", type=click.Choice(FORMATS), help="Default: text.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="The output format. Default: text.")
 @click.option(
     "--all",
     "every",

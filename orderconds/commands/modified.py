@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 
 @click.command(name="modified", short_help="Print the modified equation of a method.")
 @click.argument("tableau", metavar="FILE|NAME")
-@click.option("--order", "-p", type=click.IntRange(1, 10), required=True, help="Terms up to h^(ORDER - 1).")
+@click.option(
+    "--order", "-p", type=click.IntRange(1, 10), required=True, help="Print the terms up to h^(ORDER - 1)."
+)
 @click.option(
     "--family", help="Treat the tableau as a method of this family. Default: rk or cf, by its format."
 )

@@ -21,41 +21,73 @@ if TYPE_CHECKING:
 
 @click.command(name="solve", short_help="Find a method, prove its order, and write its tableau.")
 @click.argument("family")
-@click.option("--stages", "-s", type=click.IntRange(1, 40), required=True, help="Number of stages or steps.")
-@click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="Order to reach.")
-@click.option("--explicit", is_flag=True, help="Explicit: a_ij = 0 for j >= i.")
-@click.option("--dirk", is_flag=True, help="Diagonally implicit: a_ij = 0 for j > i.")
-@click.option("--symmetric", is_flag=True, help="Symmetric: a step -h undoes a step h.")
-@click.option("--fsal", is_flag=True, help="The last stage is the first stage of the next step.")
-@click.option("--fix", multiple=True, metavar="a21=1/2", help="A linear equation; repeat for more.")
-@click.option("--positive", multiple=True, metavar="NAME", help="Positive coefficient; b: all weights.")
-@click.option("--size", metavar="X", help="No coefficient is larger than X in absolute value.")
+@click.option(
+    "--stages",
+    "-s",
+    type=click.IntRange(1, 40),
+    required=True,
+    help="The number of stages (of steps, for compositions and splittings).",
+)
+@click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="The order of the method.")
+@click.option("--explicit", is_flag=True, help="Only explicit methods: a_ij = 0 for j >= i.")
+@click.option("--dirk", is_flag=True, help="Only diagonally implicit methods: a_ij = 0 for j > i.")
+@click.option(
+    "--symmetric", is_flag=True, help="Only symmetric methods: a step of length -h undoes a step of length h."
+)
+@click.option(
+    "--fsal", is_flag=True, help="Only methods whose last stage is the first stage of the next step."
+)
+@click.option(
+    "--fix", multiple=True, metavar="a21=1/2", help="A linear equation for coefficients; may be repeated."
+)
+@click.option(
+    "--positive",
+    multiple=True,
+    metavar="NAME",
+    help="A coefficient that must be positive; b means all weights.",
+)
+@click.option("--size", metavar="X", help="Only methods with coefficients of absolute value at most X.")
 @click.option(
     "--exponentials",
     type=click.IntRange(1, 12),
     default=2,
     show_default=True,
-    help="cf, vcf: exponentials in the update.",
+    help="Families cf and vcf: the number of exponentials in the update.",
 )
 @click.option(
     "--inner",
     type=click.IntRange(1, 12),
     default=2,
     show_default=True,
-    help="cf, vcf: exponentials in each stage.",
+    help="Families cf and vcf: the number of exponentials in each stage.",
 )
-@click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
 @click.option(
-    "--minimise", type=click.Choice(["error"]), help="Use all starts and choose the least principal error."
+    "--rkn", is_flag=True, help="Family splitting: assume that the parts T and V satisfy [V,[V,[V,T]]] = 0."
 )
-@click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; 1024 with --minimise]")
+@click.option(
+    "--minimise",
+    type=click.Choice(["error"]),
+    help="Use all starts and write the method with the least principal error.",
+)
+@click.option(
+    "--starts",
+    type=click.IntRange(1, 10**7),
+    help="The number of random starts.  [4096; 1024 with --minimise]",
+)
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
-@click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one for each processor]")
+@click.option(
+    "--processes",
+    type=click.IntRange(1, 256),
+    help="The number of local processes.  [one for each processor]",
+)
 @click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
-@click.option("--name", default="found", show_default=True, help="The tableau's name.")
+@click.option("--name", default="found", show_default=True, help="The name of the tableau.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option(
-    "--checkpoint", type=FILE, metavar="FILE", help="Save finished batches here.  [FILE.search with -o FILE]"
+    "--checkpoint",
+    type=FILE,
+    metavar="FILE",
+    help="Save finished batches of starts to this file.  [FILE.search with -o FILE]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:

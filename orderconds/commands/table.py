@@ -22,7 +22,9 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 
 @click.command(name="table", short_help="Print the library as a Markdown table, or update it in a file.")
 @click.option("--write", metavar="FILE", help="Replace the table between the markers in FILE.")
-@click.option("--check", "against", metavar="FILE", help="Fail unless FILE has the current table.")
+@click.option(
+    "--check", "against", metavar="FILE", help="Exit with status 1 unless FILE contains the current table."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the rows on stdout as JSON and nothing else.")
 def command(write: str | None, against: str | None, as_json: bool) -> int:
     """Print a line for each tableau of the library: its orders and, for the family of highest order, the

@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
 @click.argument("kind")
 @click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="The number of vertices.")
-@click.option("--count", is_flag=True, help="Print only the count, from a generating function.")
+@click.option(
+    "--count", is_flag=True, help="Print only the number of trees, computed from a generating function."
+)
 @click.option("--draw", is_flag=True, help="Draw each tree or word.")
 @click.option(
     "--explain",

@@ -130,7 +130,7 @@ def test_flags_and_options_of_several_values_may_be_repeated() -> None:
 def test_an_empty_place_to_write_to_is_told_what_to_type_for_the_present_folder() -> None:
     from orderconds.commands.place import FOLDER
 
-    with pytest.raises(click.BadParameter, match=r"type '\.' for the present one"):
+    with pytest.raises(click.BadParameter, match=r"type '\.' for the current folder"):
         FOLDER.convert("", None, None)
 
 

@@ -96,7 +96,7 @@ REFUSED: dict[str, tuple[str, str]] = {
     ),
     "not low-storage": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 3\nreduction = "low-storage"\npins = ["x"]'),
-        "no low_storage scheme",
+        "no table low_storage",
     ),
     "low-storage beyond what is known": (
         text("carpenter_kennedy4").replace("order = 4\nreduction", "order = 6\nreduction"),

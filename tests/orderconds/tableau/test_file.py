@@ -133,7 +133,7 @@ MALFORMED = {
     "embedded row equal to b": (
         EULER + 'embedded = { b = ["1"], order = 1 }',
         "embedded.b: an embedded row equal to the main one",
-        "other weights",
+        "weights that differ",
     ),
     "unknown key in embedded": (
         EULER + 'embedded = { b = ["1"], order = 1, x = 2 }',
@@ -200,7 +200,7 @@ MALFORMED = {
         "a chain of more than 40 definitions: g0 -> g1 -> ... -> g40",
         "a shorter chain",
     ),
-    "number called sqrt": (EULER + 'numbers = { sqrt = "1" }\n', "the name 'sqrt'", "taken"),
+    "number called sqrt": (EULER + 'numbers = { sqrt = "1" }\n', "the name 'sqrt'", "reserved"),
     "number with a dash": (EULER + 'numbers = { a-b = "1" }\n', "the name 'a-b'", "letter"),
     "unused number that is bad": (
         EULER + 'numbers = { g = "1/0" }\n',
@@ -235,12 +235,12 @@ MALFORMED = {
     "claim twice": (
         EULER + "claims = { rkmk = [{ cutoff = 1, order = 1 }, { cutoff = 1, order = 2 }] }\n",
         "two claims for rkmk(1)",
-        "one claim",
+        "at most one",
     ),
     "stage from itself": (
         CF + '[[stage]]\nfrom = 1\n[update]\nexp = [["1"]]\n',
         "stage[1]: from = 1",
-        "no from",
+        "no key from",
     ),
     "stage from a later one": (
         CF + '[[stage]]\n[[stage]]\nfrom = 2\n[update]\nexp = [["1"]]\n',
@@ -255,7 +255,7 @@ MALFORMED = {
     ),
     "two forms of cf": (
         CF + '[[stage]]\n[update]\nexp = [["1"]]\n[low_storage]\nA = ["0"]\nB = ["1"]\n',
-        "low_storage beside",
+        "both low_storage",
         "one of the two",
     ),
     "low storage of two lengths": (
