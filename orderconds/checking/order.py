@@ -96,9 +96,10 @@ def family_order(
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     ``bound`` is the order in another family, whose conditions are a subset of those of ``family``. It is
-    therefore an upper bound. From the search limit of ``family`` on, or with ``brief`` at every order, the
-    search stops when it reaches this bound. It then reports the failing conditions of ``bound``. Conditions
-    that follow from others, and from the orders ``proved`` in other families, are not evaluated
+    therefore an upper bound. ``search_limit`` is the order up to which ``family`` searches without a claim.
+    If the order of ``bound`` is at least this limit, or with ``brief`` in any case, the search stops when it
+    reaches this bound. It then reports the failing conditions of ``bound``. Conditions that follow from
+    others, and from the orders ``proved`` in other families, are not evaluated
     (:mod:`orderconds.families.reductions`). The search also ends when ``meter`` reports that a limit is
     reached.
 

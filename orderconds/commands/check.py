@@ -27,10 +27,11 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""How many failing conditions the text lists if a claim does not hold; otherwise one. JSON lists all."""
+"""The number of failing conditions that the text lists if a claim fails; otherwise it lists one. JSON lists
+all."""
 
 WIDTH = 200
-"""The text cuts longer formulas and residuals; JSON has them in full."""
+"""The maximal length of a formula or residual in the text; JSON contains them in full."""
 
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")

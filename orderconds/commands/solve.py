@@ -212,4 +212,4 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo(f"  add up to {proof.reason}")
+    click.echo(f"the sum of these products is {proof.consequence}, but {proof.reason}")

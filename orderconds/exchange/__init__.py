@@ -108,7 +108,7 @@ def load_foreign(path: str | Path) -> Tableau | None:
 
 
 def name_of(path: str | Path) -> str:
-    """Return a name for the tableau of a file without a name, from its path.
+    """Return a tableau name computed from a path, for a file that contains no name.
 
     >>> name_of("my files/my method (2).csv")
     'my_method_2'

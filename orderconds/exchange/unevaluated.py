@@ -100,7 +100,7 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant of the file."""
+        """Return the expression of a constant in the file."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:

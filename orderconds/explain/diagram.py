@@ -1,10 +1,10 @@
 """Diagrams: vertices, edges and ordered branches, the form in which every kind of tree is drawn.
 
-A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the L of the action trees,
-which is no copy of the Hamiltonian). In words, a vertex is a *letter* or the *bracket* of two vertices. An
-edge is *plain*, or it points from a derivative in q to a derivative in p or mu, as in
-:mod:`orderconds.trees.directed`. It points *outward* if the branch is a velocity (a_ij), *inward* if the
-branch is a force (ahat_ij).
+A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the letter L of the action
+trees: a coadjoint action, not a derivative of the Hamiltonian). In words, a vertex is a *letter* or the
+*bracket* of two vertices. An edge is *plain*, or it points from a derivative in q to a derivative in p or mu,
+as in :mod:`orderconds.trees.directed`. It points *outward* if the branch is a velocity (a_ij), *inward* if
+the branch is a force (ahat_ij).
 """
 
 from __future__ import annotations

@@ -35,7 +35,7 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Place branches as close as their outlines allow and parents above their middle.
+    r"""Place branches as close as their outlines allow, and each parent above the middle of its branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -61,7 +61,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # A note on the parent's place in a word is drawn right of the vertex and needs room.
+    # The note with the parent's place in a word needs room at the right of the vertex.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 

@@ -82,8 +82,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A tableau as a cache key. Tableaux with the same data for a proof are equal, so families share one
-    proof."""
+    """A tableau as a cache key. Tableaux with the same data for a proof are equal, so the checks of several
+    families share one proof."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau

@@ -119,7 +119,7 @@ def parsed(text: str, where: str) -> Data:
         ) from None
     except RecursionError:
         raise TableauError("TOML nested too deep", where=where, expected="shallow tables and lists") from None
-    # Python raises it for an integer of more than some thousand digits and for a date outside the calendar.
+    # Python raises ValueError for an integer with thousands of digits and for a date outside the calendar.
     except ValueError:
         raise TableauError(
             "an integer of thousands of digits, or an impossible date",
@@ -129,7 +129,7 @@ def parsed(text: str, where: str) -> Data:
 
 
 def read(data: Mapping[str, object], where: str) -> File:
-    """Return the content of a file from its keys and values, as TOML or JSON give them.
+    """Return the typed content of a file, given its keys and values as parsed from TOML or JSON.
 
     >>> read({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}, "data").method
     RungeKutta(A=((0,),), b=(1,))

@@ -111,7 +111,7 @@ def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) ->
 
 
 def counted(s: int, where: str, noun: str = "stages") -> int:
-    """Return a number of stages; :class:`TableauError` unless it is from 1 to :data:`MAX_STAGES`.
+    """Return the number of stages s; raise :class:`TableauError` unless 1 <= s <= :data:`MAX_STAGES`.
 
     >>> counted(3, "b")
     3

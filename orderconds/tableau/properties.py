@@ -1,6 +1,6 @@
 """Properties of a tableau, computed from its coefficients.
 
-Each is True, False, or None if the coefficients are balls too wide to decide.
+Each property is True, False, or None if the coefficients are balls too wide to decide.
 """
 
 from __future__ import annotations

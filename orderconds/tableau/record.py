@@ -138,7 +138,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
 
 
 def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
-    """Return the tableau of a file's keys and values, as TOML or JSON give them.
+    """Return the tableau, given the keys and values of a file as parsed from TOML or JSON.
 
     >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
     RungeKutta(A=((0,),), b=(1,))
