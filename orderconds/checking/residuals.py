@@ -206,6 +206,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    assert isinstance(ring, Balls)  # in other rings is_zero is never undecided
+    assert isinstance(ring, Balls)  # exact rings decide is_zero
     radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

@@ -176,7 +176,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order if theorems determine it beyond the end of the search, else the result ``ended``.
+    """Return the order if theorems determine it beyond the highest order searched, else the result ``ended``.
 
     Theorems bound the order from below. The order in another family, or a failing condition, bounds it from
     above.
@@ -278,8 +278,8 @@ def read(given: str | PathLike[str]) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check with their claims: the given family, else all claimed ones, else the family
-    of the tableau format."""
+    """Yield the families to check, each with its claimed order: the given family; or all claimed families;
+    or, without claims, the family of the tableau format."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)

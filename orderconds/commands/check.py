@@ -275,7 +275,7 @@ def _proof(proof: Certificate) -> str:
     if not proof.printed:
         return text
     furthest = max(proof.printed.values(), key=float)
-    return f"{text}; the source's digits are off by up to {furthest}"
+    return f"{text}; the digits printed in the source differ by up to {furthest}"
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:
@@ -295,7 +295,7 @@ def _print_failing(family: FamilyOrder) -> None:
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"
         if family.stopped is None:
-            click.echo(f"  {reached}, the end of the search")
+            click.echo(f"  {reached}, the highest order searched")
         else:
             click.echo(f"  {reached}; stopped by a limit after {family.stopped} conditions")
         return

@@ -118,5 +118,5 @@ def _around(path: str) -> tuple[str, str, str]:
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:
-        raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")
+        raise InputError("no markers for the table", where=path, expected=f"{BEGIN} and {END}")
     return text, text[:start], text[end + len(END) :]

@@ -127,7 +127,7 @@ def _end(text: str, token: re.Match[str], where: str) -> int:
     while closing == '"' and end > 0 and text[end - 1] == "\\":
         end = text.find(closing, end + 1)
     if end < 0:
-        raise TableauError("a comment or string without an end", where=where, expected="C source")
+        raise TableauError("a comment or string that is not closed", where=where, expected="C source")
     return end + len(closing)
 
 

@@ -124,7 +124,7 @@ def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
             opened = token
             continue
         if opened is None or opened[2] != token[2]:
-            raise TableauError(f"{token[0]} without a beginning", where=where, expected="rows of numbers")
+            raise TableauError(f"{token[0]} without its \\begin", where=where, expected="rows of numbers")
         columns = _COLUMNS.match(text, opened.end())
         named = _NAMED.search(text, max(0, opened.start() - 84), opened.start())
         if opened[2] == "array" and columns is not None:
@@ -133,7 +133,7 @@ def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
             yield named[1], text[opened.end() : token.start()]
         opened = None
     if opened is not None:
-        raise TableauError(f"{opened[0]} without an end", where=where, expected="rows of numbers")
+        raise TableauError(f"{opened[0]} without its \\end", where=where, expected="rows of numbers")
 
 
 def _butcher(body: str, where: str) -> Arrays:

@@ -139,7 +139,7 @@ def _closing(text: str, start: int, where: str) -> int:
         depth += 1 if bracket[0] == "[" else -1
         if depth == 0:
             return bracket.end()
-    raise TableauError("a list without an end", where=where, expected="rows of numbers")
+    raise TableauError("a list that is not closed", where=where, expected="rows of numbers")
 
 
 def _with_python_names(data: Data) -> Data:

@@ -82,7 +82,11 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Whether a condition holds at this member, hence at every member."""
+        """Whether a condition holds at this member.
+
+        Because the member is random, the condition then holds at every member, except with negligible
+        probability (:mod:`orderconds.tableau.random_member`).
+        """
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:

@@ -45,8 +45,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
         for i, (inner, outer) in enumerate(zip(image, box, strict=True)):
             if not outer.contains_interior(inner):
                 raise NotProved(
-                    f"the box is not mapped into itself: the image of unknown {i + 1} leaves "
-                    f"{outer.str(12)}, it is {inner.str(12)}"
+                    f"the box is not mapped into itself: Krawczyk's operator maps unknown {i + 1} "
+                    f"from {outer.str(12)} to {inner.str(12)}"
                 )
         for _ in range(MAX_SWEEPS):
             sharper = [x.intersection(y) for x, y in zip(image, _image(system, image), strict=True)]

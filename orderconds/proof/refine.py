@@ -61,7 +61,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The constant equations are recognised over a box, not at a point.
+        # Equations without unknowns are recognised over a box, not at a point.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -116,7 +116,7 @@ def _newton(
         try:
             step = jacobian.solve(arb_mat(len(kept), 1, [values[i].value.mid() for i in kept]))
         except ZeroDivisionError:
-            raise NotProved("Newton's method met a singular Jacobian") from None
+            raise NotProved("Newton's method failed: its Jacobian is singular") from None
         for place, j in enumerate(free):
             point[j] = (point[j] - step[place, 0]).mid()
             if not abs(point[j] - start[j]) < arb(TOLERANCE):

@@ -206,7 +206,7 @@ def _newton(
             try:
                 step = jacobian.solve(arb_mat(len(rows), 1, [f.value.mid() for f in at]))
             except ZeroDivisionError:
-                raise NotProved("Newton's method met a singular Jacobian") from None
+                raise NotProved("Newton's method failed: its Jacobian is singular") from None
             for k, j in enumerate(solved):
                 values[j] = (values[j] - step[k, 0]).mid()
             size = max(float(abs(step[k, 0]).mid()) for k in range(len(rows)))

@@ -27,8 +27,8 @@ MAX_TEXT = 160
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """The ``text`` of a number in a tableau file. The lines ``root`` define the number ``r`` if the text
-    contains it."""
+    """The ``text`` of a number in a tableau file. If the text contains the name ``r``, the lines ``root``
+    define this number."""
 
     text: str
     root: tuple[str, ...] = ()

@@ -64,7 +64,7 @@ def _client(address: str) -> Any:
         ) from None
     try:
         return Client(address, timeout=TIMEOUT)
-    except (OSError, ValueError, TimeoutError, TypeError) as problem:  # TypeError: tls without certificates
+    except (OSError, ValueError, TimeoutError, TypeError) as problem:  # TypeError: tls without a certificate
         raise InputError(
             f"no cluster answers ({_words(problem)})",
             where=f"--dask {address}",

@@ -182,15 +182,15 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums a_ij of exponents with the required abscissae, and for the last
-    exponentials of the stages."""
+    """Return formulas for the sums a_ij of each stage's exponents that give the required abscissae, and for
+    the last exponents of the stages."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="stages without fixed coefficients",
+                expected="no constraint that fixes coefficients of stages",
             )
     A = [[named("a", i, j) for j in every] for i in every]
     b = [named("b", i) for i in every]
@@ -231,8 +231,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums x_ij of the exponents of each stage with the required abscissae, and for
-    the last exponents."""
+    """Return formulas for the sums x_ij of each stage's exponents that give the required abscissae, and for
+    the last exponents of the stages."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -247,7 +247,7 @@ def _symmetric_abscissae(
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="stages without fixed coefficients",
+                expected="no constraint that fixes coefficients of stages",
             )
     middle: list[str] = []
     extra = commutator_free_times(written, b)

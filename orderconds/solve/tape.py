@@ -50,7 +50,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        wanted = [x.placed() for x in outputs]  # this call records the constants
+        wanted = [x.placed() for x in outputs]  # placed() also records the constants
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
         place = {operation: row for row, operation in enumerate(rows)}

@@ -45,7 +45,7 @@ class Scalars(Protocol):
         """Return the real root within ``unit`` of ``near``; ValueError unless there is exactly one."""
 
     def size(self, x: Element) -> int:
-        """Return the bits of the largest integer in the representation of x."""
+        """Return the number of bits of the largest integer in the representation of x."""
 
 
 def evaluate(
@@ -69,7 +69,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            evaluation.check_unused()  # last, because unused numbers must not enlarge the ring
+            evaluation.check_unused()  # evaluated last: unused numbers must not enlarge the ring
             return ring, _shared(values, lift)
         except DegreeError:
             pass

@@ -124,7 +124,7 @@ def parsed(text: str, where: str) -> Data:
         raise TableauError(
             "an integer of thousands of digits, or an impossible date",
             where=where,
-            expected='coefficients quoted, as "1/2"',
+            expected='coefficients in quotation marks, as "1/2"',
         ) from None
 
 

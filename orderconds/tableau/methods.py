@@ -223,4 +223,4 @@ class EmbeddedUpdate:
 
 
 LowerOrder = Embedded | EmbeddedUpdate
-"""The data for an error estimate: weights of a Runge-Kutta method, an update of a commutator-free method."""
+"""The data for an error estimate: weights of a Runge-Kutta method, or an update of a commutator-free one."""

@@ -24,7 +24,7 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""Bits of a random number. The bound on the size of values keeps degrees far below 2^40."""
+"""Bits of a random number. The size of values is bounded, so the degrees D stay far below 2^40."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors if a random method cannot be evaluated: its numbers grow too large, or a divisor is zero."""

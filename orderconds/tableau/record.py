@@ -168,4 +168,4 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""For a file format, the function that converts methods of other formats to it, or returns None."""
+"""For each file format, a function that converts a method to this format, or returns None if it cannot."""

@@ -29,8 +29,8 @@ LARGEST = 100
 """Rational tableaux with a larger implicit block are left undecided; flint takes a second at this size."""
 
 EFFORT = 10**11
-"""Limit on the work over other fields, in products of bits: about a second. Remainders in Euclid's algorithm
-grow fast."""
+"""The limit on the work over other fields, in products of two bits; this takes about a second. The limit is
+necessary because the remainders in Euclid's algorithm grow fast."""
 
 
 class SignedRing(Ring, Protocol):
