@@ -267,7 +267,7 @@ MALFORMED = {
     "an integer longer than Python reads": (
         HEAD + "A = [[]]\nb = [" + "9" * 5000 + "]\n",
         "thousands of digits",
-        "quoted",
+        "quotation marks",
     ),
     "lists in lists in lists": (
         HEAD + "A = " + "[" * 3000 + "]" * 3000 + "\n",
