@@ -1,6 +1,6 @@
-"""Runge-Kutta methods on the space around the manifold: ``rk`` in coordinates of the ambient space.
+"""Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
-The distance of a step from the manifold is at most the local error, and the order is the classical one. The
+One step leaves the manifold by at most the local error. The order is the classical order of the tableau. The
 family is a baseline for comparison with methods that stay on the manifold.
 """
 
@@ -33,7 +33,8 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order is that of ``rk``."""
+        """Return None: a file need not claim an order in this family, because it equals the order in
+        ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

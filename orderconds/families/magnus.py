@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 @register
 class MagnusFamily(WordFamily):
-    """Methods exp(Omega), or products of exponentials of Lie elements.
+    """Methods exp(Omega), or products of exponentials of several Lie elements.
 
     >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -51,33 +51,36 @@ class MagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
-        ("cf_magnus", "fer"), "the order of a product of exponentials does not depend on how it is written"
+        ("cf_magnus", "fer"),
+        "a product of exponentials has the same order as the exponential of its logarithm",
     )
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method that uses another map."""
+        """Raise :class:`~orderconds.errors.InputError` if the method uses another map from the algebra to the
+        group."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
                 f'map = "{transform}"',
                 where=f"family {self.name}",
                 expected=f'map = "{self.transform}"',
-                hint=f"ask for the family {self.for_method(method).name!r}",
+                hint=f"use the family {self.for_method(method).name!r}",
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return ``magnus`` for methods with exponentials, ``cayley`` for methods with Cayley transforms."""
+        """Return ``magnus`` for a method with exponentials, ``cayley`` for a method with Cayley
+        transforms."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for methods that use its map from the algebra to the group."""
+        """Return this family for a method that uses the same map from the algebra to the group, else None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return nodes, exponentials and commutators."""
+        """Return the numbers of nodes, exponentials and commutators in one step."""
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
@@ -85,7 +88,7 @@ class MagnusFamily(WordFamily):
         return tuple(expansions.words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient in the Magnus expansion."""
+        """Return the coefficient of a word in the Magnus expansion."""
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
@@ -98,7 +101,7 @@ class MagnusFamily(WordFamily):
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of Omega on words."""
+        """Return the values of Omega, the logarithm of one step, on words."""
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
@@ -119,7 +122,8 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return the linear part of a word's polynomial in Lyndon words, which is the value of a Lie element.
+    """Return the linear part of a word's polynomial in Lyndon words. It gives the values of Lie elements, on
+    which products vanish.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
@@ -128,7 +132,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return the product of ``size`` exponentials of random combinations of A at as many random nodes.
+    """Return the product of ``size`` exponentials (or other transforms) of random combinations of A at
+    ``size`` random nodes.
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues
