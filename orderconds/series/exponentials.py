@@ -17,9 +17,10 @@ from orderconds.words.shuffle import Word
 
 
 class ProductOfExponentials:
-    """Values on words of ``count`` exponentials; ``letter(J, k)`` is the coefficient of letter k in X_J.
+    """The coefficients of words in a product of ``count`` exponentials. ``letter(J, k)`` returns the
+    coefficient of letter k in X_J.
 
-    None means a coefficient that is zero by construction.
+    If it returns None, the coefficient is zero by construction.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]
@@ -39,7 +40,8 @@ class ProductOfExponentials:
         return self._sweep(word)[-1]
 
     def _sweep(self, word: Word) -> list[Element]:
-        """Return the coefficients of ``word`` in the products of the first 0, 1, ... exponentials."""
+        """Return the coefficients of ``word`` in the products of the first 0, 1, ..., ``count``
+        exponentials."""
         values = self._partial.get(word)
         if values is None:
             whole = len(word)
@@ -49,7 +51,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The last r letters come from this exponential, those before from earlier ones.
+                # The last r letters come from this exponential, the letters before them from earlier
+                # exponentials.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:
