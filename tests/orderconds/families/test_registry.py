@@ -207,7 +207,7 @@ def test_the_family_of_an_installed_package_is_found_by_its_entry_point(
     ("name", "target", "message"),
     [
         ("absent", "installed_family:Absent", "cannot load the family"),
-        ("other", "installed_family:Installed", "a Family with the name 'other'"),
+        ("other", "installed_family:Installed", "a subclass of Family with the name 'other'"),
     ],
 )
 def test_an_entry_point_that_is_no_family_of_that_name_is_an_error(
