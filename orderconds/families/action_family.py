@@ -1,4 +1,5 @@
-"""The base class of the variational families, whose order conditions are indexed by action trees."""
+"""The base class of the variational families. Their order conditions belong to action trees, see
+:mod:`orderconds.series.action_trees`."""
 
 from __future__ import annotations
 
@@ -53,7 +54,7 @@ class ActionFamily(Family):
 
     @abstractmethod
     def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random members of the family, one for each sample of the ring.
+        """Return the action series of random methods of the family, one method for each sample of the ring.
 
         These methods have enough stages to distinguish the independent conditions up to ``order``.
         """
@@ -63,7 +64,7 @@ class ActionFamily(Family):
         """Return the object that writes the conditions of this family as index sums."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of exactly this order, simplest trees preferred."""
+        """Return independent conditions of exactly this order; conditions of simple trees are preferred."""
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -91,17 +92,17 @@ class ActionFamily(Family):
         }
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order: one for the simplest tree of each class
-        of trees that root switching connects."""
+        """Return conditions that imply all conditions of this order. Trees that differ only in the choice of
+        the root have equal conditions; the condition of the simplest tree is returned."""
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
-        """Yield the trees of the decisive conditions, each with a function that returns its condition."""
+        """Yield the trees of :meth:`decisive_conditions`, each with a function that returns its condition."""
         for of_class in classes_in_turn(order):
             yield of_class[0], partial(self.condition, of_class[0])
 
     def decisive_count(self, order: int) -> int:
-        """Return the number of decisive conditions, from a formula."""
+        """Return the number of conditions in :meth:`decisive_conditions`, by a formula."""
         return class_count(order)
 
     @cached_property
@@ -179,7 +180,8 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """Return the length of the longest word for a momentum tree. The varied velocity counts as one letter."""
+    """Return the length of the longest word that contributes to the value of a momentum tree. A varied
+    velocity counts as one letter."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

@@ -176,8 +176,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for methods with one exponential for each a_ij and each b_j. The index of an exponential is
-    the index j of a stage.
+    """Index sums for methods with one exponential for each a_ij and each b_j. The stage index j is the index
+    of the exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -220,7 +220,8 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the sum over the exponentials whose exponents contain the stage's velocity."""
+        """Return the coefficient of u x v, summed over the exponentials that contain the velocity of
+        ``stage``."""
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
         return index_sum((place,), (), inner)
@@ -321,7 +322,7 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij v_j``, where v_j
+    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij v_j`` and v_j
     solves dexp_{(r),X_j} v_j = xi_j.
 
     >>> from orderconds.formula import named

@@ -25,7 +25,7 @@ class AmbientFamily(RungeKuttaFamily):
     name = "ambient"
     description = "Runge-Kutta methods in coordinates of the ambient space; a step leaves the manifold."
     illustrates = ()
-    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is its own ambient space"}
+    implies: ClassVar[Mapping[str, str]] = {"rk": "the ambient space of a vector space is the space itself"}
     bounds_others = False
     default_series = False
     low_storage = ()
@@ -38,5 +38,5 @@ class AmbientFamily(RungeKuttaFamily):
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the classical order."""
+        """Return the order in ``rk``."""
         return orders.get("rk", 0)

@@ -73,14 +73,15 @@ class Family(ABC):
 
     # Other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """The families in which a method has at least the order that it has in this family. The keys are names,
-    the values theorems. Their conditions of each order are a subset of the conditions of this family."""
+    """The families in which a method has at least the order that it has in this family, with reasons. The
+    keys are names of families, the values are theorems. At each order, the conditions of these families are a
+    subset of the conditions of this family."""
     abelian: ClassVar[str | None] = None
     """The family to which this family reduces on an abelian group, where brackets vanish; None if no family
     reads all tableaux of this family."""
     low_order: ClassVar[str | None] = None
-    """The name of a family that has the same conditions up to order 2; these contain no bracket and no
-    momentum."""
+    """The name of a family that has the same conditions up to order 2. These conditions contain no bracket
+    and no momentum."""
     bounds_others: ClassVar[bool] = False
     """Whether ``check`` computes the order in this family to bound the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
@@ -97,7 +98,8 @@ class Family(ABC):
     keeps_energy: ClassVar[bool] = False
     """Whether every method of the family preserves the energy exactly."""
     takes_cutoff: ClassVar[bool] = False
-    """Whether the series of dexpinv, or of dexp, is truncated after ``cutoff`` brackets."""
+    """Whether the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
+    truncated."""
     minimal_brackets: ClassVar[int] = 0
     """The highest order at which methods without ``cutoff`` are compiled to programs with the fewest
     brackets."""
@@ -155,22 +157,24 @@ class Family(ABC):
         return self.conditions(order)
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order and cost less than an independent set.
+        """Return conditions that imply all conditions of this order, and that can be selected without
+        computation of ranks.
 
         By default these are the independent conditions.
         """
         return self.conditions(order)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
-        """Yield the keys of the decisive conditions, each with a function that returns the condition.
+        """Yield the keys of :meth:`decisive_conditions`, each with a function that returns the condition.
 
-        A family with very many trees yields them as they are enumerated.
+        A family with very many trees enumerates the trees on demand.
         """
         for condition in self.decisive_conditions(order):
             yield condition.key, partial(_itself, condition)
 
     def decisive_count(self, order: int) -> int | None:
-        """Return the number of decisive conditions if a formula gives it, else None."""
+        """Return the number of conditions in :meth:`decisive_conditions` if there is a formula for it, else
+        None."""
         return None
 
     def residuals(
@@ -266,7 +270,7 @@ class Family(ABC):
         if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
-            f"family {self.label()} is not determined by the number of stages",
+            f"the number of stages does not determine the coefficients of family {self.label()}",
             where="--stages",
             expected="a family whose coefficients follow from the number of stages, such as rk or splitting",
             hint="leave --stages out",
@@ -359,10 +363,10 @@ def expect(method: Method, kind: type[Kind]) -> Kind:
     >>> from orderconds.tableau import Composition, RungeKutta
     >>> expect(Composition("symmetric-2", (1,)), RungeKutta)
     Traceback (most recent call last):
-    TypeError: a method of type Composition where RungeKutta is expected
+    TypeError: found a method of type Composition; expected RungeKutta
     """
     if not isinstance(method, kind):
-        raise TypeError(f"a method of type {type(method).__name__} where {kind.__name__} is expected")
+        raise TypeError(f"found a method of type {type(method).__name__}; expected {kind.__name__}")
     return method
 
 

@@ -1,9 +1,9 @@
 """Cayley methods Y_1 = cay(Omega) Y_0 for Y' = A(t) Y on quadratic groups; cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a sum of brackets and of products plus their reverses, such as A_i A_j A_k + A_k A_j A_i. All of
-these terms are elements of the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n and of
-its reverse differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence there
-is one condition for each pair (word, reverse word), and one condition for each palindrome of odd length
+Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. All of these
+terms are elements of the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n and of its
+reverse differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence there is
+one condition for each pair (word, reverse word), and one condition for each palindrome of odd length
 (Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
 """
 
@@ -67,8 +67,8 @@ class CayleyFamily(MagnusFamily):
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return random methods with one Cayley transform. Its argument is a sum of random products plus
-        their reverses, at random nodes."""
+        """Return random methods with one Cayley transform. Its argument is a random combination of products
+        and reverse products of A at random nodes."""
         terms = []
         for length in range(1, order + 1):
             for _ in range(2**order):

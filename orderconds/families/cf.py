@@ -48,8 +48,8 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     name = "cf"
     description = (
-        "Commutator-free methods: each stage and the update is a product of exponentials of "
-        "combinations of stages."
+        "Commutator-free methods: each stage and the update are products of exponentials of "
+        "combinations of stage values."
     )
     formats = ("cf", "rk")
     implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a Lie group under addition"}
@@ -64,7 +64,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
         return ExponentialsSeries(ring, stages, update)
 
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of the method's value on a forest, multiplied by the scale of the forest."""
+        """Return the left-hand side of the condition of a forest as an index sum."""
         return _word(forest, lambda J, j: coefficient("beta", J, j), lambda j: coefficient("b", j), None)
 
     @classmethod

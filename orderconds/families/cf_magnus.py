@@ -49,7 +49,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         "Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h)."
     )
     formats = ("magnus",)
-    implies: ClassVar[Mapping[str, str]] = {"magnus": "a product of exponentials"}
+    implies: ClassVar[Mapping[str, str]] = {"magnus": "the product is the exponential of its logarithm"}
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the method contains commutators or Cayley
@@ -59,9 +59,9 @@ class CommutatorFreeMagnusFamily(WordFamily):
             raise InputError(
                 f'map = "{product.transform}"'
                 if product.transform != "exp"
-                else "an exponent with commutators",
+                else "an exponent that contains commutators",
                 where=f"family {self.name}",
-                expected="exponentials of combinations of nodes",
+                expected="exponentials of linear combinations of A_i, without commutators",
                 hint=f"use the family {'cayley' if product.transform != 'exp' else 'magnus'!r}",
             )
 
@@ -70,7 +70,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
@@ -78,12 +78,12 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return the factorial of the length of a word."""
+        """Return the factorial of the length of a word, by which its condition is multiplied."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value on a word; indices I, J, ... run over exponentials and i,
-        j, ... over nodes."""
+        """Return the left-hand side of the condition of a word as an index sum; indices I, J, ... run over
+        exponentials and i, j, ... over nodes."""
         return composition_formula(word, _exponential, "J")
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -92,7 +92,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of ``order`` random exponentials over ``order`` random nodes."""
+        """Return products of ``order`` exponentials of random combinations of A at ``order`` random nodes."""
         return random_product(ring, generator, order, "exp")
 
 

@@ -69,7 +69,7 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return crouch_grossman_work(tableau)
 
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of the method's value on a forest, multiplied by the scale of the forest."""
+        """Return the left-hand side of the condition of a forest as an index sum."""
         return _word(forest, lambda i: coefficient("b", i), None)
 
 

@@ -46,9 +46,7 @@ class CompositionFamily(WordFamily):
     """
 
     name = "composition"
-    description = (
-        "Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi."
-    )
+    description = "Compositions of a method Phi and its adjoint Phi*, or of symmetric methods."
     formats = ("composition",)
     illustrates: ClassVar[tuple[str, ...]] = ("graded",)
     implies: ClassVar[Mapping[str, str]] = {
@@ -63,19 +61,20 @@ class CompositionFamily(WordFamily):
     unknowns = "composition"
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return 1/n! for a word of n letters 1, else 0."""
+        """Return the value of the exact flow: 1/n! for a word of n letters 1, else 0."""
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return the factorial of the length."""
+        """Return the factorial of the length of a word, by which its condition is multiplied."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value on a word; the sums run over pairs (alpha_i, beta_i)."""
+        """Return the left-hand side of the condition of a word as an index sum; the sums run over pairs
+        (alpha_i, beta_i)."""
         return composition_formula(word, _pair)
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:

@@ -84,7 +84,7 @@ class MagnusFamily(WordFamily):
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
         return tuple(expansions.words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
@@ -122,8 +122,9 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return the linear part of a word's polynomial in Lyndon words. It gives the values of Lie elements, on
-    which products vanish.
+    """Return the linear part of a word's polynomial in Lyndon words.
+
+    For a Lie element, products of values vanish, so this linear part is its value on the word.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

@@ -45,7 +45,8 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of ``scale(forest)`` times the method's value on a forest."""
+        """Return the left-hand side of the condition of a forest as an index sum: ``scale(forest)`` times the
+        value of the method."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order, one for each Lyndon word over ordered trees."""

@@ -89,7 +89,9 @@ def register(family: FamilyClass) -> FamilyClass:
     same = known is None or (known.__module__, known.__qualname__) == (family.__module__, family.__qualname__)
     if home != family.__module__ or not same:
         raise InputError(
-            f"the name {family.name!r} is taken", where=f"family {family.__name__}", expected="another name"
+            f"another family has the name {family.name!r}",
+            where=f"family {family.__name__}",
+            expected="a new name",
         )
     _registered[family.name] = family
     return family

@@ -164,8 +164,10 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
-    r"""Return the scaled value of a group-like series on a word of trees as a polynomial in the scaled values
-    of the series on Lyndon words.
+    r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
+    words.
+
+    All values are multiplied by ``scale`` of their words.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

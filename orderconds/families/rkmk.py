@@ -141,7 +141,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return limit
 
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of the method's value on a forest, multiplied by the scale of the forest."""
+        """Return the left-hand side of the condition of a forest as an index sum."""
         return total((scale(forest), _Words(self.cutoff).exponential(None, trees_of(forest))))
 
 

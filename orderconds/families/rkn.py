@@ -159,8 +159,8 @@ def text(functional: Functional) -> str:
 
 
 def formula(functional: Functional) -> Formula:
-    """Return the index sum of the scaled value on a combination; a_i are the steps of T, b_i the steps of V,
-    and c_i = a_1 + ... + a_i.
+    """Return the left-hand side of the condition of a combination as an index sum; a_i are the steps of T,
+    b_i the steps of V, and c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
@@ -250,8 +250,10 @@ def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fra
 
 
 def relation(functional: Functional) -> Polynomial:
-    """Return a scaled combination as a polynomial in scaled independent combinations; its coefficients solve
-    linear equations.
+    """Return the left-hand side of a combination as a polynomial in left-hand sides of independent
+    combinations.
+
+    The coefficients are the solution of a linear system.
 
     >>> relation((((1, 0), 1),))
     {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}

@@ -99,8 +99,8 @@ class SplittingFamily(WordFamily):
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value on a word; a_i, b_i, ... are the steps of A, B, ... in
-        stage i.
+        """Return the left-hand side of the condition of a word as an index sum; a_i, b_i, ... are the steps
+        of A, B, ... in stage i.
 
         For two parts, the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
         """

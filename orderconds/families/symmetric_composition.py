@@ -51,8 +51,7 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     name = "symmetric_composition"
     description = (
-        "Symmetric compositions of a symmetric method of order two: words over letters 1, 3, 5, ... of "
-        "odd weight."
+        "Symmetric compositions of a symmetric method of order two; conditions belong to words of odd weight."
     )
     illustrates = ()
     implies: ClassVar[Mapping[str, str]] = {"composition": "every symmetric composition is a composition"}
@@ -74,7 +73,7 @@ class SymmetricCompositionFamily(CompositionFamily):
                 )
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word over odd letters of this weight."""
+        """Return all words over odd letters with this total weight."""
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -86,7 +85,7 @@ class SymmetricCompositionFamily(CompositionFamily):
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value over steps gamma_i."""
+        """Return the left-hand side of the condition of a word as an index sum over the steps gamma_i."""
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:

@@ -38,7 +38,7 @@ class WordFamily(Family):
 
     @abstractmethod
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
 
     @abstractmethod
     def exact(self, word: Word) -> Fraction:
@@ -46,7 +46,8 @@ class WordFamily(Family):
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of ``scale(word)`` times the method's value on a word."""
+        """Return the left-hand side of the condition of a word as an index sum: ``scale(word)`` times the
+        value of the method."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
@@ -67,7 +68,7 @@ class WordFamily(Family):
         return letter
 
     def scale(self, word: Word) -> int:
-        """Return the factor by which the printed condition is multiplied."""
+        """Return the factor by which the condition of a word is multiplied before it is printed."""
         return 1
 
     def text(self, word: Word) -> str:
@@ -100,7 +101,7 @@ class WordFamily(Family):
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return the polynomial of :meth:`polynomial`, converted to scaled left-hand sides."""
+        """Return :meth:`polynomial`, converted to left-hand sides that are multiplied by :meth:`scale`."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

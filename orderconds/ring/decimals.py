@@ -68,7 +68,7 @@ def _figures(n: int) -> str:
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Return a decimal with its point: plain notation for numbers near one, scientific notation for all other
+    """Return a decimal as text: plain notation for numbers near one, scientific notation for all other
     numbers."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures

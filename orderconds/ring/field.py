@@ -154,7 +154,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """The exponents of the generators in products that form a basis of the field, lowest first."""
+        """The exponents of the generators, for the products that form a basis of the field, lowest exponents
+        first."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 

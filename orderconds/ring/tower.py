@@ -143,7 +143,7 @@ class Tower:
             return powers[0]
         dimension = field.degree * len(powers)
         if dimension > MAX_DIMENSION:
-            raise DegreeError(f"an algebra of dimension {dimension}")
+            raise DegreeError(f"the field would require an algebra of dimension {dimension}")
         multiplier, relation = _primitive(field, powers)
 
         def primitive(bits: int) -> arb:
@@ -157,7 +157,7 @@ class Tower:
         if degree == field.degree:
             return Algebraic(field, _in_powers_of(a, b, modulus))
         if degree > MAX_DEGREE:
-            raise DegreeError(f"a number field of degree {degree}")
+            raise DegreeError(f"the coefficients generate a number field of degree {degree}")
         below = tuple(substituted(image, a, modulus) for image in field.images)
         added = generator(degree // field.degree)
         self.field = NumberField(modulus, primitive, (*field.generators, added), (*below, b), field, a)

@@ -48,7 +48,7 @@ def value_at_one(f: UnivariatePolynomial) -> Fraction:
 
 
 def derivative(f: UnivariatePolynomial) -> UnivariatePolynomial:
-    """Return f'.
+    """Return the derivative of f.
 
     >>> derivative(VARIABLE * VARIABLE)
     2*x

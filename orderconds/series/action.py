@@ -70,7 +70,7 @@ class ActionSeries(ABC):
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
-        """Return tau_t at every stage."""
+        """Return the coefficients tau_t(i) of a g-valued tree t at all stages i."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -84,7 +84,7 @@ class ActionSeries(ABC):
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
-        """Return psi_p at every stage."""
+        """Return the coefficients psi_p(i) of a g*-valued tree p at all stages i."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -164,8 +164,9 @@ class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
 
     ``rows`` contains the exponentials of each stage and, as the last row, of the update. The weight b_i is
-    the sum of the update's coefficients of stage i. For VCG this is equation (3.18); for VCF the discrete
-    Lagrangian has the same form, and its Hamilton equations contain the coefficient of each exponential.
+    the sum of the update's coefficients of stage i. For VCG the series follows from equation (3.18) of
+    Bogfjellmo and Marthinsen. For VCF the discrete Lagrangian has the same form; the equations of motion
+    contain the coefficients of each exponential.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

@@ -70,7 +70,7 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 
 def _lie_counts(t: list[int], order: int) -> list[int]:
     """Return the dimensions of the free Lie algebra with t_n letters of weight n (Witt's formula)."""
-    power = [0] * (order + 1)  # the left-hand sides n [x^n] log 1/(1 - T)
+    power = [0] * (order + 1)  # the numbers n [x^n] log 1/(1 - T), n = 1, 2, ...
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))
     return [0] + [

@@ -100,7 +100,7 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return pairs (nesting, word) for the words with nesting at most ``limit``, sorted by nesting."""
+    """Return pairs (cost, word) for the words whose cost is at most ``limit``, sorted by cost."""
     if vertices == 0:
         return ((0, ()),)
     words = []
@@ -116,7 +116,7 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return pairs (nesting, tree) of the one-letter words, sorted by nesting."""
+    """Return pairs (cost, tree) for the one-letter words, sorted by cost."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()

@@ -127,8 +127,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """For each partial sum: the index of the preceding partial sum, the index of x, and the weight of
-        x."""
+        """For each partial sum: the index of the preceding partial sum, the index j of the added term, and
+        its weight."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:

@@ -66,7 +66,7 @@ class BracketProgram:
 def fewest_brackets(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int, attempts: int = 4
 ) -> BracketProgram:
-    """Return arguments with few brackets that preserve the order of an explicit tableau (A, b).
+    """Return a program with few brackets that has the same order as RKMK with an explicit tableau (A, b).
 
     The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
     to divide. In the first attempt free coefficients are zero. In ``attempts`` further attempts they are

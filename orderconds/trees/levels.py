@@ -1,4 +1,5 @@
-"""Level sequences: a forest is the bytes of its vertices' levels in preorder, roots at level 0.
+"""Level sequences: a forest is represented by the levels of its vertices in preorder, one byte for each
+vertex. Roots have level 0.
 
 A tree is a forest with one root. Bytes are used because they are fast to hash and to compare, and a subtree
 is a slice. Trees are printed in brackets: ``.`` is one vertex, ``[..]`` a root with two leaves; the trees of
@@ -114,7 +115,9 @@ def parse(written: str) -> Forest:
     """
     levels, depth = bytearray(), 0
     if len(written) > 4 * _LARGEST:
-        raise InputError("a tree text that is too long", expected=f"at most {_LARGEST} vertices")
+        raise InputError(
+            "the text of a tree is too long", expected=f"a tree with at most {_LARGEST} vertices"
+        )
     compact = re.sub(r"[\s,]", "", written)
     for place, sign in enumerate(compact):
         before = compact[place - 1 : place]
