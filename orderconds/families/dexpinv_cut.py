@@ -26,8 +26,8 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a complete file claims orders. A larger value is used only if it gives a
-higher order."""
+"""The values of ``cutoff`` for which a complete file claims orders. A file claims a larger value only if the
+order is then higher."""
 
 
 class DexpinvCut(Family):
@@ -56,16 +56,17 @@ class DexpinvCut(Family):
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants with the smallest values of ``cutoff``, which need few brackets."""
+        """Return the variants with the values of ``cutoff`` in :data:`CLAIMED`."""
         return tuple(type(self)(cutoff) for cutoff in CLAIMED)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the numbers of field evaluations and exponentials, and of brackets if dexpinv is applied
-        stage by stage."""
+        """Return the numbers of field evaluations, exponentials and brackets in one step. The number of
+        brackets assumes that dexpinv is evaluated separately in each stage."""
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return min(p, R + 2), where p is the order of the method in the family on abelian groups."""
+        """Return min(p, R + 2), where p is the order of the method on abelian groups. R is ``cutoff``, or
+        ``cutoff`` + 1 if it is even and at least 2."""
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
 

@@ -1,8 +1,8 @@
 """Discrete gradient methods on groups: the tableau is a quadrature rule for the mean differential of H.
 
 The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and
-manifolds*, thesis, NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order two
-if also sum_i b_i c_i = 1/2. The order is never higher than two, because the bivector is evaluated at the
+manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order
+two if also sum_i b_i c_i = 1/2. The order is never higher than two, because the bivector is evaluated at the
 midpoint.
 """
 
@@ -39,13 +39,13 @@ class DiscreteGradientFamily(Family):
     keeps_energy = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the condition on the quadrature rule that gives this order.
+        """Return the condition of this order on the quadrature rule.
 
         Raises :class:`~orderconds.errors.InputError` for orders above two.
         """
         if order > self.order_bound:
             raise InputError(
-                f"conditions of order {order}",
+                f"there are no conditions of order {order}",
                 where=f"family {self.name}",
                 expected="order 1 or 2, because no discrete gradient method has a higher order",
             )

@@ -1,4 +1,4 @@
-"""Elementary weights of rooted trees as index sums, and the conditions on them.
+"""Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``.
 
 If a tree has directed edges or coloured vertices, each edge has one of two kinds: its coefficient is a_ij or
 ahat_ij.
@@ -39,7 +39,8 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 
 
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
-    r"""Return sum_i b_i tau_tree(i) as an index sum; ``weights`` names the weights at the root.
+    r"""Return sum_i b_i tau_tree(i) as an index sum. ``weights`` is the name of the weights, ``b`` or
+    ``bhat``.
 
     >>> from orderconds.formula import named
     >>> named(weight(b"\0\2\3")).text()
@@ -106,7 +107,8 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return the sum over ``indices`` of ``factors`` times the stage value of a tree at the last index.
+    """Return an index sum. The summand is the product of ``factors`` and the stage value of ``tree`` at the
+    last of ``indices``.
 
     The formula needs no simplification, because equal subtrees are collected in powers.
     """

@@ -35,8 +35,8 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return the values of each exponent of a method on non-empty words, in the order in which the exponents
     act.
 
-    Brackets are not expanded in products of nodes. The value of a bracket on a word is a sum over all
-    divisions of the word into two parts. Each value is computed once.
+    Brackets are not expanded in products of the A_i. Instead, the value of a bracket on a word is a sum over
+    all divisions of the word into two parts. Each value is computed once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

@@ -46,8 +46,8 @@ class FerFamily(MagnusFamily):
 
     name = "fer"
     description = (
-        "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), F_1 = sum_i b_i A_i acting last and F_2 made "
-        "of brackets."
+        "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i and F_2 contains "
+        "only brackets."
     )
     implies: ClassVar[Mapping[str, str]] = {"magnus": "the step of a Fer method is a product of exponentials"}
 

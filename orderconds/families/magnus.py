@@ -1,10 +1,10 @@
-"""Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h).
+"""Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the values A_i = h A(c_i h).
 
 Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ...; in printed conditions omega_{ij...} is the
-coefficient of the product in which A_i acts first. With A(t) = X_1 + t X_2 + ..., the expansion of Omega in
-the X_k must agree with the Magnus expansion on every Lyndon word over letters k of weight k (Iserles,
-Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of exponentials, Omega
-is the logarithm.
+coefficient of the product in which A_i acts first. Let A(t) = X_1 + t X_2 + ... and let letter k, of weight
+k, denote X_k. The expansion of Omega in the X_k must agree with the Magnus expansion on every Lyndon word
+(Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of
+exponentials, Omega is the logarithm of the product.
 """
 
 from __future__ import annotations
@@ -92,7 +92,8 @@ class MagnusFamily(WordFamily):
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the sum of omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over nodes."""
+        """Return the left-hand side of the condition of a word: the sum of omega_{ij...} c_i^(k_1 - 1)
+        c_j^(k_2 - 1) ... over nodes."""
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -105,7 +106,7 @@ class MagnusFamily(WordFamily):
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of ``order`` random exponentials over ``order`` random nodes."""
+        """Return products of ``order`` exponentials of random combinations of A at ``order`` random nodes."""
         return random_product(ring, generator, order, self.transform)
 
 

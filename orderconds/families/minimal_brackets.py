@@ -1,4 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets, as they are compiled if dexpinv is not truncated.
+"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets. ``rkmk`` without ``cutoff`` is compiled in this
+form.
 
 The conditions are equal to those of ``rkmk``, but their left-hand sides are computed from the Lie-Butcher
 series of the compiled program. Hence the computed order is the order of the program.

@@ -66,8 +66,8 @@ class OrderedForestFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the values of one step on the forests of ``conditions``, each multiplied by the scale of its
-        forest."""
+        """Return the values of one step on the forests of ``conditions``, each multiplied by :func:`scale` of
+        its forest."""
         series = self._memo(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 

@@ -47,7 +47,8 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file claims its order in the family of all pairs."""
+        """Return None: a file need not claim an order in this family, because it equals the order in
+        ``prk``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -1,12 +1,13 @@
-"""Reductions of the conditions of one order: theorems derive some conditions from earlier results of a check.
+"""Reductions: theorems by which a check needs to evaluate fewer conditions of one order.
 
 ``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
 
 - *symmetry*: a symmetric method of odd order n - 1 has order n (HLW II.3, Theorem 3.2);
-- *substitution*: the conditions of another family may imply all of order n and cost less. For a symplectic
-  pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all rooted
-  trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
-- *a cut of dexpinv* changes only values of trees with long words (:mod:`orderconds.families.dexpinv_cut`).
+- *substitution*: the conditions of another family may imply all conditions of order n and cost less. For a
+  symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all
+  rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
+- *truncation of dexpinv* changes only values of trees with long words
+  (:mod:`orderconds.families.dexpinv_cut`).
 
 The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls, only the
 last reduction is used, and only if the balls are proved to contain a solution. A reduction never improves a
@@ -68,8 +69,8 @@ class Reductions(Struct, frozen=True):
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Whether all conditions of order n follow from the conditions of the substitute; this method
-        evaluates the conditions of the substitute."""
+        """Whether the substitute satisfies its conditions of order n, which are evaluated here. They imply
+        all conditions of order n."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method

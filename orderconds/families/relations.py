@@ -2,9 +2,9 @@
 conditions.
 
 Two laws make conditions dependent. First, for a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u);
-this equation moves the root of a tree across an edge (HLW VI.7.1). Second, the values of a group-like series
-on words satisfy the shuffle relations a(u) a(v) = a(u sh v), so the values on Lyndon words determine all
-other values (Reutenauer, Free Lie Algebras, Thm 6.1).
+this equation relates two trees that differ in the position of the root (HLW VI.7.1). Second, the values of a
+group-like series on words satisfy the shuffle relations a(u) a(v) = a(u sh v), so the values on Lyndon words
+determine all other values (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomia
     r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
     words.
 
-    All values are multiplied by ``scale`` of their words.
+    ``scale`` returns the factor by which the value on a word is multiplied.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -52,8 +52,8 @@ class RungeKuttaFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one for each rooted tree. They are independent (HLW III.1, Ex.
-        5)."""
+        """Return the conditions of this order, one for each rooted tree. The conditions are independent (HLW
+        III.1, Ex. 5)."""
         return _conditions(self.name, order)
 
     @cached_property

@@ -69,7 +69,7 @@ class NystroemFamily(Family):
             raise InputError(
                 "a splitting without the key rkn",
                 where=f"family {self.name}",
-                expected='rkn = "V", V the part with [V,[V,[V,T]]] = 0',
+                expected='rkn = "V", where V is the name of the part with [V,[V,[V,T]]] = 0',
                 hint="use the family 'splitting'",
             )
 
@@ -86,7 +86,7 @@ class NystroemFamily(Family):
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
         """Return the values of one step on the combinations of words in ``conditions``, each multiplied by
-        its scale."""
+        the factor of its printed condition."""
         self.require(method, ring)
         splitting = expect(method, Splitting)
         swap = splitting.rkn == T
@@ -266,7 +266,7 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return the products of two or more independent combinations that have this total weight."""
+    """Return the products of two or more independent combinations whose weights add up to ``order``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

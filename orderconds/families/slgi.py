@@ -1,4 +1,4 @@
-"""Symplectic Lie group integrators of Marthinsen's thesis, Section 2.5. The methods with one stage are
+"""Symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. The methods with one stage are
 theta-methods.
 
 The family is equal to ``vrkmk(0)``, that is, VRKMK without brackets in dexpinv. The order is at most two (H.
@@ -26,7 +26,9 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
     """
 
     name = "slgi"
-    description = "Symplectic Lie group integrators: VRKMK without brackets; with one stage, theta-methods."
+    description = (
+        "Symplectic Lie group integrators: VRKMK without brackets; theta-methods if there is one stage."
+    )
     takes_cutoff = False
 
     def __init__(self) -> None:

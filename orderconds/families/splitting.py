@@ -54,7 +54,7 @@ class SplittingFamily(WordFamily):
     formats = ("splitting",)
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {"rkn": "the conditions of a splitting T + V are a subset"}
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting in two parts"}
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:
@@ -72,7 +72,7 @@ class SplittingFamily(WordFamily):
         if len(parts) != self.parts:
             right = SplittingFamily(len(parts)).label()
             raise InputError(
-                f"a splitting in {len(parts)} parts: {', '.join(parts)}",
+                f"a splitting into {len(parts)} parts: {', '.join(parts)}",
                 where=f"family {self.label()}",
                 expected=f"{self.parts} parts",
                 hint=f"use the family {right!r}",
@@ -83,7 +83,7 @@ class SplittingFamily(WordFamily):
         return 1
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this length."""
+        """Return all words of this length."""
         return tuple(tuples(range(self.parts), repeat=order))
 
     def text(self, word: Word) -> str:
@@ -128,7 +128,8 @@ class SplittingFamily(WordFamily):
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of Nystroem splittings if the option --rkn is set."""
+        """Return the label of Nystroem splittings if the option --rkn is set, else the label of this
+        family."""
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
@@ -158,7 +159,8 @@ class SplittingFamily(WordFamily):
 
 
 def splitting_formula(word: Word) -> Formula:
-    """Return the index sum of the value on a word, times the factorials of the run lengths of the word.
+    """Return the value on a word as an index sum, multiplied by the factorials of the run lengths of the
+    word.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()

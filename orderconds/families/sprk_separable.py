@@ -100,8 +100,8 @@ class SeparableFamily(Family):
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
-    If a difference of both sides is a ball that contains zero, the relation holds to the given digits and the
-    method is accepted.
+    If the coefficients are balls, the difference of the two sides must be a ball that contains zero. The
+    relation then holds to the given digits.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

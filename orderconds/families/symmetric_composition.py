@@ -60,7 +60,7 @@ class SymmetricCompositionFamily(CompositionFamily):
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` unless the basic method is symmetric and the step
         sizes are a palindrome."""
-        expected = "base symmetric-2 and a palindrome of step sizes"
+        expected = 'base = "symmetric-2", and step sizes that form a palindrome'
         if not isinstance(method, Composition):
             raise InputError("base adjoint-pair", where=f"family {self.name}", expected=expected)
         for i, (x, y) in enumerate(zip(method.gamma, method.gamma[::-1], strict=True)):

@@ -3,7 +3,7 @@
 The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ =
 h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace alpha_iJj, and ``b_i = sum_J
 beta_Ji``. Section 3.5 of Bogfjellmo and Marthinsen suggests this generalisation of variational
-Crouch-Grossman methods (VCG). Order 3 is possible without negative weights.
+Crouch-Grossman methods (VCG). These methods can have order 3 without negative weights.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ class VariationalCommutatorFree(ActionFamily):
     """The family ``vcf``.
 
     Independent conditions are selected by ranks at random methods. ``update`` and ``stage`` are the numbers
-    of exponentials of these methods. The default numbers are large enough to give one independent condition
-    for each elementary Hamiltonian. A Runge-Kutta tableau is interpreted with one velocity in each
-    exponential.
+    of exponentials in the update and in each stage of these methods. The default numbers are large enough to
+    give one independent condition for each elementary Hamiltonian. A Runge-Kutta tableau is interpreted with
+    one velocity in each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]

@@ -1,4 +1,5 @@
-"""Variational Crouch-Grossman methods: a Butcher tableau on T*G, one exponential for each coefficient.
+"""Variational Crouch-Grossman methods: a Butcher tableau on T*G, with one exponential for each coefficient
+a_ij and b_i.
 
 Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the method. The six conditions of order 3 are
 in their Proposition 3.5.7. The conditions of every order are computed from the action series.

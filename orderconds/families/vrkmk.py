@@ -2,8 +2,8 @@
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method. The order is computed from the series of the
 method. It is min(p, R + 2), where p is the order as a symplectic partitioned Runge-Kutta method, and R is r
-for r = 0 and odd r, r + 1 for even r >= 2. This order is higher than the bound of Theorem 3.5.3; the tests
-confirm it.
+for r = 0 and odd r, r + 1 for even r >= 2. For some r this order is higher than the bound in Theorem 3.5.3 of
+Bogfjellmo and Marthinsen. The tests verify the order.
 """
 
 from __future__ import annotations

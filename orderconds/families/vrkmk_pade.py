@@ -1,4 +1,4 @@
-"""VRKMK with the inverse of a truncated dexp, instead of a truncated inverse: ``vrkmk_pade(r)``.
+"""VRKMK with the inverse of a truncated dexp, instead of a truncated dexpinv: ``vrkmk_pade(r)``.
 
 The stage velocities solve dexp_(r),X_i v_i = xi_i (Marthinsen's thesis, Section 3.4.1, alternative approach).
 Conditions are indexed by action trees, as in every variational family, and evaluated by the action series of

@@ -95,8 +95,8 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the values of one step on the words of ``conditions``, each multiplied by the scale of its
-        word."""
+        """Return the values of one step on the words of ``conditions``, each multiplied by :meth:`scale` of
+        its word."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 

@@ -148,9 +148,9 @@ class ActionSeries(ABC):
         """Return the coefficients of all words with at most ``vertices`` vertices in the group element of the
         update.
 
-        With ``F(t)`` the right-invariant field of t at (q0, mu1), divided by its symmetry, the step moves a
-        function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, where the field of the first
-        letter moves the point first. The same coefficients determine the momentum. Let mubar be the momentum
+        Let ``F(t)`` be the right-invariant field of t at (q0, mu1), divided by its symmetry. The step changes
+        a function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, where the field of the
+        first letter acts first. The same coefficients determine the momentum. Let mubar be the momentum
         relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum over t = (v, M) of (the
         coefficient of the one-letter word t) times the covector ``x -> -D_q H(x v | M)``, where x acts first.
         The coefficient of ``<mu1, ad t_1 ... ad t_k x>`` in mubar1 is the coefficient of the word ``t_k ...
