@@ -134,8 +134,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # At even weight the logarithm vanishes: sum over divisions into m parts of (-1)^(m+1)/m times the product
-    # of values = 0.
+    # At even weight the logarithm vanishes. It is the sum over all divisions of the word into m parts of
+    # (-1)^(m+1)/m times the product of the values of the parts.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

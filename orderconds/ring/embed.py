@@ -39,5 +39,5 @@ def embedding(source: Ring, target: Ring) -> Callable[[Element], Element]:
 
 def _ball(source: Ring, x: Element, bits: int) -> Element:
     if not hasattr(source, "ball"):
-        raise TypeError(f"no enclosures of elements of {source.name}")
+        raise TypeError(f"the elements of {source.name} have no enclosures")
     return source.ball(x, bits)

@@ -311,7 +311,7 @@ class Algebraic:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Algebraic:
-        """Return 1/x; ZeroDivisionError for x = 0."""
+        """Return 1/x; raise ZeroDivisionError for x = 0."""
         if self.polynomial.is_zero():
             raise ZeroDivisionError("division by an algebraic number that is zero")
         key = str(self.polynomial)

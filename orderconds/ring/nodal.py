@@ -3,9 +3,9 @@
 Suppose that the nodes c_1, ..., c_s of a method are the simple roots of one polynomial M over Q, as for
 Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for exactly one polynomial p
 modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
-linear map of polynomials. If A c^k is a *rational* polynomial in c and b.c^k a rational number for all k < s,
-all computations stay in Q. For example, five Radau nodes generate a field of degree 24, but a product costs
-one flint operation instead of five of degree 24.
+linear map of polynomials. Suppose that for all k < s, A c^k is a polynomial in c with *rational*
+coefficients, and b.c^k is a rational number. Then all computations are done over Q. For example, five Radau
+nodes generate a field of degree 24, but a product costs one flint operation instead of five of degree 24.
 
 The rational coefficients are guessed from balls and then verified exactly in the number field. ``A p`` is
 ``int_0^z p`` modulo M, plus corrections at a few powers; a collocation method has no corrections.

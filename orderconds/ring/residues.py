@@ -46,7 +46,7 @@ class Residues:
         """Return p/q in every sample; raise ZeroDivisionError if the prime divides q."""
         p, q = int(p) % self.prime, int(q) % self.prime
         if q == 0:
-            raise ZeroDivisionError(f"denominator divisible by {self.prime}")
+            raise ZeroDivisionError(f"the denominator is divisible by the prime {self.prime}")
         value = p * pow(q, -1, self.prime) % self.prime
         return Residue(self, np.full(self.samples, value, dtype=np.int64))
 

@@ -30,7 +30,7 @@ class Samples:
 
     def __init__(self, prime: int, count: int) -> None:
         if not 0 < count < prime:
-            raise ValueError(f"{count} samples modulo {prime}")
+            raise ValueError(f"the prime {prime} must be larger than the number of samples, {count}")
         self.prime, self.count = prime, count
         self.name = f"samples({prime})"
         self.modulus = reduce(mul, [nmod_poly([-k, 1], prime) for k in range(count)])

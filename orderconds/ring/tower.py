@@ -4,7 +4,7 @@ A root b of a separable polynomial over K = Q(a) is adjoined as follows. In the 
 of the elements b, ab, b + a, b - a, ... has powers that span the algebra. Let c be this element. The
 characteristic polynomial of c is computed and factored. Balls decide which irreducible factor vanishes at the
 real number c. If the degree of this factor is the degree of K, b is already an element of K, and no new field
-is formed. For example, if K contains sqrt(2), sqrt(8) becomes 2 sqrt(2).
+is formed. For example, sqrt(8) becomes 2 sqrt(2) if K contains sqrt(2).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ MAX_DIMENSION = 64
 
 
 class DegreeError(ArithmeticError):
-    """Raised if the field would exceed the degree :data:`MAX_DEGREE`."""
+    """The error for a field whose degree would exceed :data:`MAX_DEGREE`."""
 
 
 class Tower:

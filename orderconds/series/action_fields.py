@@ -1,9 +1,9 @@
 """Evaluation of action trees for one Hamiltonian: elementary velocities, covectors and the local error.
 
-Derivatives are exact: a multilinear derivative of H is the coefficient of eps_1 ... eps_k in a value of H,
-where the square of every eps is zero. Hence H may be any polynomial in the entries of q and the coordinates
-of mu, over any ring. The group may be any matrix group, because a right-invariant derivative replaces q by (1
-+ eps X) q.
+Derivatives are exact. A multilinear derivative of H is the coefficient of eps_1 ... eps_k in a value of H,
+computed with symbols eps_i whose squares are zero. Hence H may be any polynomial in the entries of q and the
+coordinates of mu, over any ring. The group may be any matrix group, because a right-invariant derivative
+replaces q by (1 + eps X) q.
 """
 
 from __future__ import annotations

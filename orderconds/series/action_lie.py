@@ -2,8 +2,7 @@
 
 The exponents are ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j`` for stage i, and ``Y``, with b_j in place of
 a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). A variation of the velocity of one stage is
-an additional letter x, which belongs to this stage only and occurs once. Hence insertions are coefficients of
-ordinary words ``u x v``.
+represented by an additional letter x, which belongs to this stage only and occurs once in a word ``u x v``.
 """
 
 from __future__ import annotations
@@ -88,7 +87,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v, x a variation, in every exp(X_i), or in exp(Y)."""
+        """Return the coefficient of the word u x v in every exp(X_i), or in exp(Y), where x is a
+        variation."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -115,7 +115,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of u x v, x a variation, in every X_i^n, or in Y^n."""
+        """Return the coefficient of u x v in every X_i^n, or in Y^n, where x is a variation."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -159,7 +159,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of u x v, x a variation, in every dexpinv_{(r),X_j} xi_j."""
+        """Return the coefficient of u x v in every dexpinv_{(r),X_j} xi_j, where x is a variation."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]

@@ -29,8 +29,8 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
     """Return each dependent tree of the last order, with the polynomial that is equal to its value.
 
     ``independent`` contains the independent trees of each order 1, 2, ..., from
-    :func:`orderconds.series.action_rank.independent_trees`. With a probability of about 10^-8, all samples
-    hide a difference and the result is wrong. The tests verify the relations over Q at other methods.
+    :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
+    10^-8. The tests verify the relations over Q at other methods.
 
     >>> from functools import partial
     >>> from orderconds.families import get

@@ -46,7 +46,7 @@ class _Node:
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """The sort key of trees: simplest to read first."""
+        """The sort key of trees. Trees with simple conditions come first."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)

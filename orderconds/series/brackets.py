@@ -35,10 +35,10 @@ Row = dict[Name, Element]
 class BracketProgram:
     """The arguments u_1, ..., u_s of the stages and u of the step, with their common brackets.
 
-    Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. ``brackets[r]`` holds the rows of x and y in
-    B_r = [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same form,
-    in which k denotes h k. ``least`` is a lower bound for the number of brackets in any program for these
-    arguments. ``grades[j]`` is the grade of q_j.
+    Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. ``brackets[r]`` contains the rows of x and y
+    in B_r = [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same
+    form, in which k denotes h k. ``least`` is a lower bound for the number of brackets in any program for
+    these arguments. ``grades[j]`` is the grade of q_j.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -174,8 +174,8 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e], C_n = [q_1, z_n +
-    C_(n+1)].
+    """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
+    + C_(n+1)].
 
     The pool is the list of known elements. ``inner`` is the number of brackets C_n. ``leading`` fixes the
     coefficient of the second pool element in y to one, so that the equations for x are linear. ``extra``
@@ -364,7 +364,8 @@ class _Search:
         return self._row(terms), value, right
 
     def _bracket(self, left: Sequence[tuple[Element, int]], right: Sequence[tuple[Element, int]]) -> int:
-        """Add the bracket of two combinations of pool elements to the pool; return its index."""
+        """Compute the bracket of two combinations of pool elements, add it to the pool, and return its
+        index."""
         x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
         rows = self._row(left), self._row(right)
         if len(rows[0]) == 1:

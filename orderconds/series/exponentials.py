@@ -1,8 +1,9 @@
 """Coefficients of words in a product of exponentials, by one sweep over the factors, over any ring.
 
-In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k the word k_1 ... k_n, k_1 acting first, has the coefficient
+In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k, the word k_1 ... k_n, in which k_1 acts first, has the
+coefficient
 
-    sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
+sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
 
 (HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter 3).
 """

@@ -1,8 +1,8 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b. Here a = exp(b) with
-respect to composition: a = sum_j (1/j!) L^(j-1) b, where L sums over cuts with one component (HLW IX.9.1; on
-ordered forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b. The values are related
+by a = exp(b) with respect to composition: a = sum_j (1/j!) L^(j-1) b, where L is a sum over cuts with one
+component (HLW IX.9.1; on ordered forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 """
 
 from __future__ import annotations
@@ -99,8 +99,8 @@ def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, El
 
     H(t) for t = [t_1 ... t_m] is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)); the sum is over the
     free trees with at most ``order`` vertices that no edge divides into equal halves (HLW IX.9.2). Raises
-    :class:`~orderconds.errors.InputError` for a Lie-Butcher series. Also raises it if b(u o v) + b(v o u) = 0
-    is not proved for all u and v, because the field may then not be Hamiltonian.
+    :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised if b(u o v) +
+    b(v o u) = 0 is not proved for all u and v, because the field may then not be Hamiltonian.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

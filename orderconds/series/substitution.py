@@ -71,7 +71,7 @@ def modifying_field(step: Character) -> VectorField:
         raise InputError("a Lie-Butcher series", where="modifying field", expected="a B-series")
     if step.ring.is_zero(step(b"\0") - step.ring.one) is False:
         raise InputError(
-            f"weights that sum to {step.ring.text(step(bytes(1)))}",
+            f"the weights sum to {step.ring.text(step(bytes(1)))}",
             where="modifying field",
             expected="a consistent method, whose weights sum to 1",
         )

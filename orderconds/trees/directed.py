@@ -1,9 +1,10 @@
 """Rooted and free trees with directed edges: the trees of symplectic partitioned methods.
 
 An edge from parent i to child j has kind 0 if it points away from the root; its coefficient is then a_ij. It
-has kind 1 if it points to the root; its coefficient is then ahat_ij. Because b_i ahat_ij = b_i b_j - b_j
-a_ji, moving the root across an edge changes the kind of the edge but not its direction. Hence the conditions
-belong to free trees with directed edges.
+has kind 1 if it points to the root; its coefficient is then ahat_ij. If the root moves across an edge, the
+kind of the edge changes, but its direction does not. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
+weights of the two rooted trees add up to a product of weights of smaller trees. Hence the conditions belong
+to free trees with directed edges.
 
 Encoding: one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of the edge to
 the parent. Branches are in descending order.

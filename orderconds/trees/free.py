@@ -15,7 +15,7 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""Pairs of trees (u, v). The root moves along one edge, from u o v to v o u."""
+"""Pairs of trees (u, v). Each pair describes a move of the root along one edge, from u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
@@ -30,7 +30,8 @@ def free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return the free trees that are not superfluous (HLW VI.7.1: 1, 0, 1, 1, 3, 4, 11, ...).
+    """Return the free trees that no edge divides into two equal halves. (Their numbers are 1, 0, 1, 1, 3, 4,
+    11, ..., HLW VI.7.1.)
 
     >>> [len(essential_free_trees(n)) for n in range(1, 8)]
     [1, 0, 1, 1, 3, 4, 11]

@@ -1,10 +1,10 @@
 """Magnus, Fer and Cayley expansions in words, for Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + ....
 
-Letter k denotes X_k and has weight k. A word of weight n has the factor t^n, so values are given at t = 1.
-Words are written in the order of action: the word k_1 ... k_n is the product X_{k_n} ... X_{k_1}
-(:func:`orderconds.words.lie.backwards` converts between words and products). Sources: Iserles, Munthe-Kaas,
-Noersett and Zanna, Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports
-470 (2009) 151.
+Letter k denotes X_k and has weight k. At time t the coefficient of a word of weight n is t^n times its
+coefficient at t = 1. All functions return the coefficient at t = 1. Words are written in the order of action:
+the word k_1 ... k_n is the product X_{k_n} ... X_{k_1} (:func:`orderconds.words.lie.backwards` converts
+between words and products). Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215,
+Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
 """
 
 from __future__ import annotations
@@ -63,7 +63,8 @@ def cayley(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def fer(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in F_n, where Y = exp(F_1) exp(F_2) exp(F_3) ... . F_1 acts last.
+    """Return the coefficient of a word in F_n, where Y = exp(F_1) exp(F_2) exp(F_3) .... The factor exp(F_1)
+    acts last.
 
     F_n is the integral of A_n; A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The words of
     F_n have at least the weight 2^n - 1.
