@@ -64,7 +64,7 @@ class FerFamily(MagnusFamily):
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
             raise InputError(
-                "commutators in the last exponent, or terms without commutators in another exponent",
+                "the last exponent contains commutators, or another exponent has terms without commutators",
                 where=f"family {self.name}",
                 expected="no commutators in the last exponent F_1, only commutators in all earlier exponents",
                 hint="use the family 'magnus'",

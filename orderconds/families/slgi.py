@@ -49,7 +49,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return only the family itself."""
+        """Return this family as the only variant."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -45,9 +45,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    exponent = len(_figures(p)) - len(
-        _figures(q)
-    )  # 10^exponent <= p/q < 10^(exponent+1), after the correction below
+    # After the correction by one, 10^exponent <= p/q < 10^(exponent+1).
+    exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
     shift = digits - 1 - exponent

@@ -88,7 +88,7 @@ class Traces:
         return self._record(Operation(kind, left, right))
 
     def root(self, x: Trace, index: int) -> Trace:
-        """Record the real ``index``-th root."""
+        """Record the real ``index``-th root of an element."""
         place = x.placed()
         return self._record(Operation(ROOT, place, place, Fraction(index)))
 

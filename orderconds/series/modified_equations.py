@@ -66,7 +66,8 @@ class VectorField:
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return the value of L^(n-1) b on a tree or forest."""
+        """Return the value on a tree or forest of L^(n-1) b, where L is the sum over cuts with one
+        component."""
         if n == 1:
             return self(forest)
         if n > len(forest):

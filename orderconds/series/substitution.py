@@ -79,8 +79,8 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The step has the value 1 on the tree of one vertex, so the term with one component is the value of
-        # the field on the whole tree.
+        # The step has the value 1 on the tree of one vertex. Hence the term for the division into one
+        # component is the value of the field on the whole tree.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)

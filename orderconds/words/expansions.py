@@ -66,8 +66,8 @@ def fer(n: int, word: Word) -> Fraction:
     """Return the coefficient of a word in F_n, where Y = exp(F_1) exp(F_2) exp(F_3) .... The factor exp(F_1)
     acts last.
 
-    F_n is the integral of A_n; A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The words of
-    F_n have at least the weight 2^n - 1.
+    F_n is the integral of A_n, where A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The
+    words of F_n have at least the weight 2^n - 1.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')

@@ -33,7 +33,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Pivot columns are chosen from the left, so the names of functionals are words at the right.
+        # Pivot columns are chosen from the left. Hence the remaining columns, whose words name the
+        # functionals, are at the right.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
