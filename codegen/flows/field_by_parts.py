@@ -19,7 +19,8 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with the field by parts if it has fewer operations; both are equal on the group."""
+    """Return the problem with the field by parts if this field has fewer operations, else the problem
+    itself."""
     if problem.hamiltonian is None or not problem.parts:
         return problem
     if problem.stated or problem.inputs or problem.forced:

@@ -12,7 +12,8 @@ from codegen.ir.values import Coefficient
 
 @dataclass(frozen=True)
 class OfScene(OfGroup):
-    """An operation that evaluates the scene's formulas; where ``timed``, the last argument is the time."""
+    """An operation that evaluates the scene's formulas; if ``timed`` is true, the last argument is the
+    time."""
 
     timed: bool = False
 
@@ -23,7 +24,7 @@ class OfScene(OfGroup):
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return the kinds of the arguments, followed by the kind of the time where ``timed``."""
+        """Return the kinds of the arguments, followed by the kind of the time if ``timed`` is true."""
         return arguments + R if self.timed else arguments
 
 
@@ -66,8 +67,7 @@ class BodyVelocity(OfScene):
 
 @dataclass(frozen=True)
 class BodyForce(OfScene):
-    """N(q, P), the force in the body frame; :class:`BodyVelocity` and it count as one evaluation of the
-    scene."""
+    """N(q, P), the force in the body frame; a force and a :class:`BodyVelocity` count as one evaluation."""
 
     name = "force"
     evaluates_scene = True
@@ -80,7 +80,7 @@ class BodyForce(OfScene):
 
 @dataclass(frozen=True)
 class Legendre(OfGroup):
-    """The momentum P in the body frame from the velocity W."""
+    """The momentum P as a function of the velocity W, both in the body frame."""
 
     name = "legendre"
     takes, gives = A, D
@@ -108,7 +108,7 @@ class Differential(OfGroup):
 
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """The covector nearest to g whose pairing with x is H1 - H0; arguments g, x, H0, H1."""
+    """The covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x, H0, H1."""
 
     name = "secant"
     takes, gives = D + A + R + R, D

@@ -9,8 +9,7 @@ from codegen.ir.expr import Expr, walk
 
 
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
-    """Return the derivatives of roots where symbols change at the rates ``seeds`` and all others are
-    constant.
+    """Return the derivatives of roots along one direction.
 
     :class:`codegen.ir.differentiate.NotDifferentiable` is raised where a function has no derivative.
 

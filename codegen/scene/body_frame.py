@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 DIGITS, TOLERANCE = 40, Fraction(1, 10**30)
 POINTS = 6
-"""A splitting of H is compared at this many random points, with this many digits, up to this relative
-error."""
+"""A splitting of H is compared with H at POINTS random points, with DIGITS digits, up to the relative error
+TOLERANCE."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class BodyField:
     """Formulas in the coordinates of q and of P; the symbols of P are those of mu.
 
     ``velocity`` is W, ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
-    inverse matrix (rows of numbers), else None.
+    inverse matrix (rows of numbers); otherwise it is None.
     """
 
     velocity: tuple[Expr, ...]

@@ -1,7 +1,7 @@
 """Dipole on a stick: a pendulum with a charged dipole at its end near a fixed charge, on T*SO(3).
 
-H. Marthinsen's thesis, section 3.6. Gravity enters with a minus sign (the printed Hamiltonian has a plus):
-only then do the energies and errors printed there come out.
+H. Marthinsen's thesis, section 3.6. The gravity term has a minus sign here, but a plus sign in the printed
+Hamiltonian: only the minus sign reproduces the energies and errors printed in the thesis.
 """
 
 import math
