@@ -1,7 +1,9 @@
-"""The passes: one file each, pure functions over programs, run in a fixed order and verified after each.
+"""The passes: pure functions over programs, one file for each. They run in a fixed order. A pass is called
+exact if the new program has the same results as the old program in exact arithmetic.
 
-``optimise`` runs them on a scene. After every pass it checks types and single assignment. It also interprets
-the new program at sample points, where the results must agree with those of the lowered program to rounding.
+``optimise`` runs the passes on a scene. After every pass it checks types and single assignment. It also
+interprets the new program at sample points, where the results must agree with the results of the lowered
+program up to rounding.
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ FACTORED = "a linear map is applied to a sum, not to each term"
 def optimise(
     program: Program, scene: Problem, *, framed: bool = False, composed: Program | None = None
 ) -> tuple[Program, tuple[PassReport, ...]]:
-    """Return the program after all passes, and a report of each that changed something.
+    """Return the program after all passes, and a report of each pass that changed the program.
 
     ``scene`` is the problem that the program was lowered in; for ``framed`` and ``composed`` see
     :class:`Optimiser`.
@@ -57,11 +59,9 @@ class Optimiser:
     """Runs the passes on one program and compares each result with a reference.
 
     ``composed``, if given, is the same step as a composition of shorter steps
-    (:mod:`codegen.lower.substeps`).
-    The whole composition is compared with ``program`` and then replaces it. The passes rewrite and compare
-    only
-    one of its substeps. A pass that changes the meaning of the program raises
-    :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
+    (:mod:`codegen.lower.substeps`). The whole composition is compared with ``program`` and then replaces it.
+    The passes rewrite and compare only one of its substeps. A pass that changes the meaning of the program
+    raises :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:

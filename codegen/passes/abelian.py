@@ -1,7 +1,8 @@
 """Vanishing brackets of an abelian group, and dexp^{-1} truncated at order 0.
 
-Exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad and P
-are zero. On any group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0 is zero.
+The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
+and ad and P are zero. On any group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0
+is zero.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ IDENTITIES = (Adjoint, InverseDexp, DualDexp)
 """Operations that return their last argument where all brackets vanish."""
 
 ZEROS = (Bracket, InverseDexpSlope)
-"""Operations that return zero there."""
+"""Operations that return zero where all brackets vanish."""
 
 
 def run(program: Program, abelian: bool) -> Program:

@@ -1,10 +1,11 @@
-"""The body frame: values relative to the body at the start of the step, the field relative to the stage.
+"""The body frame: values are written in the body frame at the start of the step, the field in that of the
+stage.
 
-Exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the algebra to
-Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a program
-commute with this transformation, so they do not change. The field alone is replaced, by that of
+The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
+algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a
+program commute with this transformation, so they do not change. Only the field is replaced, by the field of
 :mod:`codegen.scene.body_frame`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. Then the equations
-of a block read only those numbers of q that the body's field reads. The program reads and returns the
+of a block read only those coordinates of q that the body's field reads. The program reads and returns the
 momentum of the body (:data:`codegen.ir.program.BODY`), so consecutive steps need no transformation between
 them.
 
@@ -71,7 +72,7 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """The E of elements Q = q E, None where it is the identity."""
+    """The factor E of each group element Q = q E; None if E is the identity."""
 
     def run(self) -> Program:
         program = self.program

@@ -1,8 +1,8 @@
-"""Exact flows of one part are joined into one if they commute with all flows between them.
+"""Join exact flows of one part into one flow if they commute with all flows between them.
 
-Exact. Two flows commute if their order does not matter. Whether two flows commute is tested with 40 digits at
-points of the scene, for two different durations. Example: gravity does not depend on the spin of a symmetric
-top about its axis, so a step needs the flow of this spin only once.
+The pass is exact. Two flows commute if their order does not matter. Whether two flows commute is tested with
+40 digits at points of the scene, for two different durations. Example: gravity does not depend on the spin of
+a symmetric top about its axis, so a step needs the flow of this spin only once.
 """
 
 from __future__ import annotations
@@ -85,8 +85,9 @@ def word(program: Program) -> list[Letter] | None:
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that applies these flows, with the stage times of the old one."""
-    # All times first: each of them depends on t alone. The pass for unused values removes unread ones.
+    """Return the program that applies these flows, with the stage times of the old program."""
+    # All stage times come first, because each of them depends on t alone. The pass for unused values removes
+    # stage times that no flow reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):

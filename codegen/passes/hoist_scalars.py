@@ -1,8 +1,8 @@
 """Numbers taken out of linear maps, L(c x) = c L(x), and sums nested in sums expanded into one sum.
 
-Exact. The map is applied to the value x, which other operations share. The number c joins the coefficients of
-the sum that reads L(c x). Terms that several sums contain in the same proportion are added once for all these
-sums.
+The pass is exact. The map is applied to the value x, which other operations share. The number c joins the
+coefficients of the sum that reads L(c x). Terms that several sums contain in the same proportion are added
+once for all these sums.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that a value is a term of, and its coefficient relative to the first."""
+"""The sums that contain a value, each with the value's coefficient divided by its coefficient in the first
+sum."""
 
 
 def run(program: Program) -> Program:
@@ -66,9 +67,9 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program in which terms that several sums contain in one proportion are added once."""
+    """Return the program in which terms that several sums contain in the same proportion are added once."""
     builder = Builder({v.name for v in defined(program)})
-    # Only in blocks: a sweep is repeated, so an addition saved there is saved several times.
+    # Only blocks are changed: a sweep is repeated, so an addition saved in a block is saved several times.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 

@@ -1,6 +1,7 @@
 """Adjoint operations that cancel their inverses, and exponentials that act on multiples of their exponent.
 
-Exact. Ad*_g Ad*_{g^-1} mu = mu and the like; Ad_{exp x} y = y where x and y are multiples of one value.
+The pass is exact. For example, Ad*_g Ad*_{g^-1} mu = mu, and Ad_{exp x} y = y if x and y are multiples of one
+value.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Tearing: an unknown that the other unknowns determine within one sweep is computed, not solved for.
 
-Exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if the body then
-has no cycle. An equation has to hold at the solution only, so the solutions do not change, and the block has
-fewer unknowns. Momenta and forces are replaced first, so that velocities remain unknowns.
+The pass is exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if
+the body then has no cycle. An equation has to hold at the solution only, so the solutions do not change, and
+the block has fewer unknowns. Momenta and forces are replaced first, so that velocities remain unknowns.
 """
 
 from __future__ import annotations
@@ -57,7 +57,8 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # The removed unknown may be the image of other unknowns; their image becomes that of the removed one.
+    # The removed unknown may be the image of other unknowns; their image becomes the image of the removed
+    # unknown.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 

@@ -191,7 +191,7 @@ class TestParameters:
             param("a", Rational(10) ** power)
 
     def test_have_one_value(self):
-        with pytest.raises(SceneError, match="two values of the parameter a; expected one"):
+        with pytest.raises(SceneError, match="two values of the parameter a; expected one value"):
             with_runtime(sphere(f=param("a", 3) * y), ["a=1", "a=2"])
 
     def test_of_one_scene_mean_nothing_in_another(self):
