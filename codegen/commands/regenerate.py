@@ -22,8 +22,8 @@ from orderconds.commands.place import FOLDER
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists; with --check report the files that differ.
 
-    An emitted file that no listed module produces is stale: it is removed, or reported. A file that was never
-    emitted is unknown: it is reported and not changed.
+    An emitted file that no listed module produces is stale: it is removed, or with --check reported. A file
+    that was never emitted is unknown: it is reported and not changed.
     """
     from codegen.regenerate import LIST, compare, contents, entries, write
 
@@ -51,7 +51,8 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
 
 
 def source_folder() -> Path:
-    """Return ``generated/`` beside the pyproject.toml of the source tree; a usage error elsewhere."""
+    """Return ``generated/`` beside the pyproject.toml of the source tree; raise a usage error without a
+    source tree."""
     root = Path(__file__).resolve().parents[2]
     pyproject = root / "pyproject.toml"
     if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():

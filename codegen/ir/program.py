@@ -50,6 +50,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
+    # Passes treat multiples in a special way, because a number commutes with every linear map.
     @property
     def is_multiple(self) -> bool:
         """Whether the operation is a combination of one term: one coefficient times one value."""
@@ -142,6 +143,7 @@ class Program:
 
     def text(self) -> str:
         """Return the program as text, one statement a line."""
+        # The lines have the order of execution, and the body of a block is indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
         # The frame changes the meaning of all statements, so it is shown before them.
@@ -252,5 +254,6 @@ class Builder:
         """Return the assignments appended so far and remove them from the builder; their names stay
         reserved."""
         body = tuple(self.body)
+        # The names stay reserved, because the returned statements still contain them.
         self.body.clear()
         return body

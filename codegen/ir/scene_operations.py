@@ -25,6 +25,7 @@ class OfScene(OfGroup):
 
     def at(self, arguments: Kinds) -> Kinds:
         """Return the kinds of the arguments, followed by the kind of the time if ``timed`` is true."""
+        # The time is the last argument, so that the state has the same positions with and without time.
         return arguments + R if self.timed else arguments
 
 
@@ -58,6 +59,7 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """W(q, P), the velocity in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
+    # Velocity and force are separate operations, because passes may remove one and keep the other.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -82,6 +84,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
+    # This operation does not count as an evaluation: it is a constant matrix times a vector.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -110,6 +113,7 @@ class Differential(OfGroup):
 class Secant(OfGroup):
     """The covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x, H0, H1."""
 
+    # One operation, because the quotient in it is 0/0 at x = 0 and needs a guard.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -119,6 +123,7 @@ class Secant(OfGroup):
 class Bivector(OfGroup):
     """omega_y(alpha, .); it is f(y) where alpha is the differential of H."""
 
+    # Passes may move numbers out of the covector alpha, because the result is linear in alpha.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A

@@ -46,6 +46,7 @@ def problem_for(scene: Problem, method: Method) -> Problem:
             expected=objection.expected,
             hint=objection.hint or f"use one of {', '.join(families_for(scene))}",
         )
+    # The family has no objection, so any further error concerns this method only.
     return own.problem(scene, method)
 
 
@@ -61,6 +62,7 @@ def lower_composed(scene: Problem, method: Method) -> Program | None:
     # method.
     if not lowering(method.family).repeats_substeps:
         return None
+    # The test is on the coefficients: a tableau need not be declared as a composition.
     repetition = substeps(method)
     if repetition is None:
         return None

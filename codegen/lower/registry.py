@@ -54,6 +54,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     """
     if not lowering.family:
         raise MethodError(f"{lowering.__name__} names no family", expected='family = "NAME" in the class')
+    # A second class is refused: the meaning of a method must not depend on the order of registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(
@@ -69,6 +70,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 def unregister(family: str) -> None:
     """Remove the lowering of a family that :func:`register` added; raise MethodError for a built-in
     family."""
+    # Built-in families stay, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(f"family {family} is built in", expected="a family that was registered")
     _registered.pop(family, None)

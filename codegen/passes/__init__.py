@@ -70,7 +70,7 @@ class Optimiser:
         self.program, self.meaning = program, Reference(program, scene)
         if composed is not None:
             whole: Program = composed
-            self._run(Pass("substeps", "the step repeats a shorter one", lambda _: whole))
+            self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
             # The passes now rewrite one substep, so the reference is this substep as a step of its own.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
@@ -117,7 +117,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
     """Return the passes that apply to every scene, in order."""
     abelian_group = scene.group.abelian
     joined = "flows of one part are joined across flows that commute"
-    vanish = "the group is abelian" if abelian_group else "dexpinv is cut off before its first bracket"
+    vanish = "the group is abelian" if abelian_group else "dexpinv is truncated before its first bracket"
     return [
         # First: this pass creates the zeros that the next pass removes from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
@@ -150,14 +150,14 @@ def plain_passes(scene: Problem) -> list[Pass]:
 
 def body_frame_passes(scene: Problem) -> list[Pass]:
     """Return the passes that follow where the scene has a body frame, in order."""
-    inverse = "adjoint maps undo each other"
-    one_ad = "functions of one ad are one function"
+    inverse = "an adjoint map and its inverse cancel"
+    one_ad = "functions of the same ad_x are combined"
     return [
-        Pass("body frame", "the equations are those of the body", lambda p: body_frame.run(p, scene)),
+        Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
         # Before the Legendre transform, which would not replace a second variable of the same momentum.
         Pass("shared values", SHARED, value_numbering.run),
-        Pass("Legendre transform", "momenta follow from velocities", lambda p: legendre.run(p, scene)),
+        Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The transform applies inverses of maps; elsewhere the program may apply the maps themselves.
         Pass("inverse maps", inverse, opposites.run),
         # After the transform: before it, a force depends on its own momentum, which closes a cycle.
@@ -184,5 +184,5 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
         # Last: the other passes would multiply the factor -1 back into a sum.
-        Pass("negatives of sums", "a sum is the negative of another", shared_negatives.run),
+        Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

@@ -17,6 +17,7 @@ def run(program: Program) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
+            # An element that is not defined as an exponential has no exponent x.
             source = rewriter.definitions.get(assign.args[0])
             if (
                 source is not None

@@ -24,6 +24,7 @@ class PassReport:
 
     name: str
     because: str
+    # Whole programs are stored, because ``emit --explain`` prints the program after each pass.
     earlier: Program
     program: Program
 

@@ -1,7 +1,7 @@
 """Scenes, which a user writes, and problems, which the compiler evaluates.
 
-A scene file imports its names from this package: ``from codegen.scene import FieldScene, HamiltonianScene,
-param, signal``.
+A scene file imports its names from this package:
+``from codegen.scene import FieldScene, HamiltonianScene, param, signal``.
 """
 
 from __future__ import annotations

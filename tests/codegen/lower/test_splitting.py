@@ -325,7 +325,9 @@ def test_what_cannot_be_split_is_told():
         "the part V has no exact flow: it is not a quadratic function of the momentum in the body or in space"
         in message
     )
-    assert "a tableau for 3 parts on a scene with 2 parts" in refused(SCENES["symmetric top"](), "splitting:strang3")
+    assert "a tableau for 3 parts on a scene with 2 parts" in refused(
+        SCENES["symmetric top"](), "splitting:strang3"
+    )
     t = Symbol("t")
     scene = particle(lambda q, p: p.dot(p) / 2, lambda q, p: q[0] * t)
     kinetic = particle(lambda q, p: t * p.dot(p) / 2, lambda q, p: q[0] * t)
