@@ -1,4 +1,4 @@
-"""The classes of one kind by name: the classes of this package, imported on first use, and registered
+"""Registries of classes by name: classes of this package, which are imported on first use, and registered
 classes."""
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ T = TypeVar("T")
 
 
 class Registry(Generic[T]):
-    """The classes of one kind. ``home`` is the package that has the built-in classes as attributes."""
+    """A registry of groups or of actions by name. ``home`` is the package that has the built-in classes as
+    attributes."""
 
     def __init__(self, kind: str, home: str, built_in: Sequence[str]) -> None:
         self.kind, self.home, self.built_in = kind, home, tuple(built_in)

@@ -120,8 +120,8 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the expression of a node's combination; the first reader of an inverse determines its
-        numerator."""
+        """Return a node's linear combination as an expression. An inverse 1/y gets the coefficient of its
+        first reader as numerator."""
         if node.id not in self.written:
             # The expression is formed at the first reading and then reused, so sharing survives.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]

@@ -86,11 +86,11 @@ class Optimiser:
         The new program may need more operations: the caller counts the operations of both programs.
         """
         plain, reports = self.program, list(self.reports)
-        # No new reference: the interpreter turns the momentum into the body frame and back.
+        # The reference stays valid, because the interpreter converts the momentum to the body frame and back.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The caller may still want the plain program: the body frame does not always need fewer operations.
+        # The plain program is restored, because the body frame does not always need fewer operations.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -99,7 +99,7 @@ class Optimiser:
         # Many passes do not change a program, which then needs no comparison at several points.
         if new == old:
             return
-        # Each result is compared with the lowered program, not with the previous result: else small
+        # Each result is compared with the lowered program and not with the previous result, because small
         # deviations could accumulate.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
@@ -119,18 +119,19 @@ def plain_passes(scene: Problem) -> list[Pass]:
     joined = "flows of one part are joined across flows that commute"
     vanish = "the group is abelian" if abelian_group else "dexpinv is truncated before its first bracket"
     return [
-        # First: this pass creates the zeros that the next pass removes from sums.
+        # This pass is the first, because it creates zeros that the next pass removes from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # After value numbering, which gives stages with equal rows the same image variable.
+        # This pass follows value numbering, which gives stages with equal rows the same image variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # When flows are joined, the stage times of the replaced flows may become unused.
         Pass("unused values", UNUSED, dead.run),
-        # After the pass for zeros, because terms that cancel would keep a composition in one large block.
+        # This pass follows the pass for zeros, because terms that cancel would keep a composition in one
+        # large block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
         Pass("unused values", UNUSED, dead.run),
@@ -140,7 +141,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # Factoring leaves sums of a single term.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # After value numbering, which merges equal exponentials: only then are the readers of exp(x) known.
+        # This pass follows value numbering, which merges equal exponentials: only then are the readers of
+        # exp(x) known.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
         # Factoring can make values independent of a block's unknowns; this pass moves them out of the block.
@@ -155,12 +157,15 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # Before the Legendre transform, which would not replace a second variable of the same momentum.
+        # This pass precedes the Legendre transform, which would not replace a second variable for the same
+        # momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The transform applies inverses of maps; elsewhere the program may apply the maps themselves.
+        # The transform introduces inverses of maps. Such an inverse may act directly on the result of its
+        # map.
         Pass("inverse maps", inverse, opposites.run),
-        # After the transform: before it, a force depends on its own momentum, which closes a cycle.
+        # This pass follows the transform. Before the transform a force depends on its own momentum, which
+        # closes a cycle.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
         # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -168,10 +173,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # Before functions of ad, which need an exp(x) with one reader: this pass can remove a second reader.
+        # This pass precedes functions of ad, which need an exp(x) with one reader: it can remove a second
+        # reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # After functions of ad: residuals compare momenta in the frame with fewer operations, known only now.
+        # This pass follows functions of ad, because only now is it known in which frame momenta need fewer
+        # operations.
         Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverse maps, so the passes for maps run again.
         Pass("inverse maps", inverse, opposites.run),
@@ -183,6 +190,6 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("numbers outside maps", "numbers are multiplied into sums", hoist_scalars.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # Last: the other passes would multiply the factor -1 back into a sum.
+        # This pass is the last, because other passes would multiply the factor -1 back into a sum.
         Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

@@ -27,10 +27,11 @@ def run(program: Program, abelian: bool) -> Program:
         # dexp^{-1} = 1 - ad/2 + ...: truncated at order 0 it is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The last argument is the value that the map acts on; the others select the map.
+            # The last argument is the value that the map acts on; the other arguments select the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # Not an empty sum: the pass for zeros recognises an explicit zero in every operation.
+            # The result is an explicit zero and not an empty sum, because the pass for zeros recognises only
+            # the explicit zero.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

@@ -29,7 +29,7 @@ def run(program: Program) -> Program:
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements of one block in order; add the images of its unknowns to ``names``."""
-    # Imported here, not at the top: only programs with blocks need networkx.
+    # The import is here, because only programs with blocks need networkx.
     import networkx
 
     # After a block each of its unknowns is replaced by the image, also in the starts of later blocks.

@@ -61,7 +61,8 @@ def run(program: Program, scene: Problem) -> Program:
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
-        # No test in advance: whether every operation is equivariant is known only after visiting all of them.
+        # There is no test in advance: whether every operation is equivariant is known only at the last
+        # operation.
         return _Framing(program).run()
     except NotFramed:
         return program
@@ -115,7 +116,8 @@ class _Framing:
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
-        # Only the field and products may read a position Q: other operations on it are not equivariant.
+        # Only the field and products may read a position Q, because other operations on Q are not
+        # equivariant.
         if any(v in self.relative for v in variables):
             raise NotFramed
         return tuple(self.names.get(v, v) for v in variables)
@@ -126,7 +128,7 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # Not supported: a product (E q)(E' q) does not have the form E'' q.
+            # This case is not supported, because a product (E q)(E' q) does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
             # left (E q) = (left E) q, and conjugation by q preserves products.

@@ -16,7 +16,7 @@ def run(program: Program) -> Program:
     """Return the program without dead assignments, unknowns and blocks."""
     live: set[Var] = {var for _, var in program.outputs}
     kept: list[Statement] = []
-    # Backwards: all readers of a value are visited before its definition.
+    # The loop runs backwards, so that all readers of a value are visited before its definition.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
             # All results stay if one is live: an operation such as the field computes them together.
@@ -24,7 +24,7 @@ def run(program: Program) -> Program:
                 live.update(statement.args)
                 kept.append(statement)
             continue
-        # In reverse order here: the whole list is reversed at the end.
+        # The order is reversed, because the whole list is reversed at the end.
         kept += reversed(_trim(statement, live))
     return replace(program, body=tuple(reversed(kept)))
 
@@ -39,7 +39,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # zip is not strict, because a block has one residual for each unknown, or no residuals.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # A list in program order, not a set: the iteration order of a set would change from run to run.
+    # This is a list in program order, because the iteration order of a set would change from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # A live unknown needs its image, and every value that the image is computed from.

@@ -153,10 +153,11 @@ class Reference:
             if name not in before:
                 continue
             x, y = (flatten(kind, side[name]) for side in (before, after))
-            # Relative for large values, absolute for small ones: some components may vanish by symmetry.
+            # The comparison is relative for large values and absolute for small values, because components
+            # may vanish by symmetry.
             scale = max(1.0, *(abs(s) for s in x))
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # Negated on purpose: a gap that is not a number counts as a difference.
+            # The condition is negated on purpose, so that a gap that is not a number counts as a difference.
             if not gap <= AGREE * scale or not math.isfinite(scale):
                 return f"{name} moved by {gap:.3g}"
         return ""
@@ -178,7 +179,8 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
     """Yield the initial state, and a state moved from it by the group in fixed directions."""
     domain = FloatDomain(0.0)
     start = scene.initial(domain)
-    # Sines of integers: no symmetry, no integer relation that a scene might share, and no random seed.
+    # Sines of integers have no symmetry or integer relation that a scene might share, and need no random
+    # seed.
     directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     time = float(scene.span[0])
@@ -188,7 +190,8 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
         for block in scene.state:
             value = start[first : first + len(block.symbols)]
             first += len(block.symbols)
-            # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
+            # Momenta form a vector space, so a vector is added. Points and group elements are moved by the
+            # group, and stay on the manifold.
             if moved and block.kind is Kind.DUAL:
                 value = tuple(a + b for a, b in zip(value, covector, strict=True))
             elif moved:

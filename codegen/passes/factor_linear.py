@@ -31,7 +31,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(arg)
         # If L(x) has a second reader, it is computed anyway, and a map of the sum would be an additional map.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Equal operation and equal first arguments: the same linear map. Other terms get unique keys.
+        # Terms with equal operation and equal first arguments are values of the same linear map. Other terms
+        # get unique keys.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):

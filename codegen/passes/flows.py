@@ -35,7 +35,7 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # Computed only if the program is a composition of flows: sampling the scene takes time.
+    # This is computed only if the program is a composition of flows, because sampling the scene takes time.
     commute = commuting(scene)
     kept: list[Letter] = []
     # Each flow moves to an earlier place if it commutes with all flows that it passes.
@@ -58,7 +58,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
         # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # To reach an earlier place, the letter would have to pass this flow.
+        # The letter would have to pass this flow, with which it does not commute, to reach an earlier place.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -106,14 +106,16 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # Points on the manifold only: formulas that use the equations of the group agree only there.
+        # The points are on the manifold, because formulas that use the equations of the group agree only
+        # there.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # Different durations: with equal ones a symmetry of the two parts could hide a difference.
+        # The durations differ, because with equal durations a symmetry of the two parts could hide a
+        # difference.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -125,7 +127,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
                 return False
         return True
 
-    # Commuting is symmetric: sorting the pair halves the comparisons. A flow commutes with itself.
+    # The relation is symmetric, so sorting the pair halves the number of comparisons. A flow commutes with
+    # itself.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 

@@ -21,9 +21,10 @@ sum."""
 
 
 def run(program: Program) -> Program:
-    """Return the program with numbers outside of maps, sums expanded, and proportional terms added once."""
+    """Return the program in which numbers are moved out of linear maps, nested sums are expanded, and
+    proportional terms are added once."""
     while True:
-        # Unused values are removed in each round: a sum that was expanded must not count as a reader.
+        # Unused values are removed in each round, because a sum that was expanded must not count as a reader.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -80,7 +81,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Coefficients relative to the first: values in the same proportion then have equal patterns.
+        # The coefficients are relative to the first one, so that values in the same proportion have equal
+        # patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum would have to be removed twice.

@@ -97,7 +97,7 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The same search, from P back to the momentum of the equations that P is computed from.
+    # The second search leads from P back to the momentum of the equations from which P is computed.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
@@ -155,7 +155,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base
-    # Here P is a sum of functions of one ad, which costs less than the momentum before the adjoint map.
+    # In this case P is a sum of functions of one ad_x, which costs less than the momentum before the adjoint
+    # map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:

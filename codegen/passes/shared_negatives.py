@@ -31,12 +31,12 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
     result = []
     for assign in body:
         if assign.terms:
-            # Compared as a set: the order of the terms does not matter.
+            # Terms are compared as a set, because their order does not matter.
             opposite = frozenset((Coefficient(-c.value, c.power), v) for c, v in assign.terms)
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
-                # Of equal sums the first is recorded, so that definitions stay before uses.
+                # The first of several equal sums is recorded, so that definitions stay before uses.
                 known.setdefault(frozenset(assign.terms), assign.targets[0])
         result.append(assign)
     return tuple(result)

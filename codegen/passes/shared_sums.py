@@ -26,7 +26,8 @@ one."""
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
-        # Counted again in each round: a factored map may complete a combination for the next round.
+        # The combinations are found again in each round, because a factored map may complete another
+        # combination.
         wanted = _worthwhile(program)
         if not wanted:
             return program

@@ -27,9 +27,11 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Momenta and forces first: velocities, which are extrapolated best between steps, then remain.
+        # Momenta and forces are tried first, so that velocities remain, which are extrapolated best between
+        # steps.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # Greedy, in a fixed order: finding the smallest set (a minimum feedback vertex set) is NP-hard.
+            # The search is greedy and has a fixed order: to find the smallest set (a minimum feedback vertex
+            # set) is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -66,14 +68,15 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """Return assignments with definitions before uses, otherwise in the given order; None for a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # The state is False while an assignment waits for its arguments: meeting it again means a cycle.
+    # The state is False while an assignment waits for its arguments. If it is reached in this state, there is
+    # a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
-        # Depth first in the given order, so that a body that is already sorted does not change.
+        # The search is depth first in the given order, so that a sorted body does not change.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

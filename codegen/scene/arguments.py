@@ -35,7 +35,7 @@ def check_action(reader: Reader, group: LieGroup, action: object) -> None:
     if group.offers(action.needs) is not None:
         try:
             width = len(action.velocity(domain, group, zero, y))
-        except (ValueError, IndexError):  # a product of tuples of different lengths
+        except (ValueError, IndexError):  # a formula may combine tuples of different lengths
             width = -1
     if width != len(y):
         raise SceneError(

@@ -116,9 +116,9 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # regular and of bounded size
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # refuses huge files
     try:
-        # A scene may print for its author; stdout belongs to the result of the command.
+        # A scene may print messages, but stdout is reserved for the result of the command.
         with redirect_stdout(sys.stderr):
             scene = runpy.run_path(str(path)).get("scene")
     except InputError as error:
