@@ -371,7 +371,7 @@ def default_prefix(scene: Problem, method: Method) -> str:
     tableau = method.tableau.name
     parts = [scene.name, *([] if tableau.startswith(method.family) else [family]), tableau]
     name = re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII)
-    return prefix_of(name, "it is the name of the scene's file: rename the file, or use --prefix NAME")
+    return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
 
 
 def prefix_of(name: str, hint: str = "") -> str:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from codegen.lab.efficiency.bench import Result
 
 
-@click.command("bench", cls=Variadic, short_help="Measure error against run time, beside peers.")
+@click.command("bench", cls=Variadic, short_help="Measure error against run time, also of other integrators.")
 @click.argument("scene")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
 @click.option(

@@ -194,7 +194,7 @@ class MatrixElements(MatrixRepresentation):
         return isqrt(self.size)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the entries: ``name``, row and column digits."""
+        """Return the symbols of the entries: ``name`` followed by the digits of row and column."""
         from sympy import Symbol
 
         rows = range(self.order)

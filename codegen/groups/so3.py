@@ -122,9 +122,9 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
 
-        Terms with the same coefficient of ad_x, or of ad_x^2, are added before the sum is multiplied by it.
-        ``total`` returns the sum of f v over the terms with given numbers, where the caller has a shorter
-        formula.
+        Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
+        once. ``total(numbers)`` returns the sum of f v over the terms with these numbers; a caller that has a
+        shorter formula may pass it.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:

@@ -143,7 +143,7 @@ class FloatDomain:
         return result
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return whether the changes are at rounding level, and the size of the last one."""
+        """Return whether the changes are at rounding level, and the size of the last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         # Comparisons with a NaN are false, so without this test the iteration would go on to its limit.
         if not math.isfinite(change):
@@ -174,7 +174,7 @@ class PreciseDomain:
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
 
-        # The precision of mpmath's global context belongs to the caller.
+        # mpmath's global context is not changed, because its precision belongs to the caller.
         self.context = mpmath.mp.clone()
         self.context.dps = digits
         self.digits = digits

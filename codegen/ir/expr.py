@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``, None for all others."""
+"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``, None for all other
+operations."""
 
 FUNCTIONS = (
     "sqrt",

@@ -30,7 +30,7 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The methods that may solve a block."""
 
 SLOWEST = 2.0**-12
-"""The smallest rate of convergence that a loop assumes: a rate measured near rounding is not reliable."""
+"""A lower bound for the rate of convergence: smaller measured rates are not reliable, because of rounding."""
 
 UNIT = 2.0**-53
 """Half a unit in the last place of the number 1."""
@@ -186,9 +186,10 @@ class Field:
 class Deferred:
     """Flows deferred across steps.
 
-    A step is ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with :data:`ELAPSED` = h.
-    Several steps in a row are ``begin`` once, the kernel once for each step, and ``finish`` once. LEAD =
-    ``later`` h in all of these steps but the last, and ELAPSED is the length of all steps together.
+    A single step calls ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with
+    :data:`ELAPSED` = h. A run of several steps calls ``begin`` once, the kernel once for each step, and
+    ``finish`` once. In all steps of the run but the last, LEAD = ``later`` h. ELAPSED is the length of the
+    whole run.
     """
 
     begin: Kernel | None
@@ -207,9 +208,10 @@ class Carried:
     """The momentum m in the body frame, which a run keeps from step to step in place of the state's mu.
 
     m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index ``first`` of the state.
-    A step is ``inward``, the kernel on (q, m), and an end mu + outward(q', m') - outward(q, m) with the new
-    q', m'. Several steps in a row are ``inward`` once, the kernel once for each step, and the end once.
-    Rounding makes q slightly non-orthogonal, and this error then affects only the change of the momentum.
+    A single step computes m by ``inward``, calls the kernel with (q, m), which returns (q', m'), and ends
+    with mu' = mu + outward(q', m') - outward(q, m). A run of several steps computes m once, calls the kernel
+    once for each step, and computes mu' once. Rounding makes q slightly non-orthogonal, and this error then
+    affects only the change of the momentum.
     """
 
     inward: Kernel

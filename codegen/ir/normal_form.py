@@ -1,8 +1,8 @@
 """Normal forms: expressions as polynomials in their symbols and irrational parts, reduced by relations.
 
-Formulas that agree only where coordinates satisfy a group's laws differ as expressions. The normal form of an
-expression brings the arguments of roots and the divisors to normal form first. It then expands the expression
-as a polynomial, and replaces the leading product of each law. Many such formulas become equal in this way: |g
+Formulas that agree only where coordinates satisfy a group's laws differ as expressions. First the arguments
+of roots and the divisors of an expression are brought to normal form. Then the expression is expanded as a
+polynomial, and the leading product of each law is replaced. Many such formulas become equal in this way: |g
 y|^2 becomes |y|^2 where g^T g = 1. The result equals the given expression wherever the laws hold. It is not
 canonical, and need not be shorter.
 """

@@ -113,7 +113,7 @@ class Differential(OfGroup):
 class Secant(OfGroup):
     """The covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x, H0, H1."""
 
-    # One operation, because the quotient in it is 0/0 at x = 0 and needs a guard.
+    # The secant is one operation, because its quotient is 0/0 at x = 0 and needs a guard.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"

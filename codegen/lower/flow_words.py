@@ -107,7 +107,7 @@ class FlowLowering(Lowering):
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return the reading of a method on a Hamiltonian scene in parts.
+        """Return the word, the carrier and the conditions of a method on a Hamiltonian scene with parts.
 
         :class:`codegen.errors.MethodError` is raised for parts that do not add up to H, a part without exact
         flow, a tableau for another number of parts, and parts that all depend on time.

@@ -107,7 +107,7 @@ def families_for(scene: Problem) -> tuple[str, ...]:
 
 def _lowerings() -> dict[str, Lowering]:
     """Return all lowerings by family; built-in modules are imported at the first call."""
-    # They are not imported with this module, because they import this package themselves.
+    # The import is here and not at the top, because the built-in modules import this package.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

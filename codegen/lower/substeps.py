@@ -1,4 +1,4 @@
-"""Compositions: a step that repeats one shorter step becomes the shorter step and a table of substeps.
+"""Compositions: a step that repeats one shorter step is compiled as the shorter step and a table of substeps.
 
 Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in an earlier group than i, and
 a_ij = 0 for j in a later group. Then the method is the composition of the methods of the groups with steps

@@ -19,7 +19,8 @@ def run(program: Program) -> Program:
     # The loop runs backwards, so that all readers of a value are visited before its definition.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
-            # All results stay if one is live: an operation such as the field computes them together.
+            # All results are kept if one of them is live, because an operation such as the field computes
+            # them together.
             if live.intersection(statement.targets):
                 live.update(statement.args)
                 kept.append(statement)

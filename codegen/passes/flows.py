@@ -58,7 +58,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
         # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # The letter would have to pass this flow, with which it does not commute, to reach an earlier place.
+        # The new flow cannot reach an earlier place, because it does not commute with this flow.
         if not commute(kept[at].part, letter.part):
             return None
     return None

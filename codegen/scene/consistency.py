@@ -92,7 +92,7 @@ def check_flow(
                 for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
                     if not orbit.sized(x - y, (x, y, 1)):
                         raise SceneError(
-                            f"the flow of {name} {verb} {orbit.text(x)} in {orbit.symbols[k]}, "
+                            f"the flow of {name} {verb} {orbit.text(x)} in {orbit.symbols[k]} "
                             f"at {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
                             expected=f"{orbit.text(y)}, by the equations of the part",

@@ -177,8 +177,8 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """Return f, or xi and n; ``args`` are the blocks of the state, and the time if the operation has
-        it."""
+        """Return f, or xi and n; ``args`` are the blocks of the state, and the time if the operation has a
+        time argument."""
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots

@@ -336,7 +336,9 @@ def test_what_cannot_be_split_is_told():
         kinetic, "splitting:strang"
     )
     both = particle(lambda q, p: q[1] * t, lambda q, p: q[0] * t)
-    assert "every part depends on t; expected one part without t" in refused(both, "splitting:strang")
+    assert "every part depends on t; expected one part that does not depend on t" in refused(
+        both, "splitting:strang"
+    )
     hyperbolic = particle(lambda q, p: p.dot(p) / 2 - q.dot(q) / 2, lambda q, p: q[0] ** 3)
     assert "the square of its matrix is not diagonal and non-positive" in refused(
         hyperbolic, "splitting:strang"
@@ -415,7 +417,7 @@ def test_what_is_stated_to_be_a_flow_and_is_none_is_refused(flow, message):
     with pytest.raises(SceneError) as failure:
         stated(flow)
     assert f"the flow of T {message}" in str(failure.value)
-    assert "by the equations of the part; flows of summands that do not commute" in str(failure.value)
+    assert "by the equations of the part; if summands do not commute" in str(failure.value)
 
 
 def test_a_flow_is_that_of_a_part():

@@ -32,9 +32,9 @@ def sphere(**changes):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"group": "SO3"}, r"scene: the group 'SO3'; expected one of codegen\.groups, as SO3\(\)"),
-        ({"group": SO3}, "scene: the group SO3; expected one of"),
-        ({"action": Rotation}, r"scene: the action Rotation; expected one of .* as Rotation\(\)"),
+        ({"group": "SO3"}, r"scene: the group 'SO3'; expected an object of codegen\.groups, such as SO3\(\)"),
+        ({"group": SO3}, "scene: the group SO3; expected an object of"),
+        ({"action": Rotation}, r"scene: the action Rotation; expected an object of .* such as Rotation\(\)"),
         ({"f": 3}, "scene: f is 3; expected a column of 3 components"),
         ({"y0": None}, "scene: y0 is None; expected a column of 3 components"),
     ],
