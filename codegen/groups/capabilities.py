@@ -161,7 +161,8 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, the inverse of :meth:`matrix`; linear in the matrix."""
+        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`, and a linear
+        map."""
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:

@@ -11,8 +11,7 @@ from codegen.ir.domain import Domain
 
 
 class Cotangent(CotangentBundle):
-    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu), with the coordinates in this order, also
-    in the algebra.
+    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu), where momenta follow the elements of G.
 
     With f(q, mu) = (xi, n) the flow is q' = xi.q, mu' = n - ad*_xi mu, that is z' = f(z).z (Arnold and Khesin
     I.10.B; eq. 2.27 of H. Marthinsen's thesis). Hence exp(xi, n) = (exp xi, dexp*_{-xi} n) and [(x, m), (y,

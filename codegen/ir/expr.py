@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``, None for all other
+"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``; None for all other
 operations."""
 
 FUNCTIONS = (
@@ -279,7 +279,7 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
         waiting.append(root)
         while waiting:
             node = waiting.pop()
-            if node is None:  # a marker: the arguments of the next node on the stack were yielded
+            if node is None:  # a marker: all arguments of the node below it on the stack were yielded
                 user = waiting.pop()
                 # The node lies directly below its marker on the stack.
                 assert user is not None

@@ -21,7 +21,7 @@ from codegen.ir.expr import Expr, walk
 def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr, ...], ...]:
     """Return d roots[i] / d symbols[j], a row for each root, in the roots' space.
 
-    :class:`codegen.ir.differentiate.NotDifferentiable` is raised where a function has no derivative.
+    :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a function has no derivative.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y = s.sym("x"), s.sym("y")

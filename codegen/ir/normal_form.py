@@ -112,7 +112,7 @@ class NormalForms:
         return known_forms[root.id]
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
-        """Return a polynomial as an expression, the most frequent factor taken out first."""
+        """Return a polynomial as an expression; the most frequent factor is taken out first."""
         # The terms are copied, because the polynomial may be needed for later expressions.
         terms = dict(polynomial)
         count: dict[int, int] = {}

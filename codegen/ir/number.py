@@ -83,8 +83,7 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """Whether this number is provably zero."""
-        # The ring's is_zero answers None where the question is undecided; such a number does not count as
-        # zero.
+        # The ring's is_zero returns None if the question is undecided; such a number does not count as zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property

@@ -164,7 +164,7 @@ class FlowOf(Operation):
 
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The exact flow of a part for a duration that is computed at run time; it is the last argument."""
+    """The exact flow of a part; the last argument is the duration, which is computed at run time."""
 
     part: str
     timed: bool = False

@@ -147,7 +147,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 
 
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
-    """Return b_i = sum_J beta_J^i, none of them zero."""
+    """Return b_i = sum_J beta_J^i; raise ZeroWeight if one of them is zero."""
     b = []
     for i in range(s):
         # The weight of stage i in the discrete Lagrangian is its total coefficient in the update.

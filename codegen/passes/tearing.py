@@ -42,7 +42,7 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image, None if that closes a cycle."""
+    """Return the block with an unknown replaced by its image; None if that closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     # The last unknown is in a cycle: the pass for blocks has already removed blocks without one.
     if len(block.unknowns) == 1 or image in block.unknowns:
