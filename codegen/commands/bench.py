@@ -31,7 +31,11 @@ if TYPE_CHECKING:
 )
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
 @click.option(
-    "--output", "-o", type=FOLDER, metavar="DIR", help="Write SCENE.csv, SCENE.json and SCENE.svg there."
+    "--output",
+    "-o",
+    type=FOLDER,
+    metavar="DIR",
+    help="The folder to write SCENE.csv, SCENE.json and SCENE.svg to.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the rows as JSON.")
 def command(

@@ -69,7 +69,8 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    Without -o nothing is written; --explain or --json then describe the module.
+    Without -o no file is written; --explain or --json is then required and prints a description of the
+    module.
     """
     from codegen.emitter import bare, compile_method, emit_compiled
     from codegen.printers import target as known_target

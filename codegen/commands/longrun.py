@@ -31,7 +31,7 @@ FEWEST = 200
     help="The number of steps.",
 )
 @click.option("--one-way", is_flag=True, help="Omit the run back to the initial state.")
-@click.option("--no-rounding", is_flag=True, help="Omit the growth of rounding errors.")
+@click.option("--no-rounding", is_flag=True, help="Do not measure the growth of rounding errors.")
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str,
@@ -46,9 +46,10 @@ def command(
 
     Deviations are relative to the size of the quantity. The column "law" contains "lost" if the deviation
     reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if it grows
-    but the interval of the slope contains zero. Quantities that a method conserves exactly show the growth of
-    rounding errors: the root mean square over several starts and its exponent, with and without compensated
-    summation. The exit status is 1 if a run ends early or a method fails.
+    but the interval of the slope contains zero. For quantities that a method conserves exactly, the growth of
+    rounding errors is measured: their root mean square over several initial states, and its exponent in the
+    number of steps, with and without compensated summation. The exit status is 1 if a run ends early or a
+    method fails.
     """
     from codegen import scenes
     from codegen.emitter import compile_method

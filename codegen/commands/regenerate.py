@@ -15,7 +15,11 @@ from orderconds.commands.place import FOLDER
     "--check", "check_only", is_flag=True, help="Change nothing; the exit status is 1 if a file differs."
 )
 @click.option(
-    "--output", "-o", type=FOLDER, metavar="DIR", help="The folder; by default generated/ of the source tree."
+    "--output",
+    "-o",
+    type=FOLDER,
+    metavar="DIR",
+    help="The folder to rewrite or compare; by default generated/ in the source tree.",
 )
 @click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record.")

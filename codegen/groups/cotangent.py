@@ -65,8 +65,8 @@ class Cotangent(CotangentBundle):
         return self.base.ad(d, a, b) + tuple(p - q for p, q in pairs)
 
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return (b, ad*_b mu - a) for a covector (a, b): the right-trivialised canonical bivector (thesis,
-        eq. 2.26).
+        """Return (b, ad*_b mu - a) for a covector (a, b): the right-trivialised canonical bivector (eq. 2.26
+        of Marthinsen's thesis).
 
         If the covector is the differential (ad*_xi mu - n, xi) of a Hamiltonian, the result is f = (xi, n).
         """

@@ -109,7 +109,8 @@ def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the covector nearest to g whose pairing with x is ``after - before`` (thesis, eq. 2.31).
+    """Return the covector nearest to g whose pairing with x is ``after - before`` (eq. 2.31 of Marthinsen's
+    thesis).
 
     The distance is in the Euclidean norm, so the result is g plus a multiple of x. The multiple is zero if x
     is zero.
