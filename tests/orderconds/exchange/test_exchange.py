@@ -7,7 +7,7 @@ import tomllib
 from contextlib import suppress
 from dataclasses import replace
 from datetime import timedelta
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -27,8 +27,21 @@ from tests.orderconds.exchange.coefficients import COEFFICIENTS
 ARRAYS = [name for name in FORMATS if name not in ("toml", "json")]
 
 
+@cache
 def data_of(name: str) -> dict:
+    """Return the data of a library file; the tests do not change it."""
     return tomllib.loads(find(name).read_text(encoding="utf-8"))
+
+
+@cache
+def loaded(name: str) -> Tableau:
+    return Tableau.load(find(name))
+
+
+@cache
+def content(name: str) -> dict:
+    """Return what a file of the tableau contains; the tests do not change it."""
+    return as_data(loaded(name))
 
 
 def carries(name: str, of: str) -> bool:
@@ -45,8 +58,7 @@ def numbers(tableau: Tableau) -> list:
 @pytest.mark.parametrize("of", FORMATS)
 def test_every_tableau_of_the_library_reads_back_the_same(of: str) -> None:
     for name in available():
-        tableau = Tableau.load(find(name))
-        data = as_data(tableau)
+        tableau, data = loaded(name), content(name)
         if not carries(name, of):
             with pytest.raises(InputError, match="format json"):
                 export(data, of)
@@ -72,7 +84,7 @@ def test_nothing_of_a_file_is_lost(of: str) -> None:
     for name in available():
         data = data_of(name)
         assert read_data(export(data, of), of, "back") == data
-        assert read_data(export(as_data(Tableau.load(find(name))), of), of, "back") == data
+        assert read_data(export(content(name), of), of, "back") == data
 
 
 def test_a_proof_survives_and_certifies_again() -> None:
