@@ -11,6 +11,7 @@ exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -302,6 +303,14 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                 node, args = users.pop()
 
 
+_BINARY: dict[str, Callable[[Any, Any], Any]] = {
+    "add": operator.add,
+    "sub": operator.sub,
+    "mul": operator.mul,
+    "div": operator.truediv,
+}
+
+
 def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]) -> list[Scalar]:
     """Evaluate roots in a domain (see :mod:`codegen.ir.domain`); ``values`` are the values of the symbols.
 
@@ -309,31 +318,24 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     """
     # The roots are read twice below, and an iterator would be empty the second time.
     roots = list(roots)
-    result: dict[int, Scalar] = {}
+    result: dict[Expr, Scalar] = {}
     for node in walk(roots):
         # Arguments come first in walk, so their values exist.
-        args = [result[a.id] for a in node.args]
-        match node.op:
-            case "const":
-                value = domain.number(node.payload)
-            case "sym":
-                value = values[node.payload]
-            case "add":
-                value = args[0] + args[1]
-            case "sub":
-                value = args[0] - args[1]
-            case "mul":
-                value = args[0] * args[1]
-            case "div":
-                value = args[0] / args[1]
-            case "neg":
-                value = -args[0]
-            case "pow":
-                value = power(args[0], node.payload)
-            case _:
-                value = domain.call(node.payload, *args)
-        result[node.id] = value
-    return [result[r.id] for r in roots]
+        args = node.args
+        if node.op in _BINARY:
+            value = _BINARY[node.op](result[args[0]], result[args[1]])
+        elif node.op == "const":
+            value = domain.number(node.payload)
+        elif node.op == "sym":
+            value = values[node.payload]
+        elif node.op == "neg":
+            value = -result[args[0]]
+        elif node.op == "pow":
+            value = power(result[args[0]], node.payload)
+        else:
+            value = domain.call(node.payload, *(result[a] for a in args))
+        result[node] = value
+    return [result[r] for r in roots]
 
 
 def power(x: Scalar, n: int) -> Scalar:
