@@ -412,7 +412,7 @@ def reason(status: int, block: str, h: float) -> str:
         case Status.NOT_CONVERGED:
             return f"{block} did not converge"
         case _:
-            return f"{block} met a number that is not finite" if block else "the new state is not finite"
+            return f"{block} computed a number that is not finite" if block else "the new state is not finite"
 
 
 def like(state: State, values: Sequence[Any]) -> State:

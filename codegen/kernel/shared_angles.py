@@ -23,7 +23,7 @@ nine methods of the gallery; 32 changes one of them, vcf:cf4 on dipole, from 301
 
 
 class SharedArguments(ExprDomain):
-    """Expressions in which Stumpff functions of equal arguments are called with the first of them."""
+    """Expressions in which arguments of Stumpff functions are shared if they are equal as polynomials."""
 
     def __init__(self, space: Space | None = None) -> None:
         super().__init__(space)

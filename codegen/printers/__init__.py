@@ -25,5 +25,6 @@ def target(name: str) -> PrintModule:
     """Return the module printer of a target; an unknown name raises UnknownName with the known targets."""
     if name not in TARGETS:
         raise UnknownName(f"unknown target {name}", expected=" or ".join(sorted(TARGETS)))
+    # Imported by name, so that a target is a line in a table and needs no import here.
     printer: PrintModule = import_module(TARGETS[name]).print_module
     return printer

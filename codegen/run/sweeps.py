@@ -70,7 +70,7 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """The common part of fixed-point iteration and Newton's method; ``counting`` includes statistics."""
+    """The common part of fixed-point iteration and Newton's method; with ``counting``, sweeps are counted."""
 
     plan: Plan
     iteration: Iteration

@@ -228,7 +228,7 @@ static inline void stumpff_01(double z, double *c0, double *c1)
     }
 }
 
-/* a/b, or 0 if b = 0, which is the limit */
+/* a/b, or its limit 0 if b = 0 */
 static inline double quotient(double a, double b)
 {
     return b > 0.0 || b < 0.0 ? a / b : b;

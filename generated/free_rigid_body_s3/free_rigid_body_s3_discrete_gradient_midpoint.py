@@ -41,7 +41,7 @@ BAD_STEP = 3
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
+    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -258,7 +258,7 @@ def _stumpff_01(z):
 
 
 def quotient(a, b):
-    """Return a/b, or 0 if b = 0, which is the limit."""
+    """Return a/b, or its limit 0 if b = 0."""
     return a / b if b else b
 
 
@@ -1261,7 +1261,7 @@ def _run(state, h, steps, trajectory, stride, statistics, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
+    """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 4:
         raise ValueError(f"expected 4 numbers in state, found {len(numbers)}")
@@ -1278,7 +1278,7 @@ def _failure(status, step, state, h, statistics):
         if status == NOT_CONVERGED:
             reason = f"{label} did not converge"
         else:
-            reason = f"{label} met a number that is not finite"
+            reason = f"{label} computed a number that is not finite"
     return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
@@ -1293,8 +1293,8 @@ def step(state, h, *, statistics=None):
 def run(state, h, steps, *, stride=0, statistics=None):
     """Return the state after ``steps`` steps of size h, as a list.
 
-    With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. If a step fails, StepFailed is raised, with the last good state.
+    With a positive stride, return rows instead: the initial state, and the state after every
+    stride-th step. If a step fails, StepFailed is raised; it contains the last good state.
     """
     state = _numbers(state)
     h = float(h)
