@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
-from codegen.run.precision import DOUBLE
+from codegen.ir.precision import DOUBLE
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 

@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
-from codegen.run.precision import DOUBLE, Precision, precision
+from codegen.ir.precision import DOUBLE, Precision, precision
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples, and lists in JSON."""
@@ -22,7 +22,7 @@ class Interface:
     ``prefix`` starts every external C name and ends in an underscore; ``size`` is the number of numbers in a
     state; ``time`` is true if the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
-    of all numbers (:mod:`codegen.run.precision`); ``inputs`` are the run-time functions of time, in order;
+    of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
     ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
     blocks. ``variations`` is the size of the Jacobian, 0 without one.
     """

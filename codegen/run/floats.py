@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from codegen.ir.domain import FloatDomain
-from codegen.run.precision import DOUBLE
+from codegen.ir.precision import DOUBLE
 from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised, limit, slopes
 
 

@@ -8,8 +8,8 @@ from functools import cached_property
 
 from codegen.ir.expr import walk
 from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel, Start
+from codegen.ir.precision import Precision
 from codegen.kernel.schedule import Arrangement, arrange
-from codegen.run.precision import Precision
 from codegen.run.terms import Term, count, own, real, record, signal
 
 TIME, STEP = own("t"), own("h")

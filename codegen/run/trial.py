@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.run.execute import Machine
 from codegen.run.floats import EmittedFloats
 from codegen.run.plan import STATISTICS, Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import OK, STATUSES
 from codegen.run.unit import unit_of
 from codegen.scene.problem import Problem

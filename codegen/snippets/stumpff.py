@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import combinations
 from math import factorial
 
-from codegen.run.precision import DOUBLE, Precision
+from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
 """c_k is its polynomial up to z = SWITCH[k]; c_1(4) = 0.4546."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from codegen.ir.precision import Precision
 from codegen.printers.c.terms import Terms, literal
 from codegen.printers.c.text import block_comment, comment, fill, together
 from codegen.printers.infix import closed
@@ -29,7 +30,6 @@ from codegen.run.language import (
     While,
     terms,
 )
-from codegen.run.precision import Precision
 from codegen.run.scope import declarations
 from codegen.run.terms import Kind, Term, own, symbols
 from codegen.run.writes import written

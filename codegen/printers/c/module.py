@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.printers.c.terms import literal
@@ -17,7 +18,6 @@ from codegen.run.identifiers import identify
 from codegen.run.language import Unit, terms
 from codegen.run.numbers import numbers_held
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.sweeps import WIDE
 from codegen.run.terms import STATUSES
 from codegen.run.trajectory import is_looped

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import ClassVar
 
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.printers.c.text import closed_call, greatest
 from codegen.printers.expression import Style, render
 from codegen.printers.infix import (
@@ -20,7 +21,6 @@ from codegen.printers.infix import (
     joined,
 )
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE, Precision
 from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 

@@ -7,6 +7,7 @@ from functools import cached_property
 
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
@@ -19,7 +20,6 @@ from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import RAISES_STATUS, Unit, terms
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.unit import unit_of
 from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment

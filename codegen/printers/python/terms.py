@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import ClassVar
 
 from codegen.ir.number import Number
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.printers.expression import Style, render
 from codegen.printers.infix import CHOICE, COMPARED, NOT, OR, SUM, Infix, Text, closed, joined
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE, Precision
 from codegen.run.terms import Kind, Term
 
 

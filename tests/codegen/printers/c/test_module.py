@@ -10,11 +10,11 @@ import pytest
 
 from codegen.emitter import compile_method
 from codegen.ir.kernel import Kernel
+from codegen.ir.precision import DOUBLE, SINGLE
 from codegen.printers.c.module import inverted, own_names, print_module, prototypes, stack, usage
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE, SINGLE
 from codegen.run.terms import STATUSES
 from codegen.run.unit import unit_of
 

@@ -10,12 +10,12 @@ from types import SimpleNamespace
 
 import pytest
 
+from codegen.ir.precision import DOUBLE
 from codegen.printers.c.module import helpers
 from codegen.printers.c.words import RESERVED
 from codegen.run.identifiers import identify
 from codegen.run.language import Assign, Function, Return, Unit
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import Kind, number, own
 from codegen.run.unit import unit_of
 
