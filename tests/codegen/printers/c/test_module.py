@@ -63,7 +63,9 @@ def test_the_source_defines_what_the_header_declares(kernels: SimpleNamespace, n
     kernel = getattr(kernels, name)()
     files = print_module(kernel, interface_of(kernel), RECIPE)
     assert sorted(files) == ["m.c", "m.h"]
-    for function in heads(files["m.h"]):
+    declared = heads(files["m.h"])
+    assert set(declared) == {"m_step", "m_run"}
+    for function in declared:
         assert len(re.findall(rf"^int {function}\(", files["m.c"], re.MULTILINE)) == 1
 
 
@@ -109,6 +111,7 @@ def test_the_bound_on_the_stack_grows_with_the_kernel_and_the_format(kernels: Si
         # At least the state itself, as an array and as local copies.
         size = sum(len(f.symbols) for f in kernel.state)
         assert 2 * 8 * size < bound(kernel, "double") <= 2 * bound(kernel, "single")
+        assert bound(kernel, "single") < bound(kernel, "double")
 
 
 def test_matrices_of_one_small_size_are_inverted_with_unrolled_rows(kernels: SimpleNamespace) -> None:
