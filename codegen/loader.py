@@ -300,7 +300,8 @@ class CompiledIntegrator(Integrator):
         if status != Status.OK:
             why = reason(status, self._block(counted), span[2])
             if status == Status.BAD_STEP:
-                why = "from {} to {} by {} with rtol = {}, atol = {}".format(*span, *tolerances)
+                found = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
+                why = f"expected finite numbers and no negative tolerance, found {found}"
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 

@@ -43,7 +43,7 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # Without flows all variants give the same columns; only the order of constant factors is tried.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
+    parted = None if scene.inputs else part(program, scene)  # inputs are sampled in every step
     # The core is the part that runs in every step, so only the core is compared.
     core = program if parted is None else parted.core
     # Compiled and compared, not predicted: the common subexpressions of the scene decide which is shortest.

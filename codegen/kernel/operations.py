@@ -74,7 +74,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     for block, numbers in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in numbers.items()) or "none"
         if block == START:
-            lines.append(f"{each} an initial guess, in the first step of a run")
+            lines.append(f"{each} for an initial guess, in the first step of a run")
         elif block == STEP:
             lines.append(f"{each} a step")
         elif block.startswith("matrix of "):

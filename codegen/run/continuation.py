@@ -71,7 +71,7 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
-        # A variable of its own, because every attempt overwrites STATUS.
+        # A separate variable, because every attempt overwrites STATUS.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:

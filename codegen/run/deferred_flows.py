@@ -153,8 +153,7 @@ class _Deferring:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
-        # Tested before the run: the loop would defer flows of a state that is not finite, and repeat the
-        # run in vain.
+        # Test the initial state first: a run from a state that is not finite would be repeated in vain.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
@@ -207,7 +206,7 @@ class _Deferring:
     def one(self) -> tuple[Statement, ...]:
         """Return the statements of one step of a run."""
         rows, deferred = Rows(self.plan), self.deferred
-        # DONE still counts the steps before this one.
+        # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
         # One product instead of a sum over steps makes one rounding error, however many steps were deferred.

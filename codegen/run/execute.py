@@ -98,8 +98,7 @@ class Machine:
 
     def record(self, name: str) -> Any:
         """Return a record whose fields are all zero."""
-        # Attributes and not keys: the access is a single call of ``getattr``, as for the fields of emitted
-        # Python.
+        # The fields are attributes, as in emitted Python, so an access is a single call of ``getattr``.
         record = SimpleNamespace()
         self.clear(record, name)
         return record

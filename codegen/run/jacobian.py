@@ -50,8 +50,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the functions of the derivative, none if it was not requested."""
     if plan.kernel.vary is None:
         return ()
-    # A plan of its own, because the kernel of variations has other inputs, outputs and loops than the
-    # step.
+    # A separate plan, because the kernel of variations has other inputs, outputs and loops than the step.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 

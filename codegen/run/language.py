@@ -26,7 +26,7 @@ from codegen.run.terms import Kind, Term, names
 
 @dataclass(frozen=True)
 class Assign:
-    """target = value; for an array, every entry is assigned, for a record, every field."""
+    """An assignment: target = value; every entry of an array, or every field of a record, is assigned."""
 
     target: Term
     value: Term

@@ -40,7 +40,7 @@ class Declarations:
 
 
 def declarations(function: Function, identifiers: Identifiers) -> Declarations:
-    """Return the declarations of a function, without arrays and loop indices, which declare themselves."""
+    """Return the declarations of the scalars that a function assigns, except parameters and loop indices."""
     result = Declarations()
     _Scopes(identifiers, result).place(function.body, _variables(function, identifiers))
     return result

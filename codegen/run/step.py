@@ -129,7 +129,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round
-    # Rounded once from exact numbers, here and not at run time.
+    # The exact numbers are rounded once, at compile time.
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
     sequence = [Table(real("fraction", n), (fractions,), "Lengths of the substeps, in units of h.")]
     if plan.time:

@@ -58,8 +58,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 def weighted(plan: Plan) -> Function:
     """Return the function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
-    # A function of its own, because its loop over the components would otherwise end in the long body of
-    # the run.
+    # A separate function, so that the long body of the run contains no loop over components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
     # The larger value of both ends: a component that crosses zero would otherwise demand a tiny error.
@@ -121,7 +120,8 @@ class _Controlled:
         body: tuple[Statement, ...] = (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
-            # Also after a failure: the caller sees how far the run came, and can continue from there.
+            # Stored after a failure, too: the caller then knows the last good time and can continue from
+            # there.
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
@@ -135,7 +135,7 @@ class _Controlled:
         plan = self.plan
         # Tested once, before the loop, because the loop only scales step sizes by bounded factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
-        # False for a NaN, too.
+        # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
         # A crude choice is enough: each trial corrects it by a factor of up to 5.

@@ -29,7 +29,7 @@ class Kind(Enum):
     REAL = "real"
     WIDE = "wide"
     COUNT = "count"
-    # A kind of its own and not a count: array languages distinguish booleans from integers.
+    # A separate kind, because array languages distinguish booleans from integers.
     FLAG = "flag"
     STATUS = "status"
     RECORD = "record"
@@ -121,7 +121,7 @@ class Term:
         """Raise TypeError: an array is not a Python sequence."""
         # Without this method Python would iterate by ``__getitem__``, which accepts every index, and never
         # end.
-        raise TypeError("a term has no entries until a program runs")
+        raise TypeError("a Term is symbolic and cannot be iterated; index its entries up to its shape")
 
     def part(self, start: int, size: int) -> Term:
         """Return ``size`` entries of an array of reals, from ``start`` on."""
@@ -216,7 +216,8 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return an expression of the kernel; a bare symbol becomes a name."""
-    # A name and not a value, so that copies of scalars are recognised without looking into expressions.
+    # Return a name and not a value, so that copies of scalars are recognised without inspecting
+    # expressions.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -324,7 +325,7 @@ def wide(x: Term) -> Term:
 
 
 def narrow(x: Term) -> Term:
-    """Return a wide real rounded to the format."""
+    """Return a double rounded to the format of the module."""
     return Term("narrow", (x,))
 
 

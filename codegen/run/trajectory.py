@@ -169,7 +169,7 @@ def run(plan: Plan) -> Function:
             # the row. The run itself continues in the body frame, without another conversion.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
-        # Each time is computed from the initial one, so that errors do not accumulate.
+        # Each time is computed from the initial time, so that errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
         # The counter advances after success only, so it is the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))

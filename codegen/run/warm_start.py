@@ -222,7 +222,7 @@ class WarmStart:
         """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three solutions the guess is only a copy: do not judge it"),
+            Note("with fewer than three solutions the guess is a copy of the last one and is not judged"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [

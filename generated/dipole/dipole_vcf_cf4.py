@@ -25,7 +25,7 @@ left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
-            2 mul an initial guess, in the first step of a run
+            2 mul for an initial guess, in the first step of a run
             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1,
             n2, n3, n4
             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of
@@ -446,7 +446,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is only a copy: do not judge it
+    # with fewer than three solutions the guess is a copy of the last one and is not
+    # judged
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

@@ -27,7 +27,7 @@ left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 114 add, 174 mul, 3 stumpff_12 a step
-            6 mul an initial guess, in the first step of a run
+            6 mul for an initial guess, in the first step of a run
             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of
             xi1, n1
@@ -359,7 +359,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is only a copy: do not judge it
+    # with fewer than three solutions the guess is a copy of the last one and is not
+    # judged
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

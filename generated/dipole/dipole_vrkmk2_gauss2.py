@@ -23,7 +23,7 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 47 add, 80 mul, 1 stumpff_12 a step
-            2 mul an initial guess, in the first step of a run
+            2 mul for an initial guess, in the first step of a run
             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of
             the equations of v1, v2, m1, m2
@@ -416,7 +416,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is only a copy: do not judge it
+    # with fewer than three solutions the guess is a copy of the last one and is not
+    # judged
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

@@ -13,7 +13,7 @@
  *             3 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
- *             21 add, 42 mul an initial guess, in the first step of a run
+ *             21 add, 42 mul for an initial guess, in the first step of a run
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
  * stack:      at most 6592 bytes; functions of the mathematical library add to this
@@ -362,7 +362,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

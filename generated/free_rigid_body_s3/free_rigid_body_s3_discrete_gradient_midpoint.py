@@ -13,7 +13,7 @@ left out:   1 sum: coefficients are zero, or terms cancel
             3 exponentials: exp(x).y is computed without exp(x)
             the time: the scene does not depend on it
 operations: 34 add, 59 mul, 1 stumpff_01 a step
-            21 add, 42 mul an initial guess, in the first step of a run
+            21 add, 42 mul for an initial guess, in the first step of a run
             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the
             equations of xi
             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of
@@ -390,7 +390,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is only a copy: do not judge it
+    # with fewer than three solutions the guess is a copy of the last one and is not
+    # judged
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

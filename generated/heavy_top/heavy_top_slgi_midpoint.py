@@ -11,7 +11,7 @@ state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   the time: the scene does not depend on it
 operations: 50 add, 71 mul, 1 stumpff_1 a step
-            3 mul an initial guess, in the first step of a run
+            3 mul for an initial guess, in the first step of a run
             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1,
             n1
             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of
@@ -454,7 +454,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is only a copy: do not judge it
+    # with fewer than three solutions the guess is a copy of the last one and is not
+    # judged
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

@@ -138,7 +138,7 @@ class _Body:
         self.terms = Terms(self.identifiers, printer.constants)
 
     def block(self, body: Body, depth: int) -> list[str]:
-        """Return the lines of some statements."""
+        """Return the lines of consecutive statements."""
         lines: list[str] = []
         place = 0
         while place < len(body):

@@ -96,7 +96,7 @@ class _Module:
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
     def imports(self) -> tuple[list[str], list[str]]:
-        """Return what is imported from ``math`` and from NumPy."""
+        """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
         # Imported only if used, because linters of the user's project report unused imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
