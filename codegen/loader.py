@@ -301,8 +301,8 @@ class CompiledIntegrator(Integrator):
         if status != Status.OK:
             why = reason(status, self._block(counted), span[2])
             if status == Status.BAD_STEP:
-                found = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
-                why = f"expected finite numbers and no negative tolerance, found {found}"
+                given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
+                why = f"expected finite numbers and no negative tolerance, found {given}"
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
