@@ -58,7 +58,8 @@ def function(
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # Executed again on symbols, because the expressions of the step are simplified for their operands.
+    # The tree is executed again with symbols as inputs, because the expressions of the step are already
+    # simplified for their operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -138,7 +139,7 @@ class WithFunctions:
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # Evaluated in this domain, because functions may call functions.
+            # The body is evaluated in this domain, because functions may call other functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value

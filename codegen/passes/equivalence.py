@@ -23,7 +23,7 @@ are shortened."""
 REACH = 0.5
 """The largest move along the field in one step: longer steps would amplify rounding.
 
-Its value matters little: :data:`AGREE` leaves a factor of 2^15 above the rounding that occurs."""
+The value matters little, because :data:`AGREE` is 2^15 times as large as the rounding errors that occur."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """Errors of an interpretation; a root of a negative number raises ValueError."""
@@ -39,13 +39,15 @@ A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower b
 is tried."""
 
 TRIES, APART = 3, 16
-"""The number of steps in which a program may be compared, and the smallest ratio between them.
+"""The number of step sizes for comparing a program, and the smallest ratio of consecutive step sizes.
 
 Rewritten equations may need smaller steps to converge by iteration; one step in which they converge is
-enough. The three steps span a factor of 256 or more."""
+enough. The three step sizes span a factor of 256 or more.
+"""
 
 AGREE = 2.0**-36
-"""Relative difference of equal results: far above rounding and the tolerance of a block.
+"""Results with a smaller relative difference count as equal; it is far above rounding and the tolerance of a
+block.
 
 In 170 comparisons of eight methods of the gallery the passes moved results by 2^-51 at most. A coefficient
 that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
@@ -96,7 +98,7 @@ class Reference:
         # A state where the field is not finite is skipped; the other state may be usable.
         if not math.isfinite(speed):
             return
-        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
+        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # 2**excess is the next power of two
         count, last = 0, math.inf
         for moderate in STEPS:
             # The step is a power of two: h^k then has no rounding error that could look like a difference.
@@ -159,7 +161,7 @@ class Reference:
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
             # The condition is negated on purpose, so that a gap that is not a number counts as a difference.
             if not gap <= AGREE * scale or not math.isfinite(scale):
-                return f"{name} moved by {gap:.3g}"
+                return f"{name} differs by {gap:.3g}"
         return ""
 
 

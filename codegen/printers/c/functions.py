@@ -37,9 +37,7 @@ from codegen.run.writes import written
 MANY = 20
 """More than MANY consecutive short statements share lines."""
 
-ONE_TEST = (
-    "one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite"
-)
+ONE_TEST = "one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN"
 
 
 class FunctionPrinter:
@@ -50,7 +48,8 @@ class FunctionPrinter:
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
-        # Computed once for each function: the analysis follows calls through the whole unit.
+        # The changed parameters are found once for each function, because the search follows calls through
+        # the whole unit.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
 
     def called(self, name: str) -> str:
@@ -61,7 +60,8 @@ class FunctionPrinter:
 
     def type_of(self, kind: Kind) -> str:
         """Return the type of a scalar."""
-        # size_t for counts: indices and sizes then need no conversions, about which -Wconversion warns.
+        # Counts have the type size_t, so that indices and sizes need no conversions, about which -Wconversion
+        # warns.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
@@ -86,7 +86,8 @@ class FunctionPrinter:
         # Scalars are passed by value; a const on them would mean nothing to callers.
         if not parameter.shape:
             return f"{kind} {name}"
-        # A pointer, because such an argument may be NULL, and ``static`` sizes promise that it is not.
+        # An optional array is declared as a pointer, because it may be NULL; a ``static`` size would promise
+        # that it is not.
         if parameter.cell or parameter.optional:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -275,7 +276,8 @@ class _Body:
         name = self.identifiers.of(target) if target.op == "name" else ""
         # ``const`` for variables that are assigned once: a reader sees that the value is final, and the
         # compiler checks it.
-        # By identity, because equal statements at different places declare different variables.
+        # Statements are identified by id, because equal statements at different places declare different
+        # variables.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -299,8 +301,8 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # Compound assignments only where the target is the first operand: x = x + y, not x = y + x, whose
-        # operands would be exchanged.
+        # Compound assignments are printed only where the target is the first operand: for x = x + y, but not
+        # for x = y + x, because x += y would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed and not kind:
             more = self.terms.text(value.args[1])

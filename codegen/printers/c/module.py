@@ -52,7 +52,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         chain=chain(kernel),
     )
     public = {f.name: f for f in unit.functions if f.public}
-    # Width 96: the comment adds a star and a space to each line of at most 100 characters.
+    # The width is 96, because the comment adds a star and spaces to each line of at most 100 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
         # Titles and names come from users: an end of a comment in them must not end the header.
@@ -131,7 +131,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     ``-fstack-usage``.
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
-    # Rounded up to 64 bytes, which covers the alignment of vector registers.
+    # The size is rounded up to a multiple of 64 bytes, which covers the alignment of vector registers.
     rounded = -(-size * numbers_held(unit) // 64) * 64
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.

@@ -112,7 +112,7 @@ class Terms(Infix):
 
     def name(self, term: Term) -> str:
         """Return a name; a signal of inputs is passed as a function and the function's context."""
-        # Two arguments, because C has no closures.
+        # A signal becomes two arguments, because C has no closures.
         return "input, context" if term.kind is Kind.SIGNAL else self.identifiers.of(term)
 
     def number(self, term: Term) -> str:

@@ -23,8 +23,8 @@ _WORDS = """
     input context hold
 """
 
-# All sets of orders, and not only those of one module: a name then does not depend on the functions
-# called.
+# All sets of orders are excluded, and not only the sets of one module: the identifier of a variable then does
+# not depend on the functions that the module calls.
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
 """Words that are excluded as names of variables, besides the names of the run representation.
 
