@@ -104,7 +104,7 @@ class _Chains:
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
-        # Backward, users come before arguments: find the longest chain that follows each node.
+        # In backward order users come before arguments: find the longest chain that follows each node.
         for node in reversed(self.nodes):
             # All users have been visited, so the chain that follows this node is final.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
@@ -211,7 +211,7 @@ class _Chains:
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
-            # As in Huffman coding: adding the two earliest terms first gives the earliest sum.
+            # Adding the two earliest terms first gives the earliest sum, as in Huffman coding.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
             # A subtraction includes the sign at no cost; only a sum of two negative terms needs a negation at

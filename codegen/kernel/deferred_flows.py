@@ -57,7 +57,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # One pair of durations for all, because ``_joined`` keeps only flows with the same durations.
+    # All joined flows have the same pair of durations, because ``_joined`` keeps only flows with the same
+    # durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]

@@ -88,7 +88,7 @@ def inverse(rows: Rows) -> Rows:
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
-    # One division and n^2 products, because a division costs several products.
+    # The inverse takes one division and n^2 products, because a division costs several products.
     factor = space.one / determinant
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 

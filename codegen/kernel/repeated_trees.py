@@ -261,7 +261,7 @@ class Trees:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
-        # Coefficients in the order of :func:`distinct`, in which the function expects them.
+        # The coefficients have the order of :func:`distinct`, in which the function expects them.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat

@@ -227,7 +227,7 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
-    # A kernel of the statements after this one: its expressions are exactly those that are read later.
+    # The later statements form a kernel, whose expressions are exactly the expressions that are read later.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 

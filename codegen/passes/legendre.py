@@ -138,7 +138,7 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
-    # (A B)^{-1} = B^{-1} A^{-1}: undo the last map first.
+    # Because (A B)^{-1} = B^{-1} A^{-1}, the last map is inverted first.
     for assign in reversed(route.outward):
         value = _undone(build, assign, value)
         replaced[assign.args[-1]] = value

@@ -84,7 +84,7 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # A factor near 1 makes no progress: the branch of solutions probably ends before the whole
+        # With a factor near 1 there is no progress: the branch of solutions probably ends before the whole
         # step.
         going_on = both(
             negated(self.done),
@@ -105,7 +105,7 @@ class _Continuation:
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.failure),)),
-            # Only the whole step changes the state: shorter ones just provide initial guesses.
+            # Only the whole step changes the state: shorter steps only provide initial guesses.
             Assign(state, self.trial),
             # The earlier solutions belong to shorter steps; a polynomial through them would be wrong.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),

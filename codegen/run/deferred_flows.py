@@ -129,8 +129,8 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # A single step joins no flows, so its last flow has the duration without the first flow of a
-            # next step.
+            # A single step joins no flows, so the duration of its last flow does not include the first flow
+            # of a next step.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),

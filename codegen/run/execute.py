@@ -85,7 +85,8 @@ class Machine:
             # the time.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # No word is reserved: identifiers are keys of a dictionary here, not names of a language.
+        # No word is reserved, because the executor uses identifiers as keys of a dictionary and not as names
+        # of a language.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -378,7 +379,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # A domain has a single precision, so there is nothing to convert.
+            # All numbers of a domain have the same precision, so nothing is converted.
             case "wide" | "narrow":
                 return first
             case "given":

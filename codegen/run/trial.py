@@ -70,7 +70,7 @@ class Trials:
         signals = [lambda t: (0.0,) * number] if number else []
         # The step size is computed from exact rationals and rounded once, as in the usage example.
         h = float(longer * (last - first) / PARTS)
-        # No rows of a trajectory are stored: only the counts are read.
+        # No rows of a trajectory are stored, because only the counts are read.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
         # The record counts the matrices of all blocks together, so each block gets the mean.

@@ -446,7 +446,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 12])
 {
-    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -1305,7 +1305,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         + d_xi4_2 * w274;
     const double new_mu2 = w277 + d_xi3_0 * w278 + d_xi3_1 * w279 + d_xi4_0 * w280
         + d_xi4_1 * w281;
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

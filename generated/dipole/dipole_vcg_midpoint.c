@@ -320,7 +320,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -543,7 +543,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

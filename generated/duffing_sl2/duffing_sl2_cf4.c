@@ -214,7 +214,7 @@ int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *
         const double w26 = signed_stumpff1(w23);
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
-        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+        /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
         if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
             z0 = new_z0;
             z1 = new_z1;

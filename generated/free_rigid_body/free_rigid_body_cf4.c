@@ -227,7 +227,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
         const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
         const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
-        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+        /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

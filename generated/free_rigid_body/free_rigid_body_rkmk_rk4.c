@@ -217,7 +217,7 @@ int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
         const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
         const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
         const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
-        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+        /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

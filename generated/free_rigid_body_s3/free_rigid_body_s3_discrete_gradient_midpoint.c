@@ -362,7 +362,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -1037,7 +1037,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;

@@ -473,7 +473,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 6])
 {
-    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -838,7 +838,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))

@@ -297,7 +297,7 @@ class _Body:
 
 def _entry(term: Term) -> int | None:
     """Return the constant index of an entry of a list of scalars; None for any other term."""
-    # A variable index is unknown here, so the neighbours of such an entry are unknown, too.
+    # A variable index has no value at compile time, so the neighbours of such an entry are unknown.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)
