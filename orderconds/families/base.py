@@ -210,6 +210,10 @@ class Family(ABC):
         """Raise :class:`~orderconds.errors.InputError` for a method that is not a member of the family."""
         return
 
+    def converted(self, convert: Callable[[Element], Element]) -> Family:
+        """Return the family with its own coefficients converted; most families have none."""
+        return self
+
     def for_method(self, method: Method) -> Family:
         """Return the family in which a file without claims is checked, if its format has the name of this
         family."""
