@@ -126,7 +126,7 @@ def test_a_method_of_rounded_coefficients_is_not_said_to_be_symplectic() -> None
         ("rk4", None, 0, False, "order 0"),
         ("rk4", "vcg", 3, False, "neither a B-series nor a Lie-Butcher series"),
         ("rk4", "cf4", 3, False, "unknown family"),
-        ("strang", None, 3, False, "expected one that family rk or cf reads"),
+        ("strang", None, 3, False, "expected a tableau that is a method of family rk or cf"),
         ("cf4", "cf", 3, True, "expected a B-series"),
     ],
 )
