@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import islice
@@ -67,15 +67,33 @@ that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``.""
 class _Step:
     """One step of the reference: the new state, and the solutions of the blocks.
 
-    ``tiny`` says that the step is one of :data:`TINY_STEPS`, whose results are compared relative to the
-    change of the state.
+    ``moved`` says that the step begins beside the initial state, ``tiny`` that it is one of
+    :data:`TINY_STEPS`, whose results are compared relative to the change of the state.
     """
 
     domain: Domain
     inputs: dict[str, Value]
     after: dict[str, Value]
     solutions: dict[Var, Value]
+    moved: bool
     tiny: bool = False
+
+
+class _Bounded(PreciseDomain):
+    """Many digits, but no number without a correct digit: iterations that diverge end soon."""
+
+    def call(self, function: str, *args: Scalar) -> Scalar:
+        """Return the value of a function; OverflowError for an argument with few correct digits."""
+        if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
+            raise OverflowError(function)
+        return super().call(function, *args)
+
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
+        """Return as :class:`PreciseDomain`; NotConverged if the iteration diverges."""
+        done, change = super().settled(old, new, previous)
+        if not change < self.rational(10) ** self.digits:
+            raise NotConverged("a fixed-point iteration left the finite numbers")
+        return done, change
 
 
 class _Point:
@@ -105,7 +123,7 @@ class Reference:
     def __init__(self, program: Program, scene: Problem) -> None:
         self.scene, self.program = scene, program
         self.kinds = {v.name: v.kind for v in program.inputs}
-        points = [_Point(self._some(program, state)) for state in _states(scene)]
+        points = [_Point(self._some(program, moved)) for moved in (False, True)]
         self.points = [point for point in points if point.computed]
         if not self.points:
             raise SceneError(
@@ -115,8 +133,12 @@ class Reference:
                 hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
-    def _some(self, program: Program, state: dict[str, Value]) -> Iterator[_Step]:
-        """Yield results of the longest step and of shorter ones, in which more programs converge."""
+    def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
+        """Yield results of the longest step and of shorter ones, in which more programs converge.
+
+        The steps begin at the initial state, or at one moved from it.
+        """
+        state = _state(self.scene, FloatDomain(0.0), moved)
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
@@ -128,25 +150,22 @@ class Reference:
         for moderate in STEPS:
             # The step is a power of two: h^k then has no rounding error that could look like a difference.
             step = math.ldexp(moderate, -max(excess, 0))
-            if step <= last / APART and (result := self._step(program, FloatDomain(step), inputs)):
+            if step <= last / APART and (result := self._step(program, FloatDomain(step), inputs, moved)):
                 yield result
                 last = step
         for power in TINY_STEPS:
-            precise = self._precise(Fraction(1, 2 ** (power + max(excess, 0))), DIGITS, inputs)
-            if (result := self._step(program, *precise, tiny=True)) and self._is_short(result, power):
+            precise = self._precise(Fraction(1, 2 ** (power + max(excess, 0))), DIGITS, moved)
+            if (result := self._step(program, *precise, moved, tiny=True)) and self._is_short(result, power):
                 yield result
 
-    def _precise(self, h: Fraction, digits: int, inputs: dict[str, Value]) -> tuple[Domain, dict[str, Value]]:
-        """Return the domain of a step in many digits, and the same inputs in it."""
-        domain = PreciseDomain(h, digits)
-        convert = domain.context.mpf
-        return domain, {
-            name: convert(x) if self.kinds[name] is Kind.REAL else tuple(map(convert, x))
-            for name, x in inputs.items()
-        }
+    def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
+        """Return the domain of a step in many digits, and a state in it."""
+        domain = _Bounded(h, digits)
+        state = _state(self.scene, domain, moved)
+        return domain, {name: state[name] for name in self.kinds}
 
     def _step(
-        self, program: Program, domain: Domain, inputs: dict[str, Value], *, tiny: bool = False
+        self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step, or None if it cannot be computed."""
         # The interpreter fills this with the solutions of the blocks; compared programs start from them.
@@ -158,7 +177,7 @@ class Reference:
             return None
         # A sum near the greatest double overflows in another order.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
-        return _Step(domain, inputs, after, solutions, tiny) if finite else None
+        return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
         """Whether a tiny step changes the state little, as it does if h times each coefficient is small."""
@@ -215,12 +234,12 @@ class Reference:
         """
         if NOT_A_NUMBER in account:
             return account
-        domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.inputs)
+        domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
         try:
             results = [self._run(p, domain, inputs, MORE_SWEEPS, {}) for p in (self.program, program)]
         except FAILURES:
             return account
-        return self._gap(_Step(domain, inputs, results[0], {}), results[1])
+        return self._gap(_Step(domain, inputs, results[0], {}, step.moved), results[1])
 
     def _gap(self, step: _Step, after: dict[str, Value]) -> str:
         for name in self.kinds:
@@ -254,24 +273,28 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     return max(map(abs, map(float, values)))
 
 
-def _states(scene: Problem) -> Iterator[dict[str, Value]]:
-    """Yield the initial state, and a state moved from it by the group in fixed directions."""
-    domain = FloatDomain(0.0)
+def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
+    """Return the initial state, or a state moved from it by the group in fixed directions.
+
+    On a group it is as exact as the numbers of the domain.
+    """
     start = scene.initial(domain)
     # Sines of integers: no symmetry, no integer relation that a scene might share, and no random seed.
-    directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
+    directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
-    time = float(scene.span[0])
-    for moved in (False, True):
-        state: dict[str, Value] = {"t": time + moved / 8}
-        first = 0
-        for block in scene.state:
-            value = start[first : first + len(block.symbols)]
-            first += len(block.symbols)
-            # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
-            if moved and block.kind is Kind.DUAL:
-                value = tuple(a + b for a, b in zip(value, covector, strict=True))
-            elif moved:
-                value = tuple(scene.action.actexp(domain, scene.group, x, value))
-            state[block.name] = value
-        yield state
+    state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}
+    first = 0
+    for block in scene.state:
+        value = start[first : first + len(block.symbols)]
+        first += len(block.symbols)
+        # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
+        if moved and block.kind is Kind.DUAL:
+            value = tuple(a + b for a, b in zip(value, covector, strict=True))
+        elif moved:
+            value = tuple(scene.action.actexp(domain, scene.group, x, value))
+        state[block.name] = value
+    return state
+
+
+def _exactly(domain: Domain, x: float) -> Scalar:
+    return domain.rational(*x.as_integer_ratio())
