@@ -143,6 +143,14 @@ class Family(ABC):
         """Return the conditions of every tree or word of this order; by default the independent ones."""
         return self.conditions(order)
 
+    def dependence_holds(self, order: int) -> bool:
+        """Whether :meth:`conditions` imply all conditions of this order, verified without ranks modulo
+        primes.
+
+        By default this is a theorem about trees or words, and nothing is computed.
+        """
+        return True
+
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of this order and cost less than an independent set.
 

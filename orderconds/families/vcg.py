@@ -24,7 +24,7 @@ from orderconds.tableau.work import Work, crouch_grossman_work
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
@@ -60,7 +60,7 @@ class VariationalCrouchGrossman(ActionFamily):
         require_nonzero_weights(self.label(), ring, tableau.b)
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random full tableaux; with order - 1 stages the ranks are already maximal."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]

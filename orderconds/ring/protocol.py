@@ -7,7 +7,10 @@ Elements carry their own arithmetic: ``+ - *`` among themselves and with Python 
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    import numpy as np
 
 Element = Any
 """An element of some ring, or a second operand. Rings are duck-typed, so objects of flint, mpmath and NumPy
@@ -52,3 +55,10 @@ class RealRing(Ring, Protocol):
 
     def nearest_float(self, x: Element) -> float:
         """Return the double nearest to x."""
+
+
+class RandomRing(Ring, Protocol):
+    """A ring with random elements."""
+
+    def random(self, generator: np.random.Generator) -> Element:
+        """Return a random element."""
