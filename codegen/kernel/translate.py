@@ -352,7 +352,10 @@ def _outlined(
 
 
 def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> Block:
-    """Return the linear equations for the variations of a block's unknowns; extend ``seeds``."""
+    """Return the linear equations for the variations of a block's unknowns.
+
+    The symbols of these variations are added to ``seeds``.
+    """
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so the iteration can start from zero.

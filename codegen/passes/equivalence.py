@@ -19,7 +19,8 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first, because the effect of a wrong rewriting is largest there.
 
-Any falling powers of two serve. If the first step reaches too far along a fast field, all are shortened."""
+Any other decreasing powers of two are possible. If the first step moves too far along a fast field, all steps
+are shortened."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """Negative powers of two for steps in DIGITS decimal digits, where doubles overflow or do not converge.
@@ -35,9 +36,11 @@ FAILURES = (NotConverged, ArithmeticError, ValueError)
 """Errors of an interpretation; a root of a negative number raises ValueError."""
 
 SWEEPS = 24
-"""The most sweeps over a block: a step that needs more is too large to compare roundings.
+"""The largest number of sweeps over a block: a step that needs more is too long for a comparison up to
+rounding.
 
-A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24. Slower blocks take the next, shorter step."""
+A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower blocks the next, shorter step
+is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
 """Sweeps and digits of the step in which a difference of doubles is confirmed."""
@@ -48,7 +51,8 @@ NOT_A_NUMBER = "moved by nan"
 APART = 16
 """The smallest ratio between step sizes, after the first in which a program can be compared.
 
-Rewritten equations may need smaller steps to converge by iteration; one step in which they do is enough."""
+Rewritten equations may need smaller steps to converge by iteration; one step in which they converge is
+enough."""
 
 LARGEST = 2.0**512
 """Results above it are not compared: the steps are too long."""
@@ -104,7 +108,7 @@ class _Point:
         self.computed = list(islice(more, 1))
 
     def results(self) -> Iterator[_Step]:
-        """Yield the results, that of the longest step first."""
+        """Yield the results, first the result of the longest step."""
         yield from self.computed
         for result in self._more:
             self.computed.append(result)
@@ -127,14 +131,14 @@ class Reference:
         self.points = [point for point in points if point.computed]
         if not self.points:
             raise SceneError(
-                "no step can be computed from the initial state, nor from one nearby",
+                "no step can be computed from the initial state, nor from a state nearby",
                 where=scene.name,
                 expected="a field that is finite there, and stages that can be solved for small steps",
                 hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
-        """Yield results of the longest step and of shorter ones, in which more programs converge.
+        """Yield results of the longest step and of shorter steps, in which more programs converge.
 
         The steps begin at the initial state, or at one moved from it.
         """

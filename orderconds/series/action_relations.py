@@ -1,11 +1,11 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The value of a tree, for every method of the family and for the flow, is a combination of monomials of its
-degree in the values of independent trees. Trees with the same unrooted tree have the same value. For the
-other trees, the coefficients of the combination solve linear equations at random methods. These are solved
-modulo two primes, and the fractions are recovered from the residues. Three relations of order 4 hold for VCG
-but not for VCF. They follow from ``psi_{L(H|L)} = 3 psi_{L(HH)}
-- psi_{L(H)}^2``.
+The value of a tree with n vertices, for every method of the family and for the flow, is a linear combination
+of monomials of degree n in the values of independent trees. Trees with the same unrooted tree have the same
+value. For all other trees, values at random methods give linear equations for the coefficients. The equations
+are solved modulo two primes, and the rational coefficients are reconstructed from the residues. Three
+relations of order 4 hold for VCG but not for VCF. These three follow from the equation ``psi_{L(H|L)} = 3
+psi_{L(HH)} - psi_{L(H)}^2``.
 """
 
 from __future__ import annotations
@@ -30,15 +30,15 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial: a coefficient and the trees whose values are multiplied."""
+"""The terms of a polynomial. Each term is a coefficient and the trees whose values are multiplied."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return the polynomial that each dependent tree of the last order equals.
+    """Return each dependent tree of the last order, with the polynomial that is equal to its value.
 
-    ``independent`` are the independent trees of each order 1, 2, ..., by
-    :func:`orderconds.series.action_rank.independent_trees`. The result is exact, except with a probability of
-    about 10^-8 that every sample hides a difference. :func:`hold_over_rationals` verifies them over Q.
+    ``independent`` contains the independent trees of each order 1, 2, ..., from
+    :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
+    10^-8. :func:`hold_over_rationals` verifies them over Q.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -84,7 +84,7 @@ class _Drawn(Rationals):
 
 
 def hold_over_rationals(
-    series: Callable[[RandomRing, np.random.Generator], ActionSeries], found: Mapping[Velocity, Polynomial]
+    series: Callable[[RandomRing, np.random.Generator], ActionSeries], polynomials: Mapping[Velocity, Polynomial]
 ) -> bool:
     """Whether relations hold exactly at a random method over Q, and for the exact flow.
 
@@ -110,7 +110,7 @@ def hold_over_rationals(
         return ring.rational(exact.numerator, exact.denominator)
 
     for value in (cache(method.condition), cache(flow)):
-        for tree, polynomial in found.items():
+        for tree, polynomial in polynomials.items():
             total = ring.zero
             for q, trees in polynomial:
                 total += ring.rational(q.numerator, q.denominator) * prod(map(value, trees))
@@ -126,7 +126,7 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return each tree's coefficients modulo a prime, by the place of the monomial."""
+    """Return, for each tree, its coefficients modulo a prime. The keys are the indices of the monomials."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:
@@ -139,7 +139,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees with that many vertices in all, the fewest factors last."""
+    """Yield the multisets of trees with ``vertices`` vertices in total; multisets with the fewest factors
+    come last."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):
