@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
+from codegen.ir.precision import Precision
 from codegen.lower import lowering, names
 from codegen.method import Method
 from codegen.rounded_conditions import rounded_residual
-from codegen.run.precision import Precision
 from codegen.scene.problem import Problem
 from orderconds.tableau.uncertainty import uncertainty
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 from flint import arb
 
+from codegen.ir.precision import Precision
 from codegen.method import Method
-from codegen.run.precision import Precision
 from orderconds.ring.balls import Balls
 from orderconds.ring.decimals import endpoints
 from orderconds.ring.protocol import Element
@@ -31,7 +31,7 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
     Every coefficient is rounded once to the target's format; otherwise as :func:`largest_residual`.
 
     >>> from codegen.method import parse
-    >>> from codegen.run.precision import DOUBLE, SINGLE
+    >>> from codegen.ir.precision import DOUBLE, SINGLE
     >>> from orderconds.families import get
     >>> kutta = parse("rk:kutta3", ("rk",))
     >>> [f"{rounded_residual(kutta, get('rk'), 3, target):.1e}" for target in (DOUBLE, SINGLE)]

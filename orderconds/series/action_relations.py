@@ -84,7 +84,8 @@ class _Drawn(Rationals):
 
 
 def hold_over_rationals(
-    series: Callable[[RandomRing, np.random.Generator], ActionSeries], polynomials: Mapping[Velocity, Polynomial]
+    series: Callable[[RandomRing, np.random.Generator], ActionSeries],
+    polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
     """Whether relations hold exactly at a random method over Q, and for the exact flow.
 

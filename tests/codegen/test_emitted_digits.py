@@ -34,11 +34,11 @@ import codegen
 from codegen import scenes
 from codegen.certify import certified_order
 from codegen.ir.interpret import interpret
+from codegen.ir.precision import PRECISIONS, Precision
 from codegen.ir.values import Kind
 from codegen.lower import families_for, lower, lowering, problem_for
 from codegen.method import Method, parse
 from codegen.rounded_conditions import largest_residual
-from codegen.run.precision import PRECISIONS, Precision
 from codegen.scene.problem import Problem
 from orderconds import families
 from orderconds.ring import QQ
