@@ -6,8 +6,6 @@ from fractions import Fraction
 from itertools import islice
 from typing import TYPE_CHECKING
 
-from flint import arb
-
 from codegen.ir.precision import Precision
 from codegen.method import Method
 from orderconds.ring.balls import Balls
@@ -53,7 +51,7 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
     coefficients = family.read(tableau.over(RING))
     if coefficients is None:
         return None
-    largest = arb(0)
+    largest = Fraction(0)
     for n in range(1, order + 1):
         keys = tuple(islice(family.decisive_in_turn(n), MOST + 1))
         if len(keys) > MOST:
@@ -62,5 +60,10 @@ def largest_residual(tableau: Tableau, family: Family, order: int) -> float | No
             residuals = family.residuals(coefficients, RING, tuple(condition() for _, condition in keys))
         except ZeroDivisionError:
             return None
-        largest = max([largest, *(x.value.abs_upper() for x in residuals)])
-    return float(endpoints(largest)[1])
+        largest = max([largest, *(abs(_fraction(end)) for x in residuals for end in endpoints(x.value))])
+    # The division rounds to the nearest double.
+    return float(largest)
+
+
+def _fraction(x: Element) -> Fraction:
+    return Fraction(int(x.p), int(x.q))
