@@ -47,11 +47,13 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Also emit a run with step-size control; the embedded row of the tableau estimates the error.",
 )
-@click.option("--precision", default="double", help="double (the default) or single.")
+@click.option(
+    "--precision", default="double", help="Floating-point precision: double (the default) or single."
+)
 @click.option(
     "--solver",
     default="auto",
-    help="newton, simplified-newton, fixed-point or auto (the default: the cheapest).",
+    help="Solver of implicit stages: newton, simplified-newton, fixed-point, or auto (default): the cheapest.",
 )
 @click.option(
     "--explain",

@@ -222,8 +222,8 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If the run continues, the last flow of this step and the first flow of the next step are
-                # one flow, whose length is the sum of both.
+                # If the run continues, the last flow of this step and the first flow of the next step are one
+                # flow, whose duration is the sum of both durations.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

@@ -51,7 +51,7 @@ class Plan:
 
     @property
     def size(self) -> int:
-        """The number of numbers in a state."""
+        """The number of components of a state."""
         return len(self.symbols)
 
     @cached_property

@@ -123,8 +123,8 @@ class _Scopes:
             if name in {self.identifiers.variable(x) for x in reads(statement)}:
                 return False
             if isinstance(statement, Assign | Call):
-                # A call with several results writes through pointers, but each result is assigned all the
-                # same.
+                # A call with several results writes them through pointers; this counts as an assignment to
+                # each result.
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )

@@ -59,7 +59,9 @@ this large.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
-"""Four roundings, relative to the sum of the absolute values of the unknowns (see :meth:`Stopping.sums`)."""
+"""The stopping bound of loops over residuals: four roundings of the sum of the absolute values of the
+unknowns (see :meth:`Stopping.sums`).
+"""
 
 CHANGE, SCALE = real("change"), real("scale")
 

@@ -120,13 +120,14 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step; run-time inputs are constant over it."""
     state = plan.state()
-    # A single step has no use for a function of time, because its caller may change the inputs between
-    # steps.
+    # A single step needs values of the inputs and no function of time, because its caller may change the
+    # values between steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # The public step calls a run of one step here, because a second copy of the kernel would add code.
+        # If the kernel is inlined in the run, the step calls a run of one step, because a second copy of the
+        # kernel would add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)

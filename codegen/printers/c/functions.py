@@ -359,8 +359,8 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "sample":
-            # A signal is printed as two arguments, function and context. Sampling calls the first with the
-            # second.
+            # A signal is printed as two arguments, function and context. Sampling calls the function with the
+            # context.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")

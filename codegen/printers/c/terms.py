@@ -133,13 +133,16 @@ class Terms(Infix):
         # A cell is a pointer to one value, so its entry is that value.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
-        if base.shape[0] == 0 and len(base.shape) > 1:  # rows that a caller gives lie one after the other
+        if (
+            base.shape[0] == 0 and len(base.shape) > 1
+        ):  # the caller passes all rows in one array, one after the other
             if _is_zero(term.args[1]):
                 return self.text(base)
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
-            # The rows of a caller lie one after the other in one array, so row and column become one index.
+            # The caller passes all rows in one array, one after the other, so row and column become one
+            # index.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
