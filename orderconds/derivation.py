@@ -9,6 +9,9 @@ from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 
+MAX_CONDITIONS = 2_000
+"""Beyond an order with more conditions than this none is derived: the next has several times as many."""
+
 
 @dataclass(frozen=True)
 class Derivation:
@@ -50,7 +53,8 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
     in ``"rkmk(1)"``.
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
-    :class:`~orderconds.errors.InputError` for an order below 1, or beyond the highest that the family has.
+    :class:`~orderconds.errors.InputError` for an order below 1, beyond the highest that the family has, or
+    beyond an order with more than :data:`MAX_CONDITIONS` conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts
@@ -62,5 +66,14 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
     conditions = chosen.all_conditions if every else chosen.essential_conditions
-    by_order = tuple(conditions(n) for n in range(1, order + 1))
-    return Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))
+    by_order: list[tuple[OrderCondition, ...]] = []
+    for n in range(1, order + 1):
+        by_order.append(tuple(conditions(n)))
+        if n < order and len(by_order[-1]) > MAX_CONDITIONS:
+            raise InputError(
+                f"{len(by_order[-1])} conditions at order {n}, and more at each further order",
+                where=f"derive {family}",
+                expected=f"at most {MAX_CONDITIONS} at every order but the highest",
+                hint=f"lower --order to {n}",
+            )
+    return Derivation(chosen.label(), order, tuple(by_order), "" if every else chosen.remark(order))

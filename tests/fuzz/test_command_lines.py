@@ -1,0 +1,120 @@
+"""Mutated command lines: each ends with a documented status, in bounded time and memory, and writes whole files."""
+
+from __future__ import annotations
+
+import ast
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tomllib
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+import click
+import pytest
+
+from codegen.artifact import MANIFEST, entries_of, read
+from orderconds.errors import InputError
+from orderconds.exchange import FORMATS, read_data
+from orderconds.exit_status import INTERRUPTED
+from orderconds.output_file import is_temporary
+from tests.fuzz.drawn_lines import commands, drawn, fill
+from tests.fuzz.fork_server import ERR, MEGABYTES, OUT, Ending, run, running
+from tests.fuzz.mutated_files import library
+
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="forks")
+
+AS_LONG_AS_ASKED = {"bench", "converge", "longrun", "report", "solve", "stability"}
+"""Commands whose user chooses the time; they must end when they are interrupted."""
+
+
+@pytest.fixture(scope="module")
+def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[subprocess.Popen[str]]:
+    with running(tmp_path_factory.mktemp("cache")) as process:
+        yield process
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Return every regular file of a folder that is no capture of a stream."""
+    found = (p for p in folder.rglob("*") if p.is_file() and p.name not in (OUT, ERR, "interrupted"))
+    return {str(path.relative_to(folder)): path.read_bytes() for path in found}
+
+
+def check_ending(words: list[str], ending: Ending) -> None:
+    """Assert a documented status within the bounds."""
+    assert ending.megabytes <= MEGABYTES
+    assert not ending.left_processes
+    if ending.interrupted:
+        assert AS_LONG_AS_ASKED & set(words), "longer than 20 s"
+        assert ending.status in (0, 1, 2, INTERRUPTED), "an interrupt does not end it"
+    else:
+        assert ending.status in (0, 1, 2)
+
+
+def check_output(words: list[str], ending: Ending, out: bytes, err: str) -> None:
+    """Assert one message or one document."""
+    assert "Traceback" not in err
+    assert "Traceback" not in out.decode(errors="replace")
+    before = words[: words.index("--")] if "--" in words else words
+    help_asked = {"-h", "--help", "--version"} & set(words)
+    if "--json" in before and not help_asked:
+        json.loads(out)
+    if ending.status == 2 and "--json" not in before:
+        assert err.strip()
+
+
+def is_whole(content: bytes) -> bool:
+    """Whether a written file is complete in one of the formats that commands write."""
+    if content.endswith((b"</svg>\n", b"</html>\n")):
+        return True
+    for read_back in (tomllib.loads, json.loads, ast.parse):
+        with suppress(ValueError, SyntaxError):
+            return bool(read_back(content.decode()))
+    for of in FORMATS:
+        with suppress(InputError):
+            return bool(read_data(content, of, "written"))
+    return False
+
+
+def check_files(ending: Ending, before: dict[str, bytes], folder: Path) -> None:
+    """Assert that no file is half written, and that a refused line writes none."""
+    after = contents(folder)
+    assert not [name for name in after if is_temporary(Path(name).name)]
+    changed = {name for name in after if after[name] != before.get(name)}
+    lost = set(before) - set(after)
+    assert not lost
+    listed: set[str] = set()
+    for name in after:
+        if Path(name).name == MANIFEST:
+            place = (folder / name).parent
+            for entry in entries_of(place):
+                files = read(place, entry["module"], entry["target"]).files  # compares the digests
+                listed |= {str((place / file).relative_to(folder)) for file in files}
+    assert all(is_whole(after[name]) for name in changed - listed)
+    if ending.status == 2:
+        assert changed == set()
+
+
+def examine(server: subprocess.Popen[str], seed: int, place: Path) -> tuple[list[str], Ending]:
+    """Run the line of one seed."""
+    words = drawn(seed)
+    folder = place / f"line{seed}"
+    folder.mkdir()
+    fill(folder, seed)
+    before = contents(folder)
+    ending = run(server, words, folder)
+    out = (folder / OUT).read_bytes() if (folder / OUT).exists() else b""
+    err = (folder / ERR).read_text(errors="replace") if (folder / ERR).exists() else ""
+    try:
+        check_ending(words, ending)
+        check_output(words, ending, out, err)
+        check_files(ending, before, folder)
+    except Exception as problem:
+        shown = f"seed {seed}: {words!r}\n{ending}\n{out[:500]!r}\n{err[-1500:]}"
+        raise AssertionError(f"{shown}\n{type(problem).__name__}: {problem}") from problem
+    shutil.rmtree(folder)
+    return words, ending
