@@ -8,9 +8,10 @@ from itertools import chain
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
+from orderconds.families import Family
 
-MAX_CONDITIONS = 2_000
-"""Beyond an order with more conditions than this none is derived: the next has several times as many."""
+MAX_TREES = 7_000
+"""No order with more trees than this is derived; their number grows exponentially with the order."""
 
 
 @dataclass(frozen=True)
@@ -53,8 +54,8 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
     in ``"rkmk(1)"``.
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
-    :class:`~orderconds.errors.InputError` for an order below 1, beyond the highest that the family has, or
-    beyond an order with more than :data:`MAX_CONDITIONS` conditions.
+    :class:`~orderconds.errors.InputError` for an order below 1, beyond the highest that the family has,
+    or with too many trees.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts
@@ -66,14 +67,24 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
     conditions = chosen.all_conditions if every else chosen.essential_conditions
-    by_order: list[tuple[OrderCondition, ...]] = []
+    _refuse_too_many(chosen, min(order, chosen.order_bound or order))
+    by_order = tuple(conditions(n) for n in range(1, order + 1))
+    return Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))
+
+
+def _refuse_too_many(family: Family, order: int) -> None:
+    """Raise an InputError if there are too many trees up to an order."""
+    from orderconds.explain import kinds
+
+    if family.trees is None:
+        return
+    kind = kinds.get(family.trees)
     for n in range(1, order + 1):
-        by_order.append(tuple(conditions(n)))
-        if n < order and len(by_order[-1]) > MAX_CONDITIONS:
+        trees = kind.count(n)
+        if trees > MAX_TREES:
             raise InputError(
-                f"{len(by_order[-1])} conditions at order {n}, and more at each further order",
-                where=f"derive {family}",
-                expected=f"at most {MAX_CONDITIONS} at every order but the highest",
-                hint=f"lower --order to {n}",
+                f"{trees} trees of order {n}, and more at each further order",
+                where=f"derive {family.label()}",
+                expected=f"at most {MAX_TREES}",
+                hint=f"lower --order to {n - 1}",
             )
-    return Derivation(chosen.label(), order, tuple(by_order), "" if every else chosen.remark(order))

@@ -1,4 +1,4 @@
-"""Command lines drawn by seeds, over every command and option of the program, and the files that they name."""
+"""Command lines drawn by seeds, over every command and option of the program, and the files they name."""
 
 from __future__ import annotations
 
@@ -101,7 +101,17 @@ FILES = (
     "n" * 300,
 )
 
-PLACES = ("out", "out.toml", "out.json", "folder/out.npz", "folder", ".", "missing/out", "good.toml", "link.toml")
+PLACES = (
+    "out",
+    "out.toml",
+    "out.json",
+    "folder/out.npz",
+    "folder",
+    ".",
+    "missing/out",
+    "good.toml",
+    "link.toml",
+)
 PLACES += ("pipe.toml", "loop.toml", "empty.toml/out", os.devnull, "/dev/full", "n" * 300, "out\n", "é\u202e")
 
 OFTEN = {"output": 0.6, "as_json": 0.3, "explain": 0.3, "explicit": 0.1, "targets": 0.4}
@@ -111,7 +121,17 @@ TARGETS = ("c", "python", "interpreter")
 KINDS = {
     "construct": ("gauss", "radau1a", "radau2a", "lobatto3a", "lobatto3b", "lobatto3c", "lobatto3d"),
     "list": ("families", "tableaux", "groups", "scenes", "actions", "measurements"),
-    "trees": ("rooted", "ordered", "forests", "lyndon", "bicoloured", "free", "essential", "directed", "action"),
+    "trees": (
+        "rooted",
+        "ordered",
+        "forests",
+        "lyndon",
+        "bicoloured",
+        "free",
+        "essential",
+        "directed",
+        "action",
+    ),
 }
 KINDS["trees"] += ("directed-rooted", "alternating", "graded", "letters")
 SERIES = ("bch", "symmetric-bch", "magnus", "dexp", "dexpinv")
@@ -137,7 +157,14 @@ NAMED = {
 """Values by the name of a parameter."""
 
 WEIGHTS = {"check": 6, "convert": 6, "derive": 4, "refine": 3, "emit": 4, "modified": 3, "solve": 3}
-WEIGHTS |= {"report": 0.15, "bench": 0.15, "longrun": 0.3, "stability": 0.15, "converge": 0.4, "localerror": 0.5}
+WEIGHTS |= {
+    "report": 0.15,
+    "bench": 0.15,
+    "longrun": 0.3,
+    "stability": 0.15,
+    "converge": 0.4,
+    "localerror": 0.5,
+}
 """How often a command is drawn; those that measure take seconds."""
 
 
@@ -156,7 +183,16 @@ def proved() -> tuple[str, ...]:
 
 @cache
 def methods() -> tuple[str, ...]:
-    ready = ("cf4", "rk4", "cg:cg3", "rkmk(2):rk4", "vcg:midpoint", "ambient:rk4", "ambient:dop853", "vcg:gauss2")
+    ready = (
+        "cf4",
+        "rk4",
+        "cg:cg3",
+        "rkmk(2):rk4",
+        "vcg:midpoint",
+        "ambient:rk4",
+        "ambient:dop853",
+        "vcg:gauss2",
+    )
     return (*ready, *ready, "vcg:", ":rk4", "rkmk(:", "cg:good.toml", "good.csv", "cg:missing.toml", "rk:rk4")
 
 
@@ -194,7 +230,15 @@ def text(command: str, name: str, generator: Random) -> str:
     if command == "refine" and generator.random() < 0.5:
         return "proved.toml"
     if name in ("scene", "scenes"):
-        known = [*scene_names(), *scene_names(), "scene.py", "raising.py", "syntax.py", "dipole+u", "duffing+u"]
+        known = [
+            *scene_names(),
+            *scene_names(),
+            "scene.py",
+            "raising.py",
+            "syntax.py",
+            "dipole+u",
+            "duffing+u",
+        ]
         return generator.choice(known)
     if name in ("methods", "method", "adaptive"):
         named = f"{generator.choice(families.names())}:{generator.choice(available())}"
@@ -218,7 +262,9 @@ def sound(command: str, generator: Random) -> list[str]:
         for _ in range(generator.choice((1, 2)) if parameter.multiple else 1):
             if generator.random() < often:
                 spelling = generator.choice((*parameter.opts, *parameter.secondary_opts))
-                options.append([spelling] if parameter.is_flag else [spelling, value(command, parameter, generator)])
+                options.append(
+                    [spelling] if parameter.is_flag else [spelling, value(command, parameter, generator)]
+                )
     generator.shuffle(options)
     words = [word for option in options for word in option]
     return [command, *arguments, *words] if generator.random() < 0.8 else [command, *words, *arguments]

@@ -2,7 +2,7 @@
 
 Reads one request a line from stdin, ``{"words": [...], "folder": "..."}``, and answers each with one line,
 the fields of :class:`Ending`. A fork works in the folder and writes its output there. It is the real program:
-its own limits, signals, and the interpreter's end.
+its own limits and signals.
 """
 
 from __future__ import annotations
@@ -80,8 +80,8 @@ def import_everything() -> None:
         for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
             if not module.name.endswith("__main__") and ".scenes." not in module.name:
                 importlib.import_module(module.name)
-    import numpy.linalg
-    import sympy.parsing  # noqa: F401
+    for name in ("numpy.linalg", "sympy.parsing"):
+        importlib.import_module(name)
 
 
 def become(words: list[str], folder: str) -> None:
@@ -149,6 +149,7 @@ def serve() -> bool:
 
 
 if __name__ == "__main__":
+    import atexit
     import gc
 
     from orderconds.cli import main
@@ -156,4 +157,14 @@ if __name__ == "__main__":
     import_everything()
     gc.freeze()
     if serve():
-        main()
+        status = 0
+        try:
+            main()
+        except SystemExit as end:
+            status = int(end.code or 0)
+        finally:
+            atexit._run_exitfuncs()
+            for stream in (sys.stdout, sys.stderr):
+                with suppress(OSError):
+                    stream.flush()
+        os._exit(status)  # tearing down the modules would take longer than most lines

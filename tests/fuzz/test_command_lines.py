@@ -1,4 +1,4 @@
-"""Mutated command lines: each ends with a documented status, in bounded time and memory, and writes whole files."""
+"""Mutated command lines end with documented statuses, in bounded time and memory, and write whole files."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ import ast
 import json
 import os
 import shutil
-import signal
 import subprocess
 import tomllib
-from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -24,12 +22,13 @@ from orderconds.exit_status import INTERRUPTED
 from orderconds.output_file import is_temporary
 from tests.fuzz.drawn_lines import commands, drawn, fill
 from tests.fuzz.fork_server import ERR, MEGABYTES, OUT, Ending, run, running
-from tests.fuzz.mutated_files import library
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="forks")
 
-AS_LONG_AS_ASKED = {"bench", "converge", "longrun", "report", "solve", "stability"}
-"""Commands whose user chooses the time; they must end when they are interrupted."""
+MEASURING = {"bench", "converge", "longrun", "report", "solve", "stability"}
+EXPANDING = {"derive", "modified", "series"}
+AS_LONG_AS_ASKED = MEASURING | EXPANDING
+"""Commands that work as long as their options ask, as --order or --steps; they end when interrupted."""
 
 
 @pytest.fixture(scope="module")
@@ -118,3 +117,32 @@ def examine(server: subprocess.Popen[str], seed: int, place: Path) -> tuple[list
         raise AssertionError(f"{shown}\n{type(problem).__name__}: {problem}") from problem
     shutil.rmtree(folder)
     return words, ending
+
+
+def drawn_options(lines: list[list[str]]) -> set[tuple[str, str]]:
+    """Return the options of the lines, each with its command."""
+    return {(words[0], word) for words in lines if words for word in words[1:]}
+
+
+def test_lines_are_drawn_over_every_command_and_option() -> None:
+    found = drawn_options([drawn(seed) for seed in range(4000)])
+    for name, command in commands().items():
+        for parameter in command.params:
+            if isinstance(parameter, click.Option):
+                assert any((name, word) in found for word in parameter.opts), (name, parameter.name)
+
+
+def test_mutated_command_lines_end_with_a_documented_status(
+    server: subprocess.Popen[str], tmp_path: Path
+) -> None:
+    endings = [examine(server, seed, tmp_path)[1] for seed in range(60)]
+    assert {ending.status for ending in endings} >= {0, 2}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("block", range(20))
+def test_many_mutated_command_lines_end_with_a_documented_status(
+    server: subprocess.Popen[str], tmp_path: Path, block: int
+) -> None:
+    for seed in range(10_000 + 250 * block, 10_250 + 250 * block):
+        examine(server, seed, tmp_path)
