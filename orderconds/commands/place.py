@@ -43,8 +43,10 @@ def put(path: str, content: bytes) -> None:
     >>> import os
     >>> put(os.devnull, b"gone")
     """
-    target = Path(path).resolve()  # write to the target of a link, and keep the link
     try:
+        target = Path(os.path.realpath(path))  # write to the target of a link, and keep the link
+        if target.is_symlink():
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
         if target.exists() and not target.is_file():
             _write_directly(target, content)
             return

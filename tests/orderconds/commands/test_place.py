@@ -60,7 +60,9 @@ def test_a_full_disk_leaves_the_file_as_it_was(tmp_path: Path, monkeypatch: pyte
 
 
 @pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
-def test_a_pipe_without_a_reader_is_refused_and_one_with_a_slow_reader_gets_everything(tmp_path: Path) -> None:
+def test_a_pipe_without_a_reader_is_refused_and_one_with_a_slow_reader_gets_everything(
+    tmp_path: Path,
+) -> None:
     pipe, content = tmp_path / "pipe", b"text" * 50_000  # more than a pipe holds
     os.mkfifo(pipe)
     with pytest.raises(InputError, match="pipe: no process reads this pipe; expected a file"):
@@ -78,3 +80,11 @@ def test_a_pipe_without_a_reader_is_refused_and_one_with_a_slow_reader_gets_ever
     put(str(pipe), content)
     slow.join()
     assert found == [content]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of POSIX")
+def test_a_link_to_itself_is_bad_input(tmp_path: Path) -> None:
+    loop = tmp_path / "loop"
+    loop.symlink_to("loop")
+    with pytest.raises(InputError, match="loop: too many levels of symbolic links; expected a file"):
+        put(str(loop), b"")
