@@ -156,14 +156,14 @@ NAMED = {
 }
 """Values by the name of a parameter."""
 
-WEIGHTS = {"check": 6, "convert": 6, "derive": 4, "refine": 3, "emit": 4, "modified": 3, "solve": 3}
+WEIGHTS = {"check": 6, "convert": 6, "derive": 4, "refine": 3, "emit": 2, "modified": 3, "solve": 3}
 WEIGHTS |= {
-    "report": 0.15,
-    "bench": 0.15,
-    "longrun": 0.3,
-    "stability": 0.15,
-    "converge": 0.4,
-    "localerror": 0.5,
+    "report": 0.05,
+    "bench": 0.05,
+    "stability": 0.05,
+    "longrun": 0.1,
+    "converge": 0.2,
+    "localerror": 0.3,
 }
 """How often a command is drawn; those that measure take seconds."""
 
