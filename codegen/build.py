@@ -14,6 +14,8 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -115,6 +117,15 @@ def build(
                 ) from None
             directory, lasting = temporary_directory(f"{directory}: {reason(error)}"), False
     return directory / file
+
+
+def compile_seconds(files: Mapping[str, str]) -> float:
+    """Compile the files of a module without the cache, and return the wall time in seconds."""
+    with tempfile.TemporaryDirectory() as folder:
+        start = time.perf_counter()
+        flags = (*FLAGS, "-fPIC", "-shared")
+        compile_files(files, Path(folder), Path(folder) / "out", flags, find_compiler())
+        return time.perf_counter() - start
 
 
 def compile_files(

@@ -28,7 +28,8 @@ from codegen.kernel.variations import Variations
 from codegen.lower import families_for, lower, lower_composed, problem_for
 from codegen.method import Method, parse
 from codegen.passes import Optimiser, PassReport, optimise, summaries
-from codegen.printers import target as printer_of
+from codegen.printers import DEFAULT
+from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.precision import DOUBLE
@@ -152,7 +153,7 @@ def work(kernel: Kernel) -> int:
 def emit(
     scene: Problem | str,
     method: Method | str,
-    target: str = "c",
+    target: str = DEFAULT,
     *,
     prefix: str = "",
     parameters: Sequence[str] = (),
@@ -173,7 +174,7 @@ def emit(
     ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. Errors: those of
     :func:`compile_method`, UnknownName for a target, InputError for a prefix that is no name in C.
     """
-    printer_of(target)
+    known_target(target)
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
@@ -278,7 +279,7 @@ def emit_kernel(
     The prefix starts every external C name and names the files. UnknownName for an unknown target.
     """
     interface = Interface.of(kernel, prefix, precision)
-    files = printer_of(target)(kernel, interface, recipe)
+    files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {
         **(about or {}),
         "module": interface.module,

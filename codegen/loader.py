@@ -1,6 +1,6 @@
 """Emitted modules as Python objects with one interface: compiled C through cffi (ABI mode), or Python.
 
-:data:`LOADERS` has a line for each target.
+A target names the function that loads its modules (:attr:`codegen.printers.Target.loader`).
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from typing import Any
 
 from codegen.artifact import Artifact, read
 from codegen.build import build
+from codegen.printers import target as known_target
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
 from orderconds.errors import InputError
@@ -438,13 +439,13 @@ def load(source: Artifact | str | Path, module: str = "", target: str = "") -> I
         raise InputError(
             f"the manifest's entry for {artifact.key[0]} is not as emit wrote it", hint="emit it again"
         ) from None
-    target = artifact.manifest["target"]
-    if target not in LOADERS:
-        raise InputError(f"unknown target {target}", expected=" or ".join(sorted(LOADERS)))
-    return LOADERS[target](interface, defaults, artifact.files)
+    return known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
 
 
-def _compiled(interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]) -> Integrator:
+def load_compiled(
+    interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
+) -> Integrator:
+    """Return the integrator of a C module; the module is compiled unless the cache contains it."""
     try:
         return CompiledIntegrator(interface, defaults, build(files))
     except (OSError, AttributeError):
@@ -452,11 +453,8 @@ def _compiled(interface: Interface, defaults: Mapping[str, float], files: Mappin
         return CompiledIntegrator(interface, defaults, build(files, again=True))
 
 
-def _interpreted(interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]) -> Integrator:
+def load_interpreted(
+    interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
+) -> Integrator:
+    """Return the integrator of a Python module."""
     return InterpretedIntegrator(interface, defaults, files[f"{interface.module}.py"])
-
-
-Loader = Callable[[Interface, Mapping[str, float], Mapping[str, str]], Integrator]
-
-LOADERS: dict[str, Loader] = {"c": _compiled, "python": _interpreted}
-"""Target name -> function that loads the files of a module as an integrator."""

@@ -19,7 +19,13 @@ if TYPE_CHECKING:
 @click.argument("scene")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
 @click.option("--adaptive", multiple=True, help="Methods to run with step-size control, over tolerances.")
-@click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
+@click.option(
+    "--target",
+    "-t",
+    "targets",
+    multiple=True,
+    help="A target (orderconds list targets), by default c; may be repeated.",
+)
 @click.option("--against", "-a", "peers", multiple=True, help="Peers by name, or the groups scipy, c, all.")
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
 @click.option(
@@ -45,11 +51,12 @@ def command(
     the reason. The exit status is 1 if a method or peer has no successful run.
     """
     from codegen.lab.efficiency.bench import bench
+    from codegen.printers import DEFAULT
 
     if not 0 < budget < 1e5:
         raise InputError(f"the budget {budget:g}", where="--budget", expected="CPU seconds above 0")
     with working("reading scene and methods") as progress:
-        candidates = bench(scene, methods, targets or ("c",), peers, budget, output, progress, adaptive)
+        candidates = bench(scene, methods, targets or (DEFAULT,), peers, budget, output, progress, adaptive)
     with counting(f"{candidates.scene.name}: first runs") as done:
         result = candidates.run(lambda row: done(f"{row.method} ({row.target})"))
     if as_json:

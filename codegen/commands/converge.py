@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
-@click.option("--target", help="c (the default), python or interpreter.")
+@click.option("--target", help="A target (orderconds list targets), or interpreter; by default c.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
@@ -50,7 +50,7 @@ def command(
     results = (
         _by_protocol(methods, stated, as_json)
         if scene is None
-        else _on_scene(scene, methods, target or "c", steps, digits or 16, stated, as_json)
+        else _on_scene(scene, methods, target, steps, digits or 16, stated, as_json)
     )
     if as_json:
         print_json([result.as_json() for result in results])
@@ -60,7 +60,7 @@ def command(
 def _on_scene(
     scene: str,
     methods: tuple[str, ...],
-    target: str,
+    target: str | None,
     steps: tuple[str, ...],
     digits: int,
     stated: int | None,
@@ -72,6 +72,7 @@ def _on_scene(
     from codegen.lab.runner import runner
     from codegen.lower import families_for
     from codegen.method import parse
+    from codegen.printers import DEFAULT
     from codegen.scenes import load
 
     prescribed = read_steps(steps)
@@ -81,7 +82,9 @@ def _on_scene(
         held = None if stated is None else CertifiedOrder(stated, "stated")
         pairs = [(method, held or certified_order(method, problem)) for method in chosen]
         progress("compiling")
-        runners = [(runner(problem, method, target, digits, order), order) for method, order in pairs]
+        runners = [
+            (runner(problem, method, target or DEFAULT, digits, order), order) for method, order in pairs
+        ]
         progress("reference solution")
         exact = cached_reference(problem)
     results: list[Convergence] = []

@@ -18,7 +18,13 @@ if TYPE_CHECKING:
 @click.option(
     "--method", "-m", required=True, help="TABLEAU or FAMILY:TABLEAU, as cf4, vcg:triple_jump, 'rkmk(2):rk4'."
 )
-@click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
+@click.option(
+    "--target",
+    "-t",
+    "targets",
+    multiple=True,
+    help="A target (orderconds list targets), by default c; may be repeated.",
+)
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
 @click.option("--prefix", default="", help="Prefix of every external name; by default scene and method.")
 @click.option(
@@ -67,6 +73,7 @@ def command(
     Without -o nothing is written; --explain or --json then describe the module.
     """
     from codegen.emitter import bare, compile_method, emit_compiled
+    from codegen.printers import DEFAULT
     from codegen.printers import target as known_target
     from codegen.run.precision import precision as known_precision
 
@@ -82,7 +89,7 @@ def command(
     records: list[dict[str, object]] = []
     if explain and not as_json:
         click.echo(explanation(compiled))
-    for name in targets or ("c",):
+    for name in targets or (DEFAULT,):
         artifact = emit_compiled(compiled, name, prefix, named, precision=precision)
         paths = [str(path) for path in artifact.write(output)] if output is not None else []
         records.append({**artifact.manifest, "paths": paths})
