@@ -68,13 +68,16 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
     conditions = chosen.all_conditions if every else chosen.essential_conditions
-    _refuse_too_many(chosen, min(order, chosen.order_bound or order))
+    refuse_too_many_trees(chosen, min(order, chosen.order_bound or order))
     by_order = tuple(conditions(n) for n in range(1, order + 1))
     return Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))
 
 
-def _refuse_too_many(family: Family, order: int) -> None:
-    """Raise an InputError if there are too many trees up to an order."""
+def refuse_too_many_trees(family: Family, order: int) -> None:
+    """Raise an InputError if an order up to ``order`` has more than :data:`MAX_TREES` trees.
+
+    >>> refuse_too_many_trees(families.get("rk"), 12)
+    """
     from orderconds.explain import kinds
 
     if family.trees is None:
@@ -85,7 +88,7 @@ def _refuse_too_many(family: Family, order: int) -> None:
         if trees > MAX_TREES:
             raise InputError(
                 f"{trees} trees of order {n}, and more at each further order",
-                where=f"derive {family.label()}",
+                where=family.label(),
                 expected=f"at most {MAX_TREES}",
                 hint=f"lower --order to {n - 1}",
             )

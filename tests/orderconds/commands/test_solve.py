@@ -113,6 +113,7 @@ def test_nothing_found_says_what_was_tried() -> None:
         ("vcf --stages 2 --order 4 --explicit --symmetric", "--explicit with --symmetric"),
         ("rk --stages 2 --order 2 -o nowhere/found.toml", "no such folder"),
         ("rk --stages 2 --order 2 --fix a21=sqrt(2)", "not linear"),
+        ("vcg --stages 4 --order 12", "vcg: 51677 trees of order 7, and more at each further order"),
     ],
 )
 def test_bad_input_is_one_message(args: str, said: str) -> None:
