@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
-@click.option("--target", help="A target (orderconds list targets), or interpreter; by default c.")
+@click.option("--target", help="A target (see orderconds list targets) or interpreter; by default c.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     type=click.Choice(["strict"]),
     help="strict: compare orders on built-in scenes, in 50 digits, with the claims; give no SCENE.",
 )
-@click.option("--stated", type=click.IntRange(1, 20), help="The order to compare with.")
+@click.option(
+    "--stated", type=click.IntRange(1, 20), help="The order that the observed order is compared with."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str | None,
@@ -39,7 +41,8 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    The exit status is 0 if every observed order is the stated one, 1 if some order differs or is undecided.
+    The exit status is 0 if every observed order equals the stated order, 1 if an order differs or is
+    undecided.
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
@@ -112,7 +115,7 @@ def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) ->
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
-    """Return the numbers of steps in comma lists, sorted; :class:`InputError` for anything else.
+    """Return the numbers of steps in comma lists, sorted; raise :class:`InputError` for any other text.
 
     >>> read_steps(("40,20", "80"))
     [20, 40, 80]

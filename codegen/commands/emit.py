@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 @click.command(name="emit", short_help="Write a specialised integrator for a scene.")
 @click.argument("scene", metavar="SCENE")
 @click.option(
-    "--method", "-m", required=True, help="TABLEAU or FAMILY:TABLEAU, as cf4, vcg:triple_jump, 'rkmk(2):rk4'."
+    "--method",
+    "-m",
+    required=True,
+    help="TABLEAU or FAMILY:TABLEAU, such as cf4, vcg:triple_jump, 'rkmk(2):rk4'.",
 )
 @click.option(
     "--target",
@@ -32,7 +35,7 @@ if TYPE_CHECKING:
     "-p",
     "parameters",
     multiple=True,
-    help="NAME: keep a parameter as a run-time argument; NAME=VALUE: fold a value.",
+    help="NAME: keep a parameter as a run-time argument; NAME=VALUE: make it a constant.",
 )
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
@@ -49,7 +52,9 @@ if TYPE_CHECKING:
     help="newton, simplified-newton, fixed-point or auto (the default: the cheapest).",
 )
 @click.option(
-    "--explain", is_flag=True, help="Print the program after each pass, and the parts that were left out."
+    "--explain",
+    is_flag=True,
+    help="Print the program after each pass, and the operations that were left out.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -70,12 +75,13 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    Without -o nothing is written; --explain or --json then describe the module.
+    Without -o no file is written; --explain or --json is then required and prints a description of the
+    module.
     """
     from codegen.emitter import bare, compile_method, emit_compiled
+    from codegen.ir.precision import precision as known_precision
     from codegen.printers import DEFAULT
     from codegen.printers import target as known_target
-    from codegen.run.precision import precision as known_precision
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing: the folder to write to (or give --explain or --json)")
@@ -110,7 +116,7 @@ def command(
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return the program as lowered and after each pass, with operation counts, and the parts left out."""
+    """Return the program as lowered and after each pass, with operation counts, and the simplifications."""
     from codegen.emitter import left_out
     from codegen.kernel.operations import operations, sentences
     from codegen.kernel.schedule import arrange
