@@ -8,10 +8,6 @@ from itertools import chain
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
-from orderconds.families import Family
-
-MAX_TREES = 7_000
-"""No order with more trees than this is derived; their number grows exponentially with the order."""
 
 
 @dataclass(frozen=True)
@@ -55,8 +51,8 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
-    :class:`~orderconds.errors.InputError` for an order below 1, above the highest order for which the family
-    has conditions, or with too many trees.
+    :class:`~orderconds.errors.InputError` for an order below 1, or above the highest order for which the
+    family has conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts
@@ -68,27 +64,5 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
     conditions = chosen.all_conditions if every else chosen.essential_conditions
-    refuse_too_many_trees(chosen, min(order, chosen.order_bound or order))
     by_order = tuple(conditions(n) for n in range(1, order + 1))
     return Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))
-
-
-def refuse_too_many_trees(family: Family, order: int) -> None:
-    """Raise an InputError if an order up to ``order`` has more than :data:`MAX_TREES` trees.
-
-    >>> refuse_too_many_trees(families.get("rk"), 12)
-    """
-    from orderconds.explain import kinds
-
-    if family.trees is None:
-        return
-    kind = kinds.get(family.trees)
-    for n in range(1, order + 1):
-        trees = kind.count(n)
-        if trees > MAX_TREES:
-            raise InputError(
-                f"{trees} trees of order {n}, and more at each further order",
-                where=family.label(),
-                expected=f"at most {MAX_TREES}",
-                hint=f"lower --order to {n - 1}",
-            )

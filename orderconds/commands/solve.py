@@ -122,7 +122,7 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
 
 def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds import families
-    from orderconds.derivation import refuse_too_many_trees
+    from orderconds.explain.kinds import refuse_too_many_trees
     from orderconds.solve.solver import Order
     from orderconds.solve.spec import Spec
 

@@ -11,6 +11,7 @@ import tomllib
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
+from random import Random
 
 import click
 import pytest
@@ -21,7 +22,7 @@ from orderconds.errors import InputError
 from orderconds.exchange import FORMATS, read_data
 from orderconds.exit_status import INTERRUPTED
 from orderconds.output_file import is_temporary
-from tests.fuzz.drawn_lines import commands, drawn, fill
+from tests.fuzz.drawn_lines import commands, drawn, fill, sound
 from tests.fuzz.fork_server import ERR, MEGABYTES, OUT, Ending, run, running
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="forks")
@@ -122,17 +123,12 @@ def examine(server: subprocess.Popen[str], seed: int, place: Path) -> tuple[list
     return words, ending
 
 
-def drawn_options(lines: list[list[str]]) -> set[tuple[str, str]]:
-    """Return the options of the lines, each with its command."""
-    return {(words[0], word) for words in lines if words for word in words[1:]}
-
-
-def test_lines_are_drawn_over_every_command_and_option() -> None:
-    found = drawn_options([drawn(seed) for seed in range(4000)])
-    for name, command in commands().items():
-        for parameter in command.params:
-            if isinstance(parameter, click.Option):
-                assert any((name, word) in found for word in parameter.opts), (name, parameter.name)
+@pytest.mark.parametrize("name", commands())
+def test_lines_are_drawn_over_every_option(name: str) -> None:
+    words = {word for seed in range(100) for word in sound(name, Random(seed))}
+    for parameter in commands()[name].params:
+        if isinstance(parameter, click.Option):
+            assert words & set(parameter.opts), parameter.name
 
 
 def test_mutated_command_lines_end_with_a_documented_status(
