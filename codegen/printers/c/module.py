@@ -22,7 +22,7 @@ from codegen.run.sweeps import WIDE
 from codegen.run.terms import STATUSES
 from codegen.run.trajectory import is_looped
 from codegen.run.unit import unit_of
-from codegen.snippets.graph import needed
+from codegen.snippets.graph import needed, snippets
 from codegen.templates import environment
 
 # -ffp-contract=off: a fused multiply-add rounds once, not twice, so results would depend on the machine.
@@ -37,7 +37,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
     """Return the texts of PREFIX.h and PREFIX.c for one step."""
     plan = Plan(kernel, interface.format)
     unit = unit_of(plan)
-    identifiers = identify(unit, RESERVED | own_names(interface))
+    identifiers = identify(unit, RESERVED | own_names(interface, unit))
     printer = FunctionPrinter(unit, identifiers, interface.format, interface.prefix)
     snippets = needed(
         "c",
@@ -47,6 +47,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         wide=inverted(kernel),
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
         chain=chain(kernel),
+        prefix=interface.prefix,
     )
     public = {f.name: f for f in unit.functions if f.public}
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
@@ -86,7 +87,7 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
             definitions.append(
                 [
                     "/* Constant run-time inputs; context points to their values. */",
-                    f"static void hold({real} t, {real} inputs[{n}], void *context)",
+                    f"static void {interface.prefix}hold({real} t, {real} inputs[{n}], void *context)",
                     "{",
                     "    (void)t;",
                     f"    memcpy(inputs, context, {n} * sizeof *inputs);",
@@ -129,13 +130,13 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     return f"at most {rounded + frames} bytes; functions of the mathematical library add to this"
 
 
-def own_names(interface: Interface) -> frozenset[str]:
+def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     """Return the names that a module declares itself, and that no variable may hide."""
     prefix, upper = interface.prefix, interface.prefix.upper()
-    functions = {
-        f"{prefix}{name}" for name in ("step", "run", "run_adaptive", "jacobian", "statistics", "input")
-    }
-    return frozenset(functions | {f"{upper}{name}" for name in (*STATUSES, "H")})
+    names = {"step", "run", "run_adaptive", "jacobian", "statistics", "input", "hold"}
+    names |= {x.name for x in (*unit.functions, *unit.records)} | {t.name.text for t in unit.tables}
+    names |= {snippet.name for snippet in snippets(interface.format)}
+    return frozenset({f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H")})
 
 
 def prototypes(interface: Interface) -> str:
