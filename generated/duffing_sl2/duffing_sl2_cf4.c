@@ -12,8 +12,8 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 896 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 208 of them as a
- *             margin; functions of the mathematical library add to this
+ * stack:      at most 704 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of the
+ *             mathematical library add to this
  * command:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *

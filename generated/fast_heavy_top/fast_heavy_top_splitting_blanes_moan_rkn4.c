@@ -17,8 +17,8 @@
  * operations: 201 add, 335 mul, 6 stumpff_12 a step
  *             2 add, 4 mul once in a run of steps
  *             9 add, 21 mul, 1 stumpff_12 once in a run of steps
- * stack:      at most 3456 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 704 of them as
- *             a margin; functions of the mathematical library add to this
+ * stack:      at most 2752 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
+ *             the mathematical library add to this
  * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn4 --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -17,8 +17,8 @@
  * operations: 473 add, 786 mul, 14 stumpff_12 a step
  *             29 add, 49 mul, 1 stumpff_12 once in a run of steps
  *             9 add, 21 mul, 1 stumpff_12 once in a run of steps
- * stack:      at most 5632 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1128 of them as
- *             a margin; functions of the mathematical library add to this
+ * stack:      at most 4544 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
+ *             the mathematical library add to this
  * command:    orderconds emit fast_heavy_top --method splitting:blanes_moan_rkn6a --target c -o .
  * version:    orderconds 0.1.0
  *

@@ -5,8 +5,8 @@
  * order:      1
  * state:      [0..2] m: angular momentum in the body
  * operations: 14 add, 26 mul, 1 stumpff_12 a step
- * stack:      at most 704 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 184 of them as a
- *             margin; functions of the mathematical library add to this
+ * stack:      at most 576 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of the
+ *             mathematical library add to this
  * command:    none
  * version:    orderconds test
  *

@@ -33,9 +33,9 @@ FRAMES = 640
 """Bytes for return addresses, saved registers and the frames of helpers."""
 
 MARGIN = 4
-"""One MARGIN-th is added to the bound on the stack.
+"""If equations are solved, one MARGIN-th is added to the bound on the stack.
 
-An optimiser may need space for values without a name as well: subexpressions that it moves out of a loop, and
+An optimiser may then need space for values without a name as well: subexpressions that it moves out of a loop, and
 pairs of numbers that it computes by vector instructions. Newton's method with 24 unknowns needed nine
 hundredths more than the names.
 """
@@ -128,21 +128,20 @@ def inverted(kernel: Kernel) -> int:
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
+    """Return a bound on the stack of a call: space for all numbers of a step at the same time.
 
-    At -O0 a compiler uses about the bound without the margin, because each name has its own slot. Tests
-    compare the bound with ``-fstack-usage`` and with a painted stack.
+    If equations are solved, a margin is added. At -O0 a compiler uses about the bound without the margin,
+    because each name has its own slot. Tests compare the bound with ``-fstack-usage`` and with a painted
+    stack.
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     names = size * numbers_held(unit) + frames
-    bound = -(-(names + names // MARGIN) // 64) * 64
-    return (
-        f"at most {bound} bytes with {MEASURED}, {bound - names} of them as a margin; functions of the "
-        "mathematical library add to this"
-    )
+    bound = -(-(names + (names // MARGIN if interface.blocks else 0)) // 64) * 64
+    margin = f", {bound - names} of them as a margin" if interface.blocks else ""
+    return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
 
 
 def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
