@@ -132,9 +132,9 @@ def test_a_wrong_piece_is_caught(monkeypatch):
     right = outlining.function
 
     def wrong(*args):
-        made, places = right(*args)
+        made, *arguments = right(*args)
         spoilt = (made.outputs[0] + made.outputs[1], *made.outputs[1:])
-        return replace(made, outputs=spoilt), places
+        return replace(made, outputs=spoilt), *arguments
 
     monkeypatch.setattr(outlining, "function", wrong)
     with pytest.raises(IllFormed, match="outlining changed the meaning"):
@@ -223,9 +223,9 @@ def test_an_explicit_step_calls_what_it_repeats():
 
 def test_calls_are_counted_by_place():
     made = compiled(*EXPLICIT)
-    source = next(t for name, t in emit_compiled(made, "c").files.items() if name.endswith(".c"))
+    emission = emit_compiled(made, "c", "my")
     for name, often in calls(made.kernel).items():
-        assert source.count(f" {name}(") == 1 + often  # its definition, and the calls
+        assert emission.files["my.c"].count(f" my_{name}(") == 1 + often  # its definition, and the calls
 
 
 def test_single_precision_takes_functions_too():
