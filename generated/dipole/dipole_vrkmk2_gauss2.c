@@ -28,7 +28,7 @@
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
- * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1920 of them as
+ * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1280 of them as
  *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0

@@ -16,7 +16,7 @@
  *             21 add, 42 mul an initial guess, in the first step of a run
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
- * stack:      at most 8704 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 2112 of them as
+ * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1408 of them as
  *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .

@@ -14,7 +14,7 @@
  *             3 mul an initial guess, in the first step of a run
  *             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1, n1
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 6848 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1632 of them as
+ * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1120 of them as
  *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
