@@ -24,9 +24,10 @@ DOUBLE_BITS = 53
 class CertifiedOrder:
     """An order, its certificate, and the conditions of the next order that fail.
 
-    ``bound``: the search ended before a condition failed, so the order may be higher. ``classical`` is the
-    family of the method on an abelian group, if the order is that of the classical method. ``radius`` is the
-    uncertainty of the coefficients if it exceeds double precision; then there is no certificate.
+    If ``bound`` is true, the search ended before a condition failed, so the order may be higher. If the order
+    was computed for an abelian group, ``classical`` is the classical family to which the method reduces
+    there. ``radius`` is the uncertainty of the coefficients if it exceeds double precision; in this case
+    there is no certificate.
     """
 
     order: int
@@ -40,7 +41,7 @@ class CertifiedOrder:
         """Return the order and its certificate for a header."""
         how = {
             "exact": "every order condition up to it is zero in exact arithmetic",
-            "ball": "interval arithmetic proves a method of this order within the last digit of the decimals",
+            "ball": "interval arithmetic proves that such a method exists within the last printed digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
             "none": f"the coefficients are known to {self.radius} only, which is less than double precision",
         }
@@ -60,10 +61,10 @@ def family_of(method: Method) -> Family:
 
 
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
-    """Return the order of a method in its family; a MethodError if it cannot be decided.
+    """Return the order of a method in its family; raise a MethodError if the order cannot be decided.
 
-    On a ``scene`` with an abelian group the method is one of a classical family, and the order is that of
-    this family.
+    On a ``scene`` with an abelian group the method belongs to a classical family, whose conditions determine
+    the order.
     """
     from orderconds.checking import check
 

@@ -1,8 +1,9 @@
 """Derive, prove and compile Lie group integrators.
 
 A method is a tableau plus a family. The family determines the series of the method, and a comparison of this
-series with the exact flow gives the order conditions. ``orderconds`` is the symbolic side. ``codegen`` turns
-a method and a scene into code and is never imported from here.
+series with the exact flow gives the order conditions. ``orderconds`` is the symbolic side. ``codegen``
+compiles a method and a scene, the description of one mechanical system, into code; it is never imported from
+here.
 
 Conventions
 -----------
@@ -13,21 +14,21 @@ equation is y' = f(y).y with f: M -> g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 
 first**: it is the rightmost factor. A right action flips the sign of every bracket in a method.
 
 *Brackets.* [A, B] = AB - BA; ad_x y = [x, y]; Ad_g is T L_g T R_{g^-1}. Ad*_g is the plain dual of Ad_g (no
-inverse), so Ad*_{gh} = Ad*_h Ad*_g, and ad*_x is the dual of ad_x. On SO(3), with so(3) and its dual read as
-vectors, Ad*_g mu = g^T mu and ad*_x mu = -x x mu (cross product).
+inverse), so Ad*_{gh} = Ad*_h Ad*_g, and ad*_x is the dual of ad_x. On SO(3), so(3) and its dual are
+identified with R^3; then Ad*_g mu = g^T mu and ad*_x mu = -x x mu (cross product).
 
 *The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k with B_1 = -1/2;
-dexp^{-1}_{(r),x} keeps the terms k <= r, so r = 0 is the identity and, since B_3 = 0, r = 3 equals r = 2.
-On SO(3) dexp*_x = dexp_{-x}; in general dexp_x o dexp^{-1}_{-x} = Ad_{exp x}.
+dexp^{-1}_{(r),x} is the sum of the terms k <= r. For r = 0 it is the identity; r = 3 gives the same map as r
+= 2, because B_3 = 0. On SO(3) dexp*_x = dexp_{-x}; in general dexp_x o dexp^{-1}_{-x} = Ad_{exp x}.
 
 *Phase space.* T*G is G x g* with (g, mu)(h, nu) = (gh, mu + Ad*_{g^-1} nu). A Hamiltonian H(q, mu) gives
 f(q, mu) = (xi, n) = (D_2 H, -(D_1 H).q^{-1}) and the flow q' = xi.q, mu' = n - ad*_xi mu.
 
 *Symplectic partitioned tableaux.* bhat = b, ahat_ij = b_j - b_j a_ji/b_i, c_i = sum_j a_ij, chat_i = sum_j
-ahat_ij; they need b_i != 0.
+ahat_ij; these formulas require b_i != 0.
 
-*Order.* A method has order p when its series agrees with that of the exact flow up to and including h^p.
-Words t_1 ... t_k are written in the order of action: t_1 acts first.
+*Order.* A method has order p when its series agrees with the series of the exact flow up to and including
+h^p. Words t_1 ... t_k are written in the order of action: t_1 acts first.
 
 >>> import orderconds
 >>> sorted(orderconds.__all__)

@@ -1,4 +1,4 @@
-"""Modified equations of a method: the vector field whose flow it follows exactly, as a truncated series in h.
+"""Modified equations: a method follows the flow of its modified field, a truncated series in h, exactly.
 
 A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
 terms of f~ describe how the numerical solution differs from the exact solution over long times. For a
@@ -6,8 +6,9 @@ symplectic method they form a modified Hamiltonian, which the method conserves (
 *Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary differentials along
 frozen fields and their commutators (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
-The opposite question has an answer of the same form: the *modifying* field is the one to which the method
-must be applied so that it follows the flow of f (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).
+The *modifying* field solves the inverse problem: the method, applied to the modifying field, follows the
+exact flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007)
+1941).
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ SERIES = (RungeKuttaFamily, OrderedForestFamily)
 
 
 def default_families() -> tuple[str, ...]:
-    """Return the families that are tried in turn if none is given.
+    """Return the families that are tried, in this order, if the user names no family.
 
     >>> default_families()
     ('rk', 'cf')
@@ -48,8 +49,8 @@ def default_families() -> tuple[str, ...]:
 class Term:
     """One term of a series: h^(order - 1) times ``coefficient`` times the function ``name``.
 
-    ``tree`` is a tree in brackets. If the term is a commutator, ``tree`` is the Lyndon word of ordered trees
-    whose standard bracketing equals the commutator.
+    ``tree`` is a tree in bracket notation. If the term is a commutator, ``tree`` is the Lyndon word of
+    ordered trees whose standard bracketing equals the commutator.
     """
 
     order: int
@@ -60,10 +61,11 @@ class Term:
 
 @dataclass(frozen=True)
 class ModifiedEquation:
-    """The modified field of a method up to h^(order - 1), and its Hamiltonian if there is one.
+    """The modified field of a method up to h^(order - 1), and the modified Hamiltonian if there is one.
 
-    ``family`` is the label of the family in which the method was read. ``terms`` leave out coefficients that
-    are known to be zero. ``hamiltonian`` is None unless the field is a B-series of Hamiltonian form.
+    ``family`` is the label of the family in which the method was read. ``terms`` contains no term whose
+    coefficient is known to be zero. ``hamiltonian`` is None unless the field is a B-series of Hamiltonian
+    form.
     """
 
     family: str
@@ -97,12 +99,13 @@ def modified_equation(
 ) -> ModifiedEquation:
     """Return the modified equation of ``tableau``, with the terms up to h^(order - 1).
 
-    ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``).
-    The default is the first of :func:`default_families` that can read the tableau. With ``modifying`` the
-    result is the equation to which the method must be applied to follow the exact flow, for B-series only.
+    ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``). The
+    default is the first of :func:`default_families` that can read the tableau. With ``modifying`` the result
+    is the modifying equation: applied to this equation, the method follows the exact flow of f. It exists for
+    families of B-series only.
 
-    Raises :class:`~orderconds.errors.InputError` for another family, for a tableau that the family does not
-    read, for an order below 1, and for a modifying equation of a Lie-Butcher series.
+    Raises :class:`~orderconds.errors.InputError` for a family without such a series, for a tableau that is
+    not a method of the family, for an order below 1, and for a modifying equation of a Lie-Butcher series.
 
     >>> from orderconds.checking import read
     >>> for term in modified_equation(read("euler"), 3).terms:
@@ -150,7 +153,7 @@ def _step(tableau: Tableau, family: str | None) -> tuple[str, Character]:
     raise InputError(
         f"a tableau of format {tableau.family}",
         where=tableau.path or tableau.name,
-        expected=f"one that family {family or ' or '.join(default_families())} reads",
+        expected=f"a tableau that is a method of family {family or ' or '.join(default_families())}",
     )
 
 
@@ -161,7 +164,8 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of an element of a free Lie algebra; the field's forests are in the order of action."""
+    """Yield the terms of ``field``, an element of a free Lie algebra; its forests are in the order of
+    action."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))

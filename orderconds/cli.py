@@ -36,7 +36,7 @@ BUILT_IN = {
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
     "construct": (
         "orderconds.commands.construct",
-        "Make a Gauss, Radau or Lobatto method from its definition.",
+        "Compute a Gauss, Radau or Lobatto method from its definition.",
     ),
     "convert": (
         "orderconds.commands.convert",
@@ -47,7 +47,7 @@ BUILT_IN = {
     "modified": ("orderconds.commands.modified", "Print the modified equation of a method."),
     "refine": (
         "orderconds.commands.refine",
-        "Sharpen the decimals of a tableau by Newton's method and prove them.",
+        "Compute more digits of a tableau's decimals and prove them.",
     ),
     "series": ("orderconds.commands.series", "Print the BCH, Magnus or dexp series in a basis of brackets."),
     "solve": ("orderconds.commands.solve", "Find a method, prove its order, and write its tableau."),
@@ -58,7 +58,7 @@ BUILT_IN = {
 
 
 class Program(click.Group):
-    """The group of all commands, with this program's exit statuses.
+    """The click group of all commands; it turns each error into one of this program's exit statuses.
 
     >>> program.list_commands(click.Context(program))[:3]
     ['check', 'cite', 'construct']
@@ -142,7 +142,7 @@ class Program(click.Group):
         """Run one command and exit with its status; every error becomes one message."""
         status = 0
         for name in ("stdout", "stderr"):
-            if getattr(sys, name) is None:  # closed by the caller, as in ``orderconds ... >&-``
+            if getattr(sys, name) is None:  # the caller has closed the stream: ``orderconds ... >&-``
                 setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 - until the end
         given = list(args[0] if args else extra.get("args") or sys.argv[1:])
         run = Run(as_json="--json" in given[: given.index("--") if "--" in given else None])
@@ -168,9 +168,9 @@ def _offered() -> Iterable[EntryPoint]:
 
 
 def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[str]) -> None:
-    """Raise a UsageError for an option of one value that is given twice; click would take the last.
+    """Raise a UsageError if an option with one value is given twice; click would silently use the last value.
 
-    Flags that set the same value are one option, as ``--quick`` and ``--full``.
+    Flags that set the same parameter, such as ``--quick`` and ``--full``, count as one option.
     """
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
@@ -186,7 +186,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
         if before is not option:
             raise click.UsageError(f"{before.opts[0]} and {option.opts[0]} contradict each other", ctx)
         if option.name in seen and not option.is_flag:
-            raise click.UsageError(f"{option.opts[0]} is given twice; it takes one value", ctx)
+            raise click.UsageError(f"{option.opts[0]} is given twice; give it once", ctx)
         seen.add(option.name)
 
 
@@ -203,7 +203,7 @@ def _ask_for_traceback(ctx: click.Context, parameter: click.Parameter, asked: bo
     expose_value=False,
     callback=_ask_for_traceback,
     envvar="ORDERCONDS_TRACEBACK",
-    help="Show where an internal error arose; ORDERCONDS_TRACEBACK=1 asks for it as well.",
+    help="Show the traceback of an internal error (or set the variable ORDERCONDS_TRACEBACK=1).",
 )
 def program() -> None:
     """Derive, prove and compile Lie group integrators."""
@@ -212,13 +212,13 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Garbage collection is restricted: most commands are short and their objects live to the end, so collecting
-    them would waste a tenth of the time of a check.
+    Garbage collection is restricted, because most commands are short and their objects live until the end.
+    Collection would take a tenth of the time of a check.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a terminal that cannot show a letter is no error
+        if isinstance(stream, io.TextIOWrapper):  # a character that the terminal lacks is no error
             stream.reconfigure(errors="backslashreplace")
     try:
         program.main()

@@ -19,13 +19,13 @@ from orderconds.formula.notation import latex_fraction
 class OrderCondition:
     """The condition that a method's value on ``tree`` equals ``rhs``, the value of the exact flow.
 
-    ``family`` is the label of the family (``rkmk(1)``), ``order`` the grade, ``tree`` the canonical text of
-    the tree or word. ``source`` is the formula, or a function that builds it on demand. ``key``
-    is the family's own encoding of the condition, from which the engine of the family evaluates the left-hand
-    side. ``relation`` is None for an independent condition. For a dependent condition it is a polynomial in
-    left-hand sides of independent conditions, which equals the left-hand side for every method of the family.
-    In this polynomial ``<tree>`` denotes the left-hand side for a tree, as in
-    ``3 <o(|L(o o))> - <o> <o(o)>``.
+    ``family`` is the label of the family (``rkmk(1)``), ``order`` the order to which it belongs, ``tree`` the
+    canonical text of the tree or word. ``source`` is the formula, or a function that builds it on demand.
+    ``key`` is the family's own encoding of the condition, from which the family evaluates the left-hand side.
+    ``relation`` is None for an independent condition. For a dependent condition it is a polynomial in
+    left-hand sides of independent conditions, which equals the left-hand side of the dependent condition for
+    every method of the family. In this polynomial ``<tree>`` denotes the left-hand side for a tree, for
+    example ``3 <o(|L(o o))> - <o> <o(o)>``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))
@@ -71,7 +71,8 @@ class OrderCondition:
         return sympy.Eq(export(self.formula), rhs, evaluate=False)
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of ``orderconds derive --format json``, with any relation."""
+        """Return the JSON object of ``orderconds derive --format json``, with the relation of a dependent
+        condition."""
         record: dict[str, object] = {
             "order": self.order,
             "tree": self.tree,

@@ -1,4 +1,4 @@
-"""The order conditions of a family up to an order, as one record that prints itself."""
+"""The order conditions of a family up to a given order, as one record."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Derivation:
 
     @property
     def counts(self) -> tuple[int, ...]:
-        """How many conditions each order 1, ..., ``order`` adds."""
+        """The number of conditions of each order 1, ..., ``order``."""
         return tuple(map(len, self.by_order))
 
     @property
@@ -49,8 +49,10 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
 
     ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
     in ``"rkmk(1)"``.
+
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
-    :class:`~orderconds.errors.InputError` for an order below 1, or beyond the highest that the family has.
+    :class:`~orderconds.errors.InputError` for an order below 1, or above the highest order for which the
+    family has conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts

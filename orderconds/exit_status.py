@@ -6,7 +6,7 @@
 2      bad input or usage
 70     an internal error: a fault of this program
 130    interrupted by Ctrl-C; 143 and 129 for the signals SIGTERM and SIGHUP
-141    the reader of a pipe went away, as ``head`` does; no message
+141    the reader closed the pipe, as ``head`` does; no message is printed
 =====  ===============================================================================
 """
 
@@ -30,7 +30,7 @@ INTERNAL = 70
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 SIGNALS = ("SIGTERM", "SIGHUP")
-"""Signals that end the program as Ctrl-C does: it removes temporary files and ends its workers first."""
+"""Signals treated like Ctrl-C: the program removes temporary files and ends its workers before it exits."""
 
 MAX_TEXT = 300
 """The message shows at most this many characters of the text of an internal error."""
@@ -54,14 +54,15 @@ class Stopped(Exception):
 
 @dataclass
 class Run:
-    """One run of the program: options of the command line, and the number of printed documents."""
+    """One run of the program: options of the command line, and the number of JSON documents printed so
+    far."""
 
     as_json: bool = False
     traceback: bool = False
     documents: int = 0
 
     def print_document(self, value: Any) -> None:
-        """Print one JSON document: indented, in the order given, ASCII only."""
+        """Print one JSON document: indented, keys in their given order, ASCII only."""
         import json
 
         text = json.dumps(value, indent=2, allow_nan=False)
@@ -182,7 +183,7 @@ def catch_signals() -> None:
 
 
 def current_run() -> Run:
-    """Return the run that the present command belongs to; outside a command return a new run.
+    """Return the run of the current command, or a new run if no command is running.
 
     >>> current_run().documents
     0

@@ -1,6 +1,6 @@
 """Reading files that a user names: regular files only, and at most a stated number of bytes.
 
-A pipe or a device may have no end, so that reading it could wait for ever or fill the memory.
+A pipe or a device may have no end: reading it could block for ever or fill the memory.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from pathlib import Path
 from orderconds.errors import InputError
 
 MAX_BYTES = 1_000_000
-"""Bound on a file that a person writes: a tableau, a scene, a list of modules."""
+"""Maximal size in bytes of a file that a person writes: a tableau, a scene, a list of modules."""
 
 MAX_WRITTEN_BYTES = 100_000_000
-"""Bound on a file that this program writes: an emitted module, a manifest, a checkpoint."""
+"""Maximal size in bytes of a file that this program writes: an emitted module, a manifest, a checkpoint."""
 
 
 def read_bytes(
@@ -28,7 +28,7 @@ def read_bytes(
 ) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes.
 
-    Raises an InputError of the class ``error``, which names the path and what was ``expected``.
+    Raises ``error``, a subclass of InputError, with the path and the description ``expected`` in its message.
 
     >>> read_bytes(os.devnull)
     Traceback (most recent call last):
@@ -39,7 +39,7 @@ def read_bytes(
     except OSError as problem:
         raise error(reason(problem), where=str(path), expected=expected) from None
     except ValueError:  # the path has a null character or half a surrogate pair
-        raise error("no name of a file", where=ascii(str(path)), expected=expected) from None
+        raise error("not a valid file name", where=ascii(str(path)), expected=expected) from None
 
 
 def read_text(
@@ -57,7 +57,7 @@ def read_text(
     try:
         return read_bytes(path, expected, limit=limit, error=error).decode("utf-8")
     except UnicodeDecodeError:
-        raise error("bytes that are no UTF-8", where=str(path), expected=expected) from None
+        raise error("bytes that are not UTF-8", where=str(path), expected=expected) from None
 
 
 def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -> bytes:
@@ -69,8 +69,8 @@ def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -
     >>> len(content_of(__file__)) > 1000
     True
     """
-    _require_regular(os.stat(path, follow_symlinks=not own), own)  # opening a device may have effects
-    # Without O_NONBLOCK, a pipe that takes the file's place meanwhile would block the call.
+    _require_regular(os.stat(path, follow_symlinks=not own), own)  # opening a device may have side effects
+    # If another process has replaced the file by a pipe, opening it without O_NONBLOCK would block.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))
     with open(descriptor, "rb") as stream:

@@ -22,7 +22,7 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Let the names of an imported package load from their modules on first use; ``dir`` loads nothing.
+    """Make the names of an imported package load from their modules on first use; ``dir`` loads no module.
 
     ``names`` maps each module of the package to the names that it defines. No module may have one of these
     names: the import system would replace the object of this name by the module.

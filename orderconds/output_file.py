@@ -1,4 +1,4 @@
-"""Write files atomically: under a temporary name, to the disk, and then under the final name.
+"""Write files atomically: write under a temporary name, flush to the disk, rename to the final name.
 
 A process that is killed may leave temporary files; :func:`is_temporary` recognises their names.
 """
@@ -21,8 +21,8 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
     """Write files under temporary names; when all are on the disk, rename them in the order given.
 
     A replaced file keeps its permissions. A new file gets the default permissions of the process, or with
-    ``private`` is readable by the user alone. A symbolic link is replaced, never written through. After an
-    error no temporary file remains.
+    ``private`` is readable by the user alone. If a path is a symbolic link, the link is replaced and its
+    target is not changed. After an error no temporary file remains.
 
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write_files({Path(folder) / "x": b"text"})

@@ -1,4 +1,4 @@
-"""Work on many inputs at a time in worker processes that never outlive the process that started them.
+"""Run jobs in parallel in worker processes, which end when the process that started them ends.
 
 Jobs and results are strings, numbers and records of these, because exact numbers cannot be pickled.
 """
@@ -28,7 +28,7 @@ def in_processes(
 
     ``processes`` is the number of worker processes, by default the number of processors. A single job runs in
     this process. If the iteration ends early, for whatever reason, the workers are terminated. An error of a
-    job is raised here, and InputError if a worker was killed.
+    job is raised again in this process. Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -44,8 +44,8 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            with suppress(ConnectionError):  # if the worker has died after its last answer
-                connection.send(())  # closing would not end it: forked processes share connections
+            with suppress(ConnectionError):  # if the worker died after its last result
+                connection.send(())  # only a message ends it: others hold the connection open
     except BaseException:
         for worker in workers.values():
             worker.terminate()
@@ -98,7 +98,7 @@ def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]
 
 
 def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
-    """Process jobs, each in a tuple, until an empty tuple arrives; the parent handles Ctrl-C."""
+    """Receive jobs, each in a tuple, until an empty tuple arrives. Only the parent process handles Ctrl-C."""
     import threading
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -116,7 +116,7 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return an error that pickles, with the traceback of this process as a note."""
+    """Return an error that can be pickled, with the traceback of this process as a note."""
     import pickle
     import traceback
 

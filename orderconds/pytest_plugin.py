@@ -1,9 +1,9 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
 Without a flag the plugin does nothing. ``--orderconds-complete`` requires a claim for every family that a
-tableau can claim and ``--orderconds-certified`` a proof of every order, as ``orderconds check`` does. A
-tableau that claims nothing is skipped, with a reason. Files ``*.toml`` without the keys of a tableau
-(``pyproject.toml``) are skipped, unless they are named one by one.
+tableau can claim and ``--orderconds-certified`` a proof of every order, like the flags of ``orderconds
+check``. A tableau that claims nothing is skipped, with a reason. Files ``*.toml`` without the keys of a
+tableau (``pyproject.toml``) are skipped, unless the command line names the file itself.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     group.addoption(
         "--orderconds-complete",
         action="store_true",
-        help="as --orderconds, and require a claim for every family that a tableau can claim",
+        help="like --orderconds, and require a claim for every family that a tableau can claim",
     )
     group.addoption(
         "--orderconds-certified",
         action="store_true",
-        help="as --orderconds, and require a proof of every order",
+        help="like --orderconds, and require a proof of every order",
     )
 
 
@@ -67,7 +67,7 @@ class TableauItem(pytest.Item):
             raise ClaimFails(report.summary())
         if all(family.claimed is None for family in report.orders) and not complete:
             orders = ", ".join(f"{family.family} {family.order}" for family in report.orders)
-            pytest.skip(f"the file claims no order; it has {orders}")
+            pytest.skip(f"the file claims no order; computed orders: {orders}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Return the verdict, or the message of a file that cannot be read, without a traceback."""

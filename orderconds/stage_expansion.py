@@ -1,4 +1,4 @@
-"""Order conditions expanded for a fixed number of stages: polynomials in a_ij, b_i, no index sums."""
+"""Order conditions expanded for a fixed number of stages: polynomials in a_ij and b_i without index sums."""
 
 from __future__ import annotations
 
@@ -50,8 +50,9 @@ def polynomials(
 ) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
     """Return a ring of polynomials, its variables, and the left-hand sides as elements of the ring.
 
-    The engine itself is run over this ring. It is a ring of polynomials, or of Laurent polynomials for a
-    family that divides by weights. Raises :class:`~orderconds.errors.InputError` as :func:`expand_stages`.
+    The family evaluates its conditions over this ring of polynomials, or of Laurent polynomials if the family
+    divides by weights. Raises :class:`~orderconds.errors.InputError` for the same families as
+    :func:`expand_stages`.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)
@@ -70,7 +71,7 @@ def polynomials(
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], fmpq]]) -> Formula:
-    """Turn a polynomial's terms into a formula; exponent k belongs to ``symbols[k]``."""
+    """Turn a polynomial's terms into a formula; entry k of a tuple is the exponent of ``symbols[k]``."""
     return Total(
         tuple(
             (

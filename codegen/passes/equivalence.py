@@ -17,7 +17,8 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first, because the effect of a wrong rewriting is largest there.
 
-Any falling powers of two serve. If the first step reaches too far along a fast field, all are shortened."""
+Any other decreasing powers of two are possible. If the first step moves too far along a fast field, all steps
+are shortened."""
 
 REACH = 0.5
 """The largest move along the field in one step: longer steps would amplify rounding.
@@ -31,15 +32,17 @@ Result = tuple[float, dict[str, Value], dict[str, Value], dict[Var, Value]]
 """Step size, inputs, new state, and the solutions of the blocks of the last compared program."""
 
 SWEEPS = 24
-"""The most sweeps over a block: a step that needs more is too large to compare roundings.
+"""The largest number of sweeps over a block: a step that needs more is too long for a comparison up to
+rounding.
 
-A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24. Slower blocks take the next, shorter step."""
+A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower blocks the next, shorter step
+is tried."""
 
 TRIES, APART = 3, 16
 """The number of steps in which a program may be compared, and the smallest ratio between them.
 
-Rewritten equations may need smaller steps to converge by iteration; one step in which they do is enough.
-The three steps span a factor of 256 or more."""
+Rewritten equations may need smaller steps to converge by iteration; one step in which they converge is
+enough. The three steps span a factor of 256 or more."""
 
 AGREE = 2.0**-36
 """Relative difference of equal results: far above rounding and the tolerance of a block.
@@ -56,7 +59,7 @@ class _Point:
         self.computed = list(islice(more, 1))
 
     def results(self) -> Iterator[Result]:
-        """Yield the results, that of the longest step first."""
+        """Yield the results, first the result of the longest step."""
         yield from self.computed
         for result in self._more:
             self.computed.append(result)
@@ -67,12 +70,9 @@ class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
     One point is the initial state, which may be special (an equilibrium, a symmetric position). The other is
-    a
-    nearby point without any symmetry. The step is the longest of moderate reach for which the blocks
-    converge. A
-    compared program starts from the solutions of the reference; if its equations differ, it iterates away
-    from
-    these solutions.
+    a nearby point without any symmetry. The step is the longest of moderate reach for which the blocks
+    converge. A compared program starts from the solutions of the reference; if its equations differ, it
+    iterates away from these solutions.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -82,14 +82,14 @@ class Reference:
         self.points = [point for point in points if point.computed]
         if not self.points:
             raise SceneError(
-                "no step can be computed from the initial state, nor from one nearby",
+                "no step can be computed from the initial state, nor from a state nearby",
                 where=scene.name,
                 expected="a field that is finite there, and stages that can be solved for small steps",
                 hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
     def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
-        """Yield results of the longest step and of two shorter ones, in which more programs converge."""
+        """Yield results of the longest step and of two shorter steps, in which more programs converge."""
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
@@ -101,7 +101,8 @@ class Reference:
         for moderate in STEPS:
             # The step is a power of two: h^k then has no rounding error that could look like a difference.
             step = math.ldexp(moderate, -max(excess, 0))
-            # Further steps are for programs that converge only for much shorter ones: skip similar lengths.
+            # Steps of similar length are skipped: further steps are for programs that need much shorter
+            # steps.
             if count and step > last / APART:
                 continue
             # The interpreter fills this with the solutions of the blocks; compared programs start from them.
@@ -152,10 +153,11 @@ class Reference:
             if name not in before:
                 continue
             x, y = (flatten(kind, side[name]) for side in (before, after))
-            # Relative for large values, absolute for small ones: some components may vanish by symmetry.
+            # The comparison is relative for large values and absolute for small values, because components
+            # may vanish by symmetry.
             scale = max(1.0, *(abs(s) for s in x))
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # Negated on purpose: a gap that is not a number counts as a difference.
+            # The condition is negated on purpose, so that a gap that is not a number counts as a difference.
             if not gap <= AGREE * scale or not math.isfinite(scale):
                 return f"{name} moved by {gap:.3g}"
         return ""
@@ -177,7 +179,8 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
     """Yield the initial state, and a state moved from it by the group in fixed directions."""
     domain = FloatDomain(0.0)
     start = scene.initial(domain)
-    # Sines of integers: no symmetry, no integer relation that a scene might share, and no random seed.
+    # Sines of integers have no symmetry or integer relation that a scene might share, and need no random
+    # seed.
     directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     time = float(scene.span[0])
@@ -187,7 +190,8 @@ def _states(scene: Problem) -> Iterator[dict[str, Value]]:
         for block in scene.state:
             value = start[first : first + len(block.symbols)]
             first += len(block.symbols)
-            # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
+            # Momenta form a vector space, so a vector is added. Points and group elements are moved by the
+            # group, and stay on the manifold.
             if moved and block.kind is Kind.DUAL:
                 value = tuple(a + b for a, b in zip(value, covector, strict=True))
             elif moved:

@@ -16,8 +16,8 @@
  *             7 adjoint maps, 1 evaluation of the derivatives of H: no result depends on them
  *             4 adjoint maps, 9 evaluations of dexp*: a linear map is applied to a sum, not to
  *             each term
- *             4 adjoint maps: adjoint maps undo each other
- *             5 evaluations of dexp*: functions of one ad are one function
+ *             4 adjoint maps: an adjoint map and its inverse cancel
+ *             5 evaluations of dexp*: functions of the same ad_x are combined
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step

@@ -15,9 +15,9 @@ left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
             on them
             1 evaluation of dexp*, 1 exponential, 2 functions of ad, 1 sum: a linear
             map is applied to a sum, not to each term
-            4 adjoint maps: adjoint maps undo each other
-            2 adjoint maps, 2 evaluations of dexp*: functions of one ad are one
-            function
+            4 adjoint maps: an adjoint map and its inverse cancel
+            2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are
+            combined
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 38 add, 58 mul, 1 stumpff_12 a step

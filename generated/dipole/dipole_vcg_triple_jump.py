@@ -14,16 +14,16 @@ state:      [0..8] q: element of SO(3), row by row
             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
 left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the
             derivatives of H, 10 exponentials, 12 products, 16 sums: the step
-            repeats a shorter one
+            repeats a shorter step
             3 adjoint maps, 2 products: coefficients are zero, or terms cancel
             1 Legendre transform, 1 sum: equal values are computed once
             3 adjoint maps, 1 evaluation of the derivatives of H: no result depends
             on them
             1 evaluation of dexp*, 1 exponential, 2 functions of ad, 1 sum: a linear
             map is applied to a sum, not to each term
-            4 adjoint maps: adjoint maps undo each other
-            2 adjoint maps, 2 evaluations of dexp*: functions of one ad are one
-            function
+            4 adjoint maps: an adjoint map and its inverse cancel
+            2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are
+            combined
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 114 add, 174 mul, 3 stumpff_12 a step

@@ -16,9 +16,9 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             H, 3 sums: no result depends on them
             6 adjoint maps, 2 evaluations of dexp*, 2 exponentials, 2 functions of
             ad: a linear map is applied to a sum, not to each term
-            3 adjoint maps: adjoint maps undo each other
+            3 adjoint maps: an adjoint map and its inverse cancel
             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv:
-            functions of one ad are one function
+            functions of the same ad_x are combined
             2 sums: numbers are multiplied into sums
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it

@@ -3,9 +3,9 @@
 A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
 and ``vrkmk``. A claim with any cut-off of ``rkmk`` or ``vrkmk`` suffices. A commutator-free method claims
 ``rk``, ``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``; a symplectic pair claims
-``sprk_separable`` instead. A family is not included if its order follows from the order in another family, as
-``prk`` for an ``rk`` tableau. The decision is a method of each family
-(:meth:`orderconds.families.Family.claimable`).
+``sprk_separable`` instead. A family is left out if the order in it follows from the order in another family.
+For example, ``prk`` is left out for an ``rk`` tableau. The method
+:meth:`orderconds.families.Family.claimable` decides for each family.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    Families that divide by weights come last, and families on groups after the others. Within each of these
-    groups, families whose preferred format is the format of the tableau come first.
+    They are sorted: first families on vector spaces, then families on Lie groups, last families that divide
+    by weights. Of these three classes, each begins with the families whose first format is the format of the
+    tableau.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

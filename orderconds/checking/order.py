@@ -26,7 +26,7 @@ STOPPED = "stopped"
 """The verdict on an order that was not decided because of a limit."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
-"""A family's own encoding of a tree, and a function that returns its condition."""
+"""A family's own encoding of a tree, and a function that returns the condition of the tree."""
 
 
 @dataclass(frozen=True)
@@ -65,8 +65,8 @@ class FamilyOrder:
         return "holds" if self.claimed in (None, self.order) else "fails"
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one family; it has the key ``limit`` only if the search ended at this
-        order."""
+        """Return the JSON object of one family; the key ``limit`` is present only if the search ended without
+        a failing condition."""
         record: dict[str, object] = {
             "claimed": self.claimed,
             "order": self.order,
@@ -96,8 +96,9 @@ def family_order(
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     ``bound`` is the order in another family, whose conditions are a subset of those of ``family``. It is
-    therefore an upper bound. From the search limit of ``family`` on (with ``brief`` at every order), the
-    search stops at this bound, and the failing conditions are those of ``bound``. Conditions that follow from
+    therefore an upper bound. ``search_limit`` is the order up to which ``family`` searches without a claim.
+    If the order of ``bound`` is at least this limit, or with ``brief`` in any case, the search stops when it
+    reaches this bound. It then reports the failing conditions of ``bound``. Conditions that follow from
     others, and from the orders ``proved`` in other families, are not evaluated
     (:mod:`orderconds.families.reductions`). The search also ends when ``meter`` reports that a limit is
     reached.
@@ -196,10 +197,10 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield the conditions that decide order n: all at once (True), or in batches that double in size.
+    """Yield (conditions, True) with all conditions that decide order n, or (batch, False) repeatedly.
 
-    The conditions are an independent set or, if such a set costs more, the conditions of all trees. Batches
-    share results.
+    The conditions are an independent set or, if such a set costs more, the conditions of all trees. The size
+    of the batches doubles.
     """
     trees = family.decisive_in_turn(n)
     count = family.decisive_count(n)
@@ -225,11 +226,11 @@ def _norm(sizes: list[Decimal]) -> float:
 
 
 def _method(tableau: Tableau, family: Family) -> Method:
-    """Return the method of a tableau as the family reads it."""
+    """Return the method of a tableau, converted to a format of the family."""
     method = family.read(tableau)
     if method is None:
         raise InputError(
-            f"a tableau of format {tableau.family} has no reading in family {family.label()}",
+            f"a tableau of format {tableau.family} cannot be read in family {family.label()}",
             where=tableau.path or tableau.name,
             expected=f"format {' or '.join(family.formats)}",
         )

@@ -20,7 +20,8 @@ class EmbeddedOrder(Struct, frozen=True):
     family.
 
     ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` for weights, ``cf``
-    for an update of exponentials. ``failing`` are the conditions of ``own`` at the next order that fail.
+    for an update of exponentials. ``failing`` are the failing conditions of the family ``own`` at the next
+    order.
     """
 
     claimed: int

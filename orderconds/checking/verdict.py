@@ -37,7 +37,7 @@ def check(
     With ``order`` the order must be at least this number, and claims are ignored. With ``complete`` the check
     fails unless the file claims an order in each claimable family. With ``certified`` it fails if only
     rounded decimals support an order. A tableau without claims is checked in the family of its format.
-    ``limits`` bound the work; if one is reached, the order is a lower bound.
+    ``limits`` bound the work; if a limit is reached, the order in the report is a lower bound.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
@@ -115,7 +115,7 @@ def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
         proof = certify(tableau)
     except NotProved as problem:
         return None, [f"no proof: {problem}"]
-    hint = "orderconds refine writes its digits"
+    hint = "orderconds refine writes the correct digits"
     return proof, [f"the decimal {misrounded}; {hint}" for misrounded in proof.misrounded]
 
 
@@ -160,7 +160,7 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
     """Return the families whose orders bound orders in other families, without the families in ``labels``.
 
-    A plain array that is a composition of midpoints is also read as a composition.
+    A tableau (A, b) that is a composition of midpoint rules is also read as a composition.
     """
     from orderconds.checking.claimable import claimable_families
     from orderconds.tableau.recognise import as_composition
@@ -176,7 +176,7 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order if theorems determine it beyond the end of the search, else the result ``ended``.
+    """Return the order if theorems determine it beyond the highest order searched, else the result ``ended``.
 
     Theorems bound the order from below. The order in another family, or a failing condition, bounds it from
     above.
@@ -278,8 +278,8 @@ def read(given: str | PathLike[str]) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check with their claims: the given family, else all claimed ones, else the family
-    of the tableau format."""
+    """Yield the families to check, each with its claimed order: the given family; or all claimed families;
+    or, without claims, the family of the tableau format."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)
@@ -321,5 +321,5 @@ def _missing_claims(tableau: Tableau, unclaimed: Sequence[Family]) -> Iterator[s
     for family in unclaimed:
         computed = family_order(tableau, family)
         least = " at least" if computed.limit is not None or not computed.decided else ""
-        order = f"its order there is{least} {computed.order}"
-        yield f"no order is claimed in family {family.label()}, which it can serve: {order}"
+        order = f"order{least} {computed.order}"
+        yield f"no order is claimed in family {family.label()}, in which the method has {order}"

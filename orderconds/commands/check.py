@@ -27,16 +27,19 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""How many failing conditions the text lists if a claim does not hold; otherwise one. JSON lists all."""
+"""The number of failing conditions that the text lists if a claim fails; otherwise it lists one. JSON lists
+all."""
 
 WIDTH = 200
-"""The text cuts longer formulas and residuals; JSON has them in full."""
+"""The maximal length of a formula or residual in the text; JSON contains them in full."""
 
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
 @click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), claimed or not.")
-@click.option("--order", "-p", type=click.IntRange(1, 20), help="Require at least this order.")
+@click.option(
+    "--order", "-p", type=click.IntRange(1, 20), help="Ignore the claims; require at least this order."
+)
 @click.option(
     "--complete",
     is_flag=True,
@@ -53,12 +56,14 @@ WIDTH = 200
     help="Evaluate at most this many conditions of one order. Default: 50000.",
 )
 @click.option(
-    "--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop each tableau after this time."
+    "--max-seconds", type=click.FloatRange(0, min_open=True), help="End each check after this many seconds."
 )
 @click.option(
-    "--max-memory", type=click.IntRange(1), help="Stop each tableau above this many megabytes of memory."
+    "--max-memory", type=click.IntRange(1), help="End each check if it uses more than this many megabytes."
 )
-@click.option("--json", "as_json", is_flag=True, help="One list of records on stdout, nothing else.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Print one JSON list of records on stdout and nothing else."
+)
 def command(
     tableaux: Sequence[str],
     family: str | None,
@@ -74,7 +79,7 @@ def command(
     name from the library. A claimed order must equal the order found. If a limit ends the search, the order
     found is a lower bound.
 
-    Exits with 0 if all holds, 1 if a claim fails or is undecided, 2 if something could not be read.
+    Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
     from orderconds.families import get
 
@@ -174,7 +179,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # format in the main process, which knows the terminal
+    if not job.one_of_many:  # only the main process knows the terminal
         _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
     with redirect_stdout(io.StringIO()) as printed:
@@ -183,7 +188,8 @@ def _checked(job: _Job) -> _Outcome:
 
 
 def _excused(arguments: Sequence[str]) -> set[str]:
-    """Return the names in the files DECIMAL of the directories: lines "NAME: reason"."""
+    """Return the tableau names in the files DECIMAL of the directories; a line has the form "NAME:
+    reason"."""
     names = set[str]()
     for argument in arguments:
         listed = Path(argument) / "DECIMAL"
@@ -194,7 +200,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 
 
 def _files(arguments: Sequence[str]) -> Iterator[str]:
-    """Yield each argument, a directory replaced by the tableau files below it in sorted order.
+    """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
     Other TOML files below a directory, such as ``pyproject.toml``, are skipped.
     """
@@ -202,7 +208,7 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
 
     for argument in arguments:
         if not argument.strip():
-            raise TableauError(f"{argument!r} names nothing", expected="a file, a folder or a tableau's name")
+            raise TableauError(f"an empty name {argument!r}", expected="a file, a folder or a tableau's name")
         if not os.path.isdir(argument):
             yield argument
             continue
@@ -269,7 +275,7 @@ def _proof(proof: Certificate) -> str:
     if not proof.printed:
         return text
     furthest = max(proof.printed.values(), key=float)
-    return f"{text}; the source's digits are off by up to {furthest}"
+    return f"{text}; the digits printed in the source differ by up to {furthest}"
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:
@@ -289,7 +295,7 @@ def _print_failing(family: FamilyOrder) -> None:
     if family.limit is not None:
         reached = f"{family.family}: no condition fails up to order {family.limit}"
         if family.stopped is None:
-            click.echo(f"  {reached}, the end of the search")
+            click.echo(f"  {reached}, the highest order searched")
         else:
             click.echo(f"  {reached}; stopped by a limit after {family.stopped} conditions")
         return

@@ -12,7 +12,7 @@ from orderconds.errors import TableauError, UnknownName
 
 @click.command(name="cite", short_help="Print the BibTeX of a tableau's source.")
 @click.argument("name")
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, as_json: bool) -> int:
     """Print the BibTeX entry for NAME: a tableau of the library, a tableau file, or a BibTeX key."""
     entries = bibliography()

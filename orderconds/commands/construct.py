@@ -10,11 +10,11 @@ from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 
 
-@click.command(name="construct", short_help="Make a Gauss, Radau or Lobatto method from its definition.")
+@click.command(name="construct", short_help="Compute a Gauss, Radau or Lobatto method from its definition.")
 @click.argument("kind")
 @click.option("--stages", "-s", type=click.IntRange(1, 50), required=True, help="The number of stages.")
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
     """Write the tableau of KIND with S stages and exact coefficients. KIND is gauss, radau1a, radau2a,
     lobatto3a, lobatto3b, lobatto3c, lobatto3c_star, lobatto3d or lobatto3e.

@@ -20,13 +20,11 @@ NAMES = click.Choice(list(FORMATS))
 
 @click.command(name="convert", short_help="Convert a tableau to or from another file format.")
 @click.argument("source", metavar="FILE|NAME")
-@click.option("--from", "of", type=NAMES, help="The format of FILE; without it the suffix decides.")
-@click.option(
-    "--to", type=NAMES, help="The format to write; without it the suffix of --output decides, else toml."
-)
-@click.option("--name", help="A name for a tableau whose file gives none.")
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--from", "of", type=NAMES, help="The format of FILE. Default: by its suffix.")
+@click.option("--to", type=NAMES, help="The format to write. Default: by the suffix of --output, else toml.")
+@click.option("--name", help="The name of the tableau if FILE contains none.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(
     source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
 ) -> int:
@@ -45,7 +43,7 @@ def command(
     lost = list(left_out(data, to))
     if not as_json:
         for key in lost:
-            click.echo(f"note: its {key} is left out, which json and toml keep", err=True)
+            click.echo(f"note: the key {key} is left out; json and toml keep it", err=True)
     elif to == "numpy" and output is None:
         raise click.UsageError("--json cannot contain a NumPy archive, which is binary; give -o FILE")
     converted = content if of == to == "toml" and name is None else export(data, to)

@@ -16,15 +16,15 @@ FORMATS = ("text", "latex", "sympy", "json")
 
 @click.command(name="derive", short_help="Print the independent order conditions of a family.")
 @click.argument("family")
-@click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="Highest order.")
+@click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="The highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
-@click.option("--explicit", is_flag=True, help="With --stages: a_ij = 0 for j >= i.")
-@click.option("--format", "form", type=click.Choice(FORMATS), help="Default: text.")
+@click.option("--explicit", is_flag=True, help="With --stages: explicit methods, a_ij = 0 for j >= i.")
+@click.option("--format", "form", type=click.Choice(FORMATS), help="The output format. Default: text.")
 @click.option(
     "--all",
     "every",
     is_flag=True,
-    help="The conditions of all trees; a dependent one also as a polynomial in others (<tree>).",
+    help="Print the conditions of all trees, and how dependent ones follow from others.",
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
@@ -42,9 +42,9 @@ def command(
     from orderconds.derivation import derive
 
     if explicit and stages is None:
-        raise click.UsageError("--explicit says how the tableau of --stages S is filled; give --stages too")
+        raise click.UsageError("--explicit has no effect without --stages; give --stages S too")
     if as_json and form not in (None, "json"):
-        raise click.UsageError(f"--json and --format {form} ask for two outputs; leave one out")
+        raise click.UsageError(f"--json and --format {form} select two output formats; leave one out")
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, every=every)
         if stages is not None:

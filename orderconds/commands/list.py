@@ -2,7 +2,7 @@
 scenes).
 
 A listing of another package is an entry point in the group ``orderconds.listings``: a function without
-arguments that returns records {"name", "about"}, about being one line.
+arguments that returns records {"name", "about"}; "about" is a description of one line.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Records = Iterable[dict[str, str]]
 
 @click.command(name="list", short_help="List families, tableaux, groups and scenes.")
 @click.argument("kind", required=False)
-@click.option("--json", "as_json", is_flag=True, help="Names and descriptions on stdout as JSON.")
+@click.option("--json", "as_json", is_flag=True, help="Print names and descriptions on stdout as JSON.")
 def command(kind: str | None, as_json: bool) -> int:
     """List one KIND (families, tableaux, groups, scenes), or all kinds."""
     kinds = [kind] if kind is not None else kinds_offered()
@@ -68,7 +68,7 @@ def listing(kind: str) -> Callable[[], Records]:
     kinds = kinds_offered()
     close = difflib.get_close_matches(kind, kinds, n=1)
     raise UnknownName(
-        f"nothing is listed as {kind!r}",
+        f"there is no listing {kind!r}",
         expected=f"one of {', '.join(kinds)}",
         hint=f"type: orderconds list {close[0]}" if close else "",
     )

@@ -14,14 +14,18 @@ if TYPE_CHECKING:
 
 @click.command(name="modified", short_help="Print the modified equation of a method.")
 @click.argument("tableau", metavar="FILE|NAME")
-@click.option("--order", "-p", type=click.IntRange(1, 10), required=True, help="Terms up to h^(ORDER - 1).")
-@click.option("--family", help="Read the tableau in this family. Default: rk or cf, by its format.")
+@click.option(
+    "--order", "-p", type=click.IntRange(1, 10), required=True, help="Print the terms up to h^(ORDER - 1)."
+)
+@click.option(
+    "--family", help="Treat the tableau as a method of this family. Default: rk or cf, by its format."
+)
 @click.option(
     "--modifying",
     is_flag=True,
-    help="The field to which the method must be applied so that it follows the exact flow of f.",
+    help="Print the modifying field: the method, applied to it, follows the exact flow of f.",
 )
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:
     """Print the modified equation of a tableau: a file, or one of the library by name.
 
@@ -31,8 +35,9 @@ def command(tableau: str, order: int, family: str | None, modifying: bool, as_js
     where each field is an elementary differential of f.
 
     The family rk gives rooted trees. Families of Lie group methods (cg, cf, "rkmk(1)") give ordered trees:
-    f[x y] is f differentiated along the frozen fields x and y, and [x, y] = x y - y x is a commutator.
-    For a symplectic method the modified Hamiltonian H~ follows, in which f is the Hamiltonian vector field.
+    f[x y] is f differentiated along the frozen fields x and y, and [x, y] = x y - y x is a commutator. For a
+    symplectic method the command also prints the modified Hamiltonian H~. In its terms, f is the Hamiltonian
+    vector field.
 
     \b
     Examples:

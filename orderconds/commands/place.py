@@ -24,11 +24,11 @@ class Place(click.ParamType[str]):
     def convert(self, value: str, param: click.Parameter | None, ctx: click.Context | None) -> str:
         """Return the name."""
         if not value.strip():
-            self.fail(f"{value!r} names no {self.name}; {self.otherwise}", param, ctx)
+            self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
         return value
 
 
-FOLDER = Place("folder", "type '.' for the present one")
+FOLDER = Place("folder", "type '.' for the current folder")
 FILE = Place("file", "leave the option out for stdout")
 
 

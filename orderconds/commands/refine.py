@@ -8,18 +8,17 @@ from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 
 
-@click.command(
-    name="refine", short_help="Sharpen the decimals of a tableau by Newton's method and prove them."
-)
+@click.command(name="refine", short_help="Compute more digits of a tableau's decimals and prove them.")
 @click.argument("file", metavar="FILE")
 @click.option(
-    "--digits", type=click.IntRange(10, 1000), default=60, show_default=True, help="Places to write."
+    "--digits", type=click.IntRange(10, 1000), default=60, show_default=True, help="Decimal places to write."
 )
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
-@click.option("--json", "as_json", is_flag=True, help="Digits, pins and proof on stdout as JSON.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@click.option("--json", "as_json", is_flag=True, help="Print digits, pins and proof on stdout as JSON.")
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
-    """Solve the equations that the [proof] of FILE names, from the rounded decimals ("0.8177~") of the file.
-    Write the file again with more digits, the pins that were needed, and a record of the old digits.
+    """Solve the equations that the [proof] table of FILE names, by Newton's method from the rounded decimals
+    ("0.8177~") of the file. Write the file again with more digits, the pins that were needed, and a record of
+    the old digits.
 
     Exits with 0 if interval arithmetic proves the new digits, 1 if not, 2 for a file that cannot be read.
     """
@@ -44,5 +43,5 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     if as_json:
         screen.print_json({"decimals": refined.decimals, "proof": proof.as_json()})
     elif output is None:
-        click.echo(refined.text.encode(), nl=False)  # a file is UTF-8, also if the terminal is not
+        click.echo(refined.text.encode(), nl=False)  # the output file is UTF-8 even if the terminal is not
     return 0

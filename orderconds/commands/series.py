@@ -9,15 +9,17 @@ from orderconds.commands import screen
 
 @click.command(name="series", short_help="Print the BCH, Magnus or dexp series in a basis of brackets.")
 @click.argument("name")
-@click.option("--order", "-p", type=click.IntRange(1, 14), required=True, help="Largest weight of a bracket.")
+@click.option(
+    "--order", "-p", type=click.IntRange(1, 14), required=True, help="Print brackets up to this weight."
+)
 @click.option(
     "--basis",
     type=click.Choice(["lyndon", "hall"]),
     default="lyndon",
     show_default=True,
-    help="Bracketed Lyndon words, or a Hall basis.",
+    help="The basis: bracketed Lyndon words, or a Hall basis.",
 )
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, order: int, basis: str, as_json: bool) -> int:
     """Print the Lie series NAME as a sum of brackets [x, y] = x y - y x, with exact coefficients.
 

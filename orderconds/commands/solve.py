@@ -21,35 +21,75 @@ if TYPE_CHECKING:
 
 @click.command(name="solve", short_help="Find a method, prove its order, and write its tableau.")
 @click.argument("family")
-@click.option("--stages", "-s", type=click.IntRange(1, 40), required=True, help="Stages, or steps composed.")
-@click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="Order to reach.")
-@click.option("--explicit", is_flag=True, help="a_ij = 0 for j >= i.")
-@click.option("--dirk", is_flag=True, help="a_ij = 0 for j > i.")
-@click.option("--symmetric", is_flag=True, help="A step of length -h undoes one of length h.")
-@click.option("--fsal", is_flag=True, help="The last stage is the first of the next step.")
-@click.option("--fix", multiple=True, metavar="a21=1/2", help="A linear equation; may be given often.")
-@click.option("--positive", multiple=True, metavar="NAME", help="A coefficient, or b for all weights.")
-@click.option("--size", metavar="X", help="No coefficient is larger than X in absolute value.")
 @click.option(
-    "--exponentials", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in the update."
+    "--stages",
+    "-s",
+    type=click.IntRange(1, 40),
+    required=True,
+    help="The number of stages (of steps, for compositions and splittings).",
+)
+@click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="The order of the method.")
+@click.option("--explicit", is_flag=True, help="Only explicit methods: a_ij = 0 for j >= i.")
+@click.option("--dirk", is_flag=True, help="Only diagonally implicit methods: a_ij = 0 for j > i.")
+@click.option(
+    "--symmetric", is_flag=True, help="Only symmetric methods: a step of length -h undoes a step of length h."
 )
 @click.option(
-    "--inner", type=click.IntRange(1, 12), default=2, show_default=True, help="cf, vcf: in each stage."
+    "--fsal", is_flag=True, help="Only methods whose last stage is the first stage of the next step."
 )
-@click.option("--rkn", is_flag=True, help="splitting: the parts are T and V with [V,[V,[V,T]]] = 0.")
 @click.option(
-    "--minimise", type=click.Choice(["error"]), help="Use all starts and choose the least principal error."
+    "--fix", multiple=True, metavar="a21=1/2", help="A linear equation for coefficients; may be repeated."
 )
-@click.option("--starts", type=click.IntRange(1, 10**7), help="Random starts.  [4096; minimising 1024]")
+@click.option(
+    "--positive",
+    multiple=True,
+    metavar="NAME",
+    help="A coefficient that must be positive; b means all weights.",
+)
+@click.option("--size", metavar="X", help="Only methods with coefficients of absolute value at most X.")
+@click.option(
+    "--exponentials",
+    type=click.IntRange(1, 12),
+    default=2,
+    show_default=True,
+    help="Families cf and vcf: the number of exponentials in the update.",
+)
+@click.option(
+    "--inner",
+    type=click.IntRange(1, 12),
+    default=2,
+    show_default=True,
+    help="Families cf and vcf: the number of exponentials in each stage.",
+)
+@click.option(
+    "--rkn", is_flag=True, help="Family splitting: assume that the parts T and V satisfy [V,[V,[V,T]]] = 0."
+)
+@click.option(
+    "--minimise",
+    type=click.Choice(["error"]),
+    help="Use all starts and write the method with the least principal error.",
+)
+@click.option(
+    "--starts",
+    type=click.IntRange(1, 10**7),
+    help="The number of random starts.  [4096; 1024 with --minimise]",
+)
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
-@click.option("--processes", type=click.IntRange(1, 256), help="Local processes.  [one for each processor]")
-@click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
-@click.option("--name", default="found", show_default=True, help="The tableau's name.")
-@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write here instead of stdout.")
 @click.option(
-    "--checkpoint", type=FILE, metavar="FILE", help="Keep finished batches.  [FILE.search with -o FILE]"
+    "--processes",
+    type=click.IntRange(1, 256),
+    help="The number of local processes.  [one for each processor]",
 )
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
+@click.option("--name", default="found", show_default=True, help="The name of the tableau.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
+@click.option(
+    "--checkpoint",
+    type=FILE,
+    metavar="FILE",
+    help="Save finished batches of starts to this file.  [FILE.search with -o FILE]",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
     """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
@@ -117,7 +157,7 @@ def _size(text: str | None) -> Fraction | None:
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
-    except (ValueError, ZeroDivisionError):  # 1/0, 1/2e3
+    except (ValueError, ZeroDivisionError):  # such as 1/0 or 1/2e3
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")
@@ -172,4 +212,4 @@ def _print_proof(order: Order, proof: Infeasible) -> None:
     ):
         click.echo(f"  {condition}")
         click.echo(f"    ({multiplier}) * ({equation})")
-    click.echo(f"  add up to {proof.reason}")
+    click.echo(f"the sum of these products is {proof.consequence}, but {proof.reason}")

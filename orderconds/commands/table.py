@@ -21,9 +21,11 @@ COLUMNS = ("tableau", "format", "orders claimed", "stages", "exponentials", "err
 
 
 @click.command(name="table", short_help="Print the library as a Markdown table, or update it in a file.")
-@click.option("--write", metavar="FILE", help="Put the table between the marks in FILE.")
-@click.option("--check", "against", metavar="FILE", help="Fail unless FILE has the current table.")
-@click.option("--json", "as_json", is_flag=True, help="The rows on stdout as JSON, nothing else.")
+@click.option("--write", metavar="FILE", help="Replace the table between the markers in FILE.")
+@click.option(
+    "--check", "against", metavar="FILE", help="Exit with status 1 unless FILE contains the current table."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the rows on stdout as JSON and nothing else.")
 def command(write: str | None, against: str | None, as_json: bool) -> int:
     """Print a line for each tableau of the library: its orders and, for the family of highest order, the
     number of exponentials, the norm of the leading error and the certificate. Exits with 1 if --check finds a
@@ -38,7 +40,7 @@ def command(write: str | None, against: str | None, as_json: bool) -> int:
         if path == write:
             put(path, new.encode())
         elif new != text:
-            click.echo(f"{path}: another table; type: orderconds table --write {path}", err=True)
+            click.echo(f"{path}: the table is out of date; type:  orderconds table --write {path}", err=True)
             status = 1
     if as_json:
         keys = [column.replace(" ", "_") for column in COLUMNS]
@@ -116,5 +118,5 @@ def _around(path: str) -> tuple[str, str, str]:
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:
-        raise InputError("no place for the table", where=path, expected=f"{BEGIN} and {END}")
+        raise InputError("no markers for the table", where=path, expected=f"{BEGIN} and {END}")
     return text, text[:start], text[end + len(END) :]

@@ -17,16 +17,18 @@ if TYPE_CHECKING:
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
 @click.argument("kind")
 @click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="The number of vertices.")
-@click.option("--count", is_flag=True, help="Print only the count, from a generating function.")
+@click.option(
+    "--count", is_flag=True, help="Print only the number of trees, computed from a generating function."
+)
 @click.option("--draw", is_flag=True, help="Draw each tree or word.")
 @click.option(
     "--explain",
     is_flag=True,
     help="Show a drawing, the elementary differential and the order condition of each tree or word.",
 )
-@click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII signs only.")
+@click.option("--ascii", "plain", is_flag=True, help="Draw with ASCII characters only.")
 @click.option("--svg", type=FILE, metavar="FILE", help="Write all drawings to this file as SVG.")
-@click.option("--json", "as_json", is_flag=True, help="One record on stdout, nothing else.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(
     kind: str, order: int, count: bool, draw: bool, explain: bool, plain: bool, svg: str | None, as_json: bool
 ) -> int:
@@ -41,21 +43,21 @@ def command(
     free         free (unrooted) trees                         symplectic_rk
     essential    free trees without two equal halves           symplectic_rk
     directed     free trees whose edges carry a direction      sprk
-    directed-rooted  rooted trees with such edges              prk_same_weights
+    directed-rooted  rooted trees with directed edges               prk_same_weights
     alternating  free trees whose neighbours differ in colour  sprk_separable
     action       action trees of variational methods           vcg, vcf, vrkmk
     graded       Lyndon words of letters 1, 2, ... of weight 1, 2, ...  composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
     In drawings the root is at the top. A directed edge leads from a derivative in q to one in p (or mu); a
-    diamond (L) is a coadjoint action on mu. (>*>) after a vertex is the position of its own direction among
-    its branches in the word of derivatives.
+    diamond (L) is a coadjoint action on mu. A note such as (>*>) after a vertex shows its word of
+    derivatives: > is a branch, * the edge to the parent.
     """
     from orderconds.explain import kinds
 
     chosen = kinds.get(kind)
     if count and (draw or (explain and svg is None)):
-        raise click.UsageError("--count gives a number alone; leave --draw and --explain out")
+        raise click.UsageError("--count prints only a number; leave --draw and --explain out")
     if svg is not None:
         _write_svg(chosen, order, svg, explain)
     if as_json:

@@ -1,10 +1,11 @@
-"""Tableaux to and from the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
+"""Read and write tableaux in the formats of other programs: JSON, CSV, NumPy, SymPy, LaTeX, C arrays.
 
-Every import and export uses the keys of a tableau file (:func:`orderconds.tableau.record.from_data`). So an
-imported tableau obeys the same grammar, and no input is ever executed. Importing an exported method gives
-exactly the same method; rounded decimals keep all their digits. TOML and JSON keep every key of a file; the
-other formats omit the proof (:func:`left_out`). Foreign decimals with 12 significant digits or more count as
-rounded (``~``), shorter ones as exact.
+Every format is translated to and from the keys of a tableau file
+(:func:`orderconds.tableau.record.from_data`). An imported tableau therefore obeys the grammar of tableau
+files, and its text is never executed as code. Importing an exported method gives exactly the same method;
+rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other formats omit the
+proof (:func:`left_out`). A decimal from another program counts as rounded (``~``) if it has 12 significant
+digits or more, else as exact.
 """
 
 from __future__ import annotations
@@ -43,22 +44,22 @@ def export(data: Data, to: str) -> bytes:
     ['name,euler', 'family,rk', 'A,0', 'b,1']
     """
     content = _module(to).write(data)
-    back = read_data(content, to, f"what was written as {to}", str(data.get("name")))
+    back = read_data(content, to, f"the output in format {to}", str(data.get("name")))
     _require_same(from_data(data), from_data(back), to)
     return content
 
 
 def _require_same(given: Tableau, back: Tableau, to: str) -> None:
-    """Raise an error unless reading the output gives the same tableau.
+    """Raise an error unless reading the output gives an equal tableau.
 
     Balls are compared up to their common digits, because rounding may differ.
     """
     same = (given.family, given.source, given.bibtex) == (back.family, back.source, back.bibtex)
     if not (same and equal_coefficients(given, back)):
         raise InputError(
-            f"a tableau that does not read back as the same from {to}",
+            f"a tableau that is not the same when it is read back from {to}",
             where=given.name,
-            expected="a format that holds it, as json",
+            expected="a format that can represent it, such as json",
         )
 
 
@@ -107,7 +108,7 @@ def load_foreign(path: str | Path) -> Tableau | None:
 
 
 def name_of(path: str | Path) -> str:
-    """Return a name for the tableau of a file without a name, from its path.
+    """Return a tableau name computed from a path, for a file that contains no name.
 
     >>> name_of("my files/my method (2).csv")
     'my_method_2'
@@ -133,9 +134,9 @@ def format_of(path: str) -> str:
     if (name := _format_of(path)) is not None:
         return name
     raise InputError(
-        f"a file of no known suffix: {path}",
+        f"a file with an unknown suffix: {path}",
         expected=f"one of {', '.join(suffix for _, suffix in FORMATS.values())}",
-        hint="say --from or --to",
+        hint="give the format with --from or --to",
     )
 
 

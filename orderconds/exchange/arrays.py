@@ -28,16 +28,16 @@ Arrays = Data
 """Texts (name, family, ...), rows, and matrices, by name."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a file that become JSON texts; ``numbers`` only if coefficients need names."""
+"""Tables of a tableau file that are stored as JSON text; ``numbers`` only if coefficients refer to names."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
-"""A foreign decimal with at least this many significant digits counts as rounded."""
+"""A decimal from another program with at least this many significant digits counts as rounded."""
 
 
 def to_arrays(data: Data, target: str) -> Arrays:
-    """Return the arrays of a file's keys; ``target`` names the format to be written in messages.
+    """Return the arrays of a file's keys; ``target`` is the name of the output format, for messages.
 
     Raises :class:`TableauError` for a family that arrays cannot hold.
 
@@ -50,7 +50,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
         raise TableauError(
             f"a tableau of format {family} in {target}",
             where=str(data.get("name")),
-            expected="format json, which holds everything",
+            expected="format json, which can represent every tableau",
         )
     if data.get("numbers") or "low_storage" in data:
         try:
@@ -180,7 +180,11 @@ def _stages(entries: Arrays, where: str) -> Data:
     pair = "embedded_order" in entries
     sound = len(counts) == len(starts) > pair and min(counts) >= 0 and sum(counts) == len(rows)
     if not sound:
-        raise TableauError("count that does not add up", where=where, expected="one row for each exponential")
+        raise TableauError(
+            "count that does not fit start or exponentials",
+            where=where,
+            expected="as many entries in count as in start, and sum(count) rows of exponentials",
+        )
     for count, start in zip(counts, starts, strict=True):
         product: Data = {"exp": rows[:count]} if count else {}
         rows = rows[count:]
@@ -219,7 +223,7 @@ def _integer(text: str, where: str) -> int:
 
 
 def coefficient(text: str) -> str:
-    """Return a foreign number as a coefficient: without exponent; long decimals count as rounded.
+    """Return a number of another program as a coefficient without exponent; long decimals count as rounded.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333~', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

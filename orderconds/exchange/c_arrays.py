@@ -1,6 +1,7 @@
 """C arrays: correctly rounded doubles; a comment beside a rounded number gives its exact value.
 
-The reader takes initialisers ``... NAME_A[..][..] = {{...}};`` and prefers the comment to the number.
+The reader accepts initialisers ``... NAME_A[..][..] = {{...}};``. If a number has such a comment, the reader
+uses the exact value in the comment.
 """
 
 from __future__ import annotations
@@ -68,7 +69,7 @@ def read(content: bytes, where: str) -> Data:
     try:
         text = content.decode()
     except UnicodeDecodeError:
-        raise TableauError("bytes that are no UTF-8", where=where, expected="C source") from None
+        raise TableauError("bytes that are not UTF-8", where=where, expected="C source") from None
     text, comments = _without_comments(text, where)
     entries: Arrays = {}
     for comment in comments:
@@ -126,7 +127,7 @@ def _end(text: str, token: re.Match[str], where: str) -> int:
     while closing == '"' and end > 0 and text[end - 1] == "\\":
         end = text.find(closing, end + 1)
     if end < 0:
-        raise TableauError("a comment or string without an end", where=where, expected="C source")
+        raise TableauError("a comment or string that is not closed", where=where, expected="C source")
     return end + len(closing)
 
 

@@ -1,7 +1,8 @@
-"""CSV: each line holds a name and then an array, or a name and then one row of a matrix.
+"""CSV: each line consists of a name and an array, or of a name and one row of a matrix.
 
-A plain Butcher tableau can be read as well. Each of its lines holds c_i and a row of A; a line that begins
-with an empty cell holds b, a second such line the embedded weights. Blank cells elsewhere are zeros.
+A plain Butcher tableau can be read as well. Each of its lines contains c_i and a row of A. A line that begins
+with an empty cell contains b; a second such line contains the embedded weights. Blank cells elsewhere are
+zeros.
 """
 
 from __future__ import annotations
@@ -66,7 +67,7 @@ def read(content: bytes, where: str) -> Data:
 
 
 def _plain(rows: list[list[str]], where: str) -> Data:
-    """Read c | A over b."""
+    """Return the arrays of a plain Butcher tableau: lines of c and A, then b."""
     stages = [[coefficient(x) for x in row] for row in rows if row[0].strip()]
     weights = [[coefficient(x) for x in row[1:]] for row in rows if not row[0].strip()]
     if not weights or len(weights) > 2:

@@ -84,7 +84,7 @@ def read(content: bytes, where: str) -> Data:
     try:
         text = content.decode()
     except UnicodeDecodeError:
-        raise TableauError("bytes that are no UTF-8", where=where, expected="LaTeX") from None
+        raise TableauError("bytes that are not UTF-8", where=where, expected="LaTeX") from None
     entries = _texts(text)
     environments = list(_environments(_COMMENT.sub("", text), where))
     if (array := next((body for name, body in environments if name is None), None)) is not None:
@@ -124,7 +124,7 @@ def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
             opened = token
             continue
         if opened is None or opened[2] != token[2]:
-            raise TableauError(f"{token[0]} without a beginning", where=where, expected="rows of numbers")
+            raise TableauError(f"{token[0]} without its \\begin", where=where, expected="rows of numbers")
         columns = _COLUMNS.match(text, opened.end())
         named = _NAMED.search(text, max(0, opened.start() - 84), opened.start())
         if opened[2] == "array" and columns is not None:
@@ -133,14 +133,14 @@ def _environments(text: str, where: str) -> Iterator[tuple[str | None, str]]:
             yield named[1], text[opened.end() : token.start()]
         opened = None
     if opened is not None:
-        raise TableauError(f"{opened[0]} without an end", where=where, expected="rows of numbers")
+        raise TableauError(f"{opened[0]} without its \\end", where=where, expected="rows of numbers")
 
 
 def _butcher(body: str, where: str) -> Arrays:
     parts = [_rows(part, where) for part in re.split(r"\\hline", body) if part.strip()]
     if not 2 <= len(parts) <= 3 or any(len(part) != 1 for part in parts[1:]):
         raise TableauError(
-            "rules that part no tableau", where=where, expected=r"rows c & A, \hline, a row & b"
+            "rules that do not separate A from b", where=where, expected=r"rows c & A, \hline, a row & b"
         )
     return butcher(parts[0], [row[1:] for (row,) in parts[1:]])
 

@@ -41,6 +41,6 @@ def nested(text: str, opening: str, closing: str, where: str) -> Cells:
             cell += character
     if len(stack) != 1 or len(stack[0]) != 1 or cell.strip():
         raise TableauError(
-            f"brackets that do not pair in {text[:40]!r}", where=where, expected="rows of numbers"
+            f"brackets that do not match in {text[:40]!r}", where=where, expected="rows of numbers"
         )
     return stack[0][0]

@@ -1,6 +1,6 @@
-"""NumPy: an ``.npz`` archive with float64 arrays, and for each an array of exact texts (``A_exact``).
+"""NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
 
-In an archive without exact texts, the floats are read as decimals with all their digits.
+If an archive has no exact text for an array, its floats are read as decimals with all their digits.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ def nearest(text: str, roots: str = "{}") -> float:
         return cast("RealRing", tableau.ring).nearest_float(weight)
     except OverflowError:
         raise TableauError(
-            f"{text[:40]!r}, beyond the range of doubles", expected="format json, which holds everything"
+            f"{text[:40]!r}, beyond the range of doubles", expected="format json, which has no such limit"
         ) from None
 
 
@@ -140,10 +140,10 @@ def read(content: bytes, where: str) -> Data:
         entries[name] = exact.tolist()
         if not np.array_equal(np.array(floats(entries[name], str(members.get("numbers", "{}")))), value):
             raise TableauError(
-                f"{name} that is not {name}{EXACT}",
+                f"{name} that differs from {name}{EXACT}",
                 where=where,
-                expected="numbers that agree",
-                hint="drop one",
+                expected="equal numbers",
+                hint="correct or remove one of them",
             )
     return from_arrays(entries, where)
 

@@ -94,7 +94,7 @@ def read(content: bytes, where: str) -> Data:
     try:
         text = content.decode()
     except UnicodeDecodeError:
-        raise TableauError("bytes that are no UTF-8", where=where, expected="Python source") from None
+        raise TableauError("bytes that are not UTF-8", where=where, expected="Python source") from None
     entries = _header(text)
     for name, value in _assigned(re.sub(r"#.*", "", text), where):
         if name in ROWS + MATRICES:
@@ -139,7 +139,7 @@ def _closing(text: str, start: int, where: str) -> int:
         depth += 1 if bracket[0] == "[" else -1
         if depth == 0:
             return bracket.end()
-    raise TableauError("a list without an end", where=where, expected="rows of numbers")
+    raise TableauError("a list that is not closed", where=where, expected="rows of numbers")
 
 
 def _with_python_names(data: Data) -> Data:

@@ -26,5 +26,5 @@ def read(content: bytes, where: str) -> Data:
     """
     try:
         return parse_toml(content.decode())
-    except (ValueError, RecursionError) as problem:  # no TOML, no UTF-8, an integer of thousands of digits
+    except (ValueError, RecursionError) as problem:  # also invalid UTF-8
         raise TableauError(str(problem) or "nested too deep", where=where, expected="TOML") from None

@@ -2,7 +2,8 @@
 
 Tables and arrays cannot hold named numbers. Rounded decimals must keep their digits, which a computed ball
 would lose. So the method is built over a ring of expressions: the expressions of the file, and their sums and
-products where a format is expanded (low-storage schemes). Only operations with zero and one are simplified.
+products where a format is expanded (low-storage schemes). Only operations with the numbers 0 and 1 are
+simplified.
 """
 
 from __future__ import annotations
@@ -99,7 +100,7 @@ class UnevaluatedNumbers:
         return _unevaluated(p) / q
 
     def constant(self, value: Fraction, unit: Fraction) -> Unevaluated:
-        """Return a constant of the file."""
+        """Return the expression of a constant in the file."""
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
@@ -109,7 +110,7 @@ class UnevaluatedNumbers:
     def named_root(
         self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str
     ) -> Unevaluated:
-        """Return the root by its name."""
+        """Return the named root; it is represented by its name."""
         self._roots[name] = tuple(map(str, minpoly)), spell(Constant(near, unit)).rstrip("~")
         return Unevaluated(Name(name))
 
@@ -124,11 +125,11 @@ class UnevaluatedNumbers:
         return None
 
     def key(self, x: Unevaluated) -> tuple[str]:
-        """Return the text."""
+        """Return the text of x."""
         return (self.text(x),)
 
     def approximate(self, x: Unevaluated, digits: int = 20) -> str:
-        """Return the text, since nothing is evaluated."""
+        """Return the text of x, because nothing is evaluated."""
         return self.text(x)
 
     def text(self, x: Unevaluated) -> str:
@@ -136,7 +137,7 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient too long without names", expected="format json, which holds everything"
+                "a coefficient too long without names", expected="format json, which keeps names"
             )
         return text
 

@@ -1,10 +1,10 @@
 """Diagrams: vertices, edges and ordered branches, the form in which every kind of tree is drawn.
 
-A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the L of the action trees,
-which is no copy of the Hamiltonian). In words, a vertex is a *letter* or the *bracket* of two vertices. An
-edge is *plain*, or it points from a derivative in q to a derivative in p or mu, as in
-:mod:`orderconds.trees.directed`. It points *outward* if the branch is a velocity (a_ij), *inward* if the
-branch is a force (ahat_ij).
+A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the letter L of the action
+trees: a coadjoint action, not a derivative of the Hamiltonian). In words, a vertex is a *letter* or the
+*bracket* of two vertices. An edge is *plain*, or it points from a derivative in q to a derivative in p or mu,
+as in :mod:`orderconds.trees.directed`. It points *outward* if the branch is a velocity (a_ij), *inward* if
+the branch is a force (ahat_ij).
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ class Vertex:
     """A vertex with its branches from left to right.
 
     ``legs`` = (before, letters) means that the first ``letters`` branches are letters of one word, and that
-    the edge to the parent comes after ``before`` of them; None if there is no choice. ``label`` is the text
-    of a letter.
+    the edge to the parent is the letter after the first ``before`` of them. ``legs`` is None if the position
+    of this edge does not matter. ``label`` is the text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2

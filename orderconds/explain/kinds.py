@@ -27,8 +27,9 @@ class Kind:
 
     ``members`` enumerates the members of an order; ``count`` computes their number independently, from
     generating functions. ``text`` is the text of a member, ``diagram`` its drawing, ``names`` the text of its
-    elementary differential or Hamiltonian. A family illustrates the kind. If ``independent`` is true, the
-    members have an independent set of the family's conditions, otherwise all of them.
+    elementary differential or Hamiltonian. One family provides the conditions of the members. If
+    ``independent`` is true, the members correspond to an independent set of its conditions, otherwise to all
+    conditions.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -44,12 +45,14 @@ class Kind:
     independent: bool = False
 
     def family(self) -> Family:
-        """Return the family that illustrates this kind with its conditions."""
+        """Return the family whose conditions belong to the members of this kind."""
         for name in families.names():
             family = families.family_class(name)
             if self.name in family.illustrates:
                 return family()
-        raise UnknownName(f"no family illustrates the trees {self.name!r}", expected="a registered family")
+        raise UnknownName(
+            f"no family has conditions for the trees {self.name!r}", expected="a registered family"
+        )
 
     def conditions(self, order: int) -> dict[Member, OrderCondition]:
         """Return the family's condition of each member."""

@@ -12,8 +12,8 @@ from orderconds.explain.diagram import Diagram, Edge, Sign, Vertex
 class Style:
     """The characters of one drawing style.
 
-    ``fork`` and ``last`` join a branch to its parent, ``rail`` runs down beside the branches of a fork.
-    A force is followed by its position in the word at its vertex, ``(▸*▸)`` for f(t * u).
+    ``fork`` and ``last`` join a branch to its parent, and ``rail`` continues the line to the next branch.
+    A force f(t * u) is drawn with a note ``(▸*▸)``, which shows its position * in the word.
 
     >>> ASCII.signs["white"], UNICODE.signs["white"]
     ('o', '○')

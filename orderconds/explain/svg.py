@@ -1,7 +1,7 @@
 """Diagrams as SVG: the root below and branches above, as books draw them; many on one sheet, with captions.
 
-Coordinates are decimals with two digits, so that a drawing has the same bytes everywhere. Lines take the
-colour of the surrounding text (``currentColor``).
+Coordinates are decimals with two digits, so that a drawing has the same bytes on every platform. Lines take
+the colour of the surrounding text (``currentColor``).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ STEP = 18.0
 RADIUS = 3.5
 MARGIN = 10.0
 SIZE = 11.0
-"""The size in px of captions, of which a letter is 0.6 wide (monospaced)."""
+"""The font size of captions in px; a letter of the monospaced font is 0.6 times as wide."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Place branches as close as their outlines allow and parents above their middle.
+    r"""Place branches as close as their outlines allow, and each parent above the middle of its branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -61,7 +61,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # A note on the parent's place in a word is drawn right of the vertex and needs room.
+    # The note with the parent's place in a word needs room at the right of the vertex.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -69,7 +69,7 @@ def lay_out(vertex: Vertex) -> Layout:
 def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
     r"""Return an SVG document with all diagrams in rows, each above the lines of its caption.
 
-    The roots of a row are on one line. ``width`` is that of the sheet in px.
+    The roots of a row are on one line. ``width`` is the width of the sheet in px.
 
     >>> from orderconds.explain.diagram import plain
     >>> document = sheet([(plain(b"\0\1\1"), ["[..]"])])
@@ -165,7 +165,7 @@ def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: 
 
 
 def _room(vertex: Vertex) -> float:
-    """Return how far from a vertex its edges stop: a letter needs more room than a dot."""
+    """Return the distance in px from a vertex at which its edges end: a letter needs more room than a dot."""
     return {"letter": 2 * RADIUS, "bracket": 1.0}.get(vertex.sign, RADIUS)
 
 

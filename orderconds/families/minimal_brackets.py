@@ -1,7 +1,8 @@
-"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets, as compiled for ``rkmk`` without a cut-off.
+"""Runge-Kutta-Munthe-Kaas methods with the fewest brackets. ``rkmk`` without ``cutoff`` is compiled in this
+form.
 
-The conditions are equal to those of ``rkmk``, but their left-hand sides are values of the compiled program,
-from the Lie-Butcher series of the program. Hence the computed order is the order of the program.
+The conditions are equal to those of ``rkmk``, but their left-hand sides are computed from the Lie-Butcher
+series of the compiled program. Hence the computed order is the order of the program.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """A family with one member: a program of arguments and brackets.
+    """A family with one method, given by a program that computes exponents from stage values and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -33,9 +34,11 @@ class MinimalBrackets(MuntheKaasFamily):
         self.program = program
 
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the series of the program; ``method``, the tableau of the program, is not used."""
+        """Return the Lie-Butcher series of the program. ``method``, the tableau of the program, is not
+        used."""
         return BracketedSeries(ring, self.program)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None: the program is not RKMK with the whole of dexpinv."""
+        """Return None: the program computes arguments that differ from those of RKMK, so no theorem about
+        dexpinv applies."""
         return None

@@ -82,8 +82,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A tableau as a cache key. Tableaux with the same data for a proof are equal, so families share one
-    proof."""
+    """A tableau as a cache key. Tableaux with the same data for a proof are equal, so the checks of several
+    families share one proof."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -100,7 +100,7 @@ def _certify(key: _Key, least: int) -> Certificate:
     tableau = key.tableau
     proof = tableau.proof
     if proof is None:
-        raise NotProved("the file names no equations")
+        raise NotProved("the file names no equations; add a table [proof]")
     if not proof.unknowns:
         raise NotProved(
             'pins name every decimal, so that none is left as an unknown; pin fewer, or leave out "~"'

@@ -25,10 +25,11 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random members; most sub-families have few conditions."""
+"""The initial number of random methods of the sub-family; most sub-families have few independent
+conditions."""
 
 SPARE = 24
-"""The number of additional random members, which make an accidental dependence improbable."""
+"""The number of additional random methods, which make an accidental dependence improbable."""
 
 PRIME_BITS = 61
 """The size of the primes. Products of residues fit in a machine word, and one prime determines small
@@ -43,7 +44,7 @@ Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 
 @dataclass(frozen=True)
 class Dependences:
-    """The independent conditions, and the dependent ones as combinations of the former modulo several
+    """The independent conditions, and the dependent ones as combinations of independent ones modulo several
     primes."""
 
     pivots: tuple[OrderCondition, ...]
@@ -232,7 +233,7 @@ class _Members(Samples):
 
 
 class _NoRoot(Exception):
-    """A number has no square root modulo a prime: another prime is needed."""
+    """The error if a number has no square root modulo the prime; another prime is then needed."""
 
 
 def _root_modulo(x: Fraction, prime: int) -> int:

@@ -121,7 +121,7 @@ def equations(tableau: Tableau) -> Equations:
     """
     proof = tableau.proof
     if proof is None:
-        raise NotProved("the file names no equations")
+        raise NotProved("the file names no equations; add a table [proof]")
     if proof.reduction == "simplifying":
         order = simplifying_order(**{key: proof.assumptions.get(key, 0) for key in "BCD"})
         return Equations(tableau, proof, (("rk", _reached(proof, order)),))
@@ -130,17 +130,19 @@ def equations(tableau: Tableau) -> Equations:
             raise NotProved("reduction: the method is not symmetric for all values of its decimals")
         if proof.order % 2:
             raise NotProved(
-                f"reduction: the order of a symmetric method is even, the file says {proof.order}"
+                f"reduction: the order of a symmetric method is even, but [proof] has order = {proof.order}"
             )
         own, named = families.get(tableau.family), families.get(proof.conditions)
         family = named if own.symmetric_family(tableau.method) is None else own
         return Equations(tableau, proof, family.symmetric_facts(proof.order), _letters(tableau, proof))
     if proof.reduction == "low-storage":
         if not any(place.startswith("low_storage.") for place in proof.symbolic.expressions):
-            raise NotProved("reduction: the file gives no low_storage scheme")
+            raise NotProved("reduction: the file has no table low_storage")
         implied = families.get(proof.conditions).low_storage
         if not implied or proof.order > LOW_STORAGE_ORDER:
-            raise NotProved(f'reduction: low-storage takes conditions = "rk" up to order {LOW_STORAGE_ORDER}')
+            raise NotProved(
+                f'reduction: low-storage requires conditions = "rk" up to order {LOW_STORAGE_ORDER}'
+            )
         return Equations(tableau, proof, tuple((label, proof.order) for label in implied))
     fact = (families.get(proof.conditions).label(), proof.order)
     kept = _independent(tableau, proof) if proof.reduction == "spelling" else None
@@ -175,7 +177,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     try:
         ring, values = evaluate(nodes, exact, symbolic.where)
-    except TableauError:  # a node depends on a decimal
+    except TableauError:  # a node depends on a rounded decimal
         return None
     return method.s if gauss_nodes(list(values.values()), ring) else None
 
@@ -201,7 +203,7 @@ def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
 
 def _reached(proof: Proof, order: int) -> int:
     if proof.order > order:
-        raise NotProved(f"reduction: it implies order {order}, the file says {proof.order}")
+        raise NotProved(f"reduction: it implies order {order}, but [proof] has order = {proof.order}")
     return proof.order
 
 

@@ -1,7 +1,8 @@
-"""Exact values of conditions at one random member of the sub-family of a file, to verify combinations.
+"""Exact values of conditions at one random method, to verify linear combinations of conditions.
 
-The module :mod:`orderconds.tableau.random_member` draws the member. Its coefficients are in Q, or in
-Q(sqrt(d)) if the square root of a rational number is the only radical of the file.
+A file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is a method
+of this sub-family. :mod:`orderconds.tableau.random_member` draws a random member. The coefficients of the
+member are in Q, or in Q(sqrt(d)) if the square root of a rational number is the only radical of the file.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ Reading = Callable[[Method, Ring], Method]
 """A function from the method of a file over a ring to the method that a family evaluates."""
 
 Monomial = tuple[OrderCondition, ...]
-"""Conditions; the monomial is the product of their left-hand sides."""
+"""A monomial, given by its conditions: the product of their left-hand sides."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
 """Monomials with their coefficients x + y sqrt(d)."""
@@ -81,7 +82,11 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Whether a condition holds at this member, hence at every member."""
+        """Whether a condition holds at this member.
+
+        Because the member is random, the condition then holds at every member, except with negligible
+        probability (:mod:`orderconds.tableau.random_member`).
+        """
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:

@@ -1,8 +1,8 @@
 """Theorems that derive the order in one family from proved orders in others, with their sources.
 
-A fact is (label of a family, order). ``cg`` 4 implies ``rk`` 4, since a vector space is a group. The theorems
-are attributes and methods of the families: :attr:`~orderconds.families.Family.implies` and
-:meth:`~orderconds.families.Family.implied_order`.
+A fact (label of a family, order) means that a method has at least this order in the family. ``cg`` 4 implies
+``rk`` 4, since a vector space is a group. The theorems are attributes and methods of the families:
+:attr:`~orderconds.families.Family.implies` and :meth:`~orderconds.families.Family.implied_order`.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return the orders by label of all families whose conditions are a subset of the conditions of a family
+    """Return the implied orders, by label, in all families whose conditions are a subset of those of a family
     in ``facts``.
 
     >>> consequences([("vrkmk(1)", 3)])

@@ -20,8 +20,8 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""A system of n functions of n variables: maps jets of the variables, and the ring of jets, to jets of the
-values."""
+"""A system of n functions of n variables: its arguments are jets of the variables and the ring of jets; it
+returns jets of the values."""
 
 MAX_SWEEPS = 40
 
@@ -45,8 +45,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
         for i, (inner, outer) in enumerate(zip(image, box, strict=True)):
             if not outer.contains_interior(inner):
                 raise NotProved(
-                    f"the box is not mapped into itself: unknown {i + 1} leaves {outer.str(12)} "
-                    f"for {inner.str(12)}"
+                    f"the box is not mapped into itself: Krawczyk's operator maps unknown {i + 1} "
+                    f"from {outer.str(12)} to {inner.str(12)}"
                 )
         for _ in range(MAX_SWEEPS):
             sharper = [x.intersection(y) for x, y in zip(image, _image(system, image), strict=True)]

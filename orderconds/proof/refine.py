@@ -26,7 +26,7 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""The largest change of a number; a larger one would lead to another method."""
+"""The largest accepted change of a decimal; a larger change would lead to another method."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ class Refined:
 
 
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
-    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and with the pinned
-    decimals.
+    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and with the list of
+    pinned decimals.
 
     The original digits are recorded as ``printed``, unless the file already has a table of this name. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` where Newton's method does not converge nearby.
@@ -61,7 +61,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # The constant equations are recognised over a box, not at a point.
+        # Equations without unknowns are recognised over a box, not at a point.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -116,11 +116,11 @@ def _newton(
         try:
             step = jacobian.solve(arb_mat(len(kept), 1, [values[i].value.mid() for i in kept]))
         except ZeroDivisionError:
-            raise NotProved("Newton's method met a singular Jacobian") from None
+            raise NotProved("Newton's method failed: its Jacobian is singular") from None
         for place, j in enumerate(free):
             point[j] = (point[j] - step[place, 0]).mid()
             if not abs(point[j] - start[j]) < arb(TOLERANCE):
-                raise NotProved("Newton's method leaves the decimals: they solve no such equations")
+                raise NotProved("Newton's method leaves the decimals: they are not near a solution")
         if all(abs(step[place, 0]).upper() < arb(10) ** -(digits + 5) for place in range(len(free))):
             return [decimal_places(point[j], digits) for j in free]
     raise NotProved("Newton's method does not converge from the decimals")

@@ -1,11 +1,11 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The value of a tree, for every method of the family and for the flow, is a combination of monomials of its
-degree in the values of independent trees. Trees with the same unrooted tree have the same value. For the
-other trees, the coefficients of the combination solve linear equations at random methods. These are solved
-modulo two primes, and the fractions are recovered from the residues. Three relations of order 4 hold for VCG
-but not for VCF. They follow from ``psi_{L(H|L)} = 3 psi_{L(HH)}
-- psi_{L(H)}^2``.
+The value of a tree with n vertices, for every method of the family and for the flow, is a linear combination
+of monomials of degree n in the values of independent trees. Trees with the same unrooted tree have the same
+value. For all other trees, values at random methods give linear equations for the coefficients. The equations
+are solved modulo two primes, and the rational coefficients are reconstructed from the residues. Three
+relations of order 4 hold for VCG but not for VCF. These three follow from the equation ``psi_{L(H|L)} = 3
+psi_{L(HH)} - psi_{L(H)}^2``.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial: a coefficient and the trees whose values are multiplied."""
+"""The terms of a polynomial. Each term is a coefficient and the trees whose values are multiplied."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return the polynomial that each dependent tree of the last order equals.
+    """Return each dependent tree of the last order, with the polynomial that is equal to its value.
 
-    ``independent`` are the independent trees of each order 1, 2, ..., by
-    :func:`orderconds.series.action_rank.independent_trees`. The result is exact, except with a probability of
-    about 10^-8 that every sample hides a difference. The tests verify the relations over Q at other methods.
+    ``independent`` contains the independent trees of each order 1, 2, ..., from
+    :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
+    10^-8. The tests verify the relations over Q at other methods.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -69,7 +69,7 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return each tree's coefficients modulo a prime, by the place of the monomial."""
+    """Return, for each tree, its coefficients modulo a prime. The keys are the indices of the monomials."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:
@@ -82,7 +82,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees with that many vertices in all, the fewest factors last."""
+    """Yield the multisets of trees with ``vertices`` vertices in total; multisets with the fewest factors
+    come last."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

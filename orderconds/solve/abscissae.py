@@ -1,4 +1,4 @@
-"""Tableaux with equal abscissae, c_i = chat_i = m_i; the update passes stage i at the time m_i.
+"""Tableaux whose three abscissae are equal: c_i = chat_i = m_i.
 
 A stage of a variational method on a group has three abscissae: c_i for the position q, chat_i for the forces
 on the momentum, and m_i for the transport of the momentum by Ad* through the update:
@@ -7,9 +7,9 @@ on the momentum, and m_i for the transport of the momentum by Ad* through the up
 
 For Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i
 x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0, and likewise for
-chat. If the weights are positive, the three abscissae are equal. In practice they are equal in other
-solutions too. For a given update, row i of A then sums to m_i, and the weighted column j sums to b_j (1 -
-m_j). This transport problem is solved along a spanning tree of the free entries.
+chat. If the weights are positive, the three abscissae are equal. In practice the three abscissae are equal in
+solutions with negative weights too. For a given update, row i of A then sums to m_i, and the weighted column
+j sums to b_j (1 - m_j). This transport problem is solved along a spanning tree of the free entries.
 """
 
 from __future__ import annotations
@@ -111,9 +111,10 @@ def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
 def symmetric_transport(
     own: Sequence[Sequence[str]], leave: Sequence[int], update: Sequence[Sequence[str]], middle: Sequence[str]
 ) -> dict[str, str]:
-    """Return the entries of x, the sums of each stage's own exponents, that the abscissae determine.
+    """Return formulas for those entries x_ij of sums of exponents that the abscissae determine.
 
-    The method is symmetric (:mod:`orderconds.solve.paths`). ``own`` are the rows x_i of the stages before the
+    The method is symmetric (:mod:`orderconds.solve.paths`). x_ij is the sum of the j-th entries of the
+    exponents of stage i after it branches off the update; ``own`` are the rows x_i of the stages before the
     middle. Stage i branches off ``update`` after ``leave[i]`` exponentials. ``middle`` is the row of a middle
     stage, if there is one. Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j; it
     is solved for the last row of ``own``. Each row equation is solved for one entry.

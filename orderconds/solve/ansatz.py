@@ -1,8 +1,8 @@
 """An ansatz: a tableau file whose decimals are the unknowns of a search.
 
 The file contains the coefficients of a method with a given number of stages, named a21, b1, ... and related
-by constraints. It is evaluated over recorded programs for the search, modulo primes for ranks, and over balls
-for the proof.
+by constraints. The file is evaluated over recorded programs for the search, modulo primes for ranks of
+conditions, and over balls for the proof.
 """
 
 from __future__ import annotations

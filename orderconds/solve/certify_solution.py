@@ -46,8 +46,8 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Free coefficients are rounded to multiples of one of these units, the coarsest that leaves a good
-solution."""
+"""Free coefficients are rounded to multiples of the coarsest of these units for which a good solution
+remains."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
 """The units after the principal error was minimised. Near a minimum, rounding hardly changes the error."""
@@ -206,7 +206,7 @@ def _newton(
             try:
                 step = jacobian.solve(arb_mat(len(rows), 1, [f.value.mid() for f in at]))
             except ZeroDivisionError:
-                raise NotProved("Newton's method met a singular Jacobian") from None
+                raise NotProved("Newton's method failed: its Jacobian is singular") from None
             for k, j in enumerate(solved):
                 values[j] = (values[j] - step[k, 0]).mid()
             size = max(float(abs(step[k, 0]).mid()) for k in range(len(rows)))

@@ -27,8 +27,8 @@ MAX_TEXT = 160
 
 @dataclass(frozen=True)
 class ClosedForm:
-    """The ``text`` of a number in a tableau file. The lines ``root`` define the number ``r`` if the text
-    contains it."""
+    """The ``text`` of a number in a tableau file. If the text contains the name ``r``, the lines ``root``
+    define this number."""
 
     text: str
     root: tuple[str, ...] = ()
@@ -37,7 +37,7 @@ class ClosedForm:
 def closed_forms(
     numbers: Mapping[str, arb], bits: int, radicals: Mapping[str, arb] | None = None
 ) -> dict[str, ClosedForm] | None:
-    """Return all of the numbers as elements of one field of degree at most :data:`MAX_DEGREE`, or None.
+    """Return all numbers as elements of one field of degree at most :data:`MAX_DEGREE`, or None.
 
     ``bits`` is the precision to which the numbers are known. ``radicals`` are square roots that the numbers
     may contain, by their text. They may extend the field that the number of least degree generates.
@@ -146,7 +146,7 @@ def _relation(values: Sequence[arb], bits: int) -> list[int] | None:
         rows.append([int(k == j) for j in range(len(values))] + [int((low * fmpq(scale)).round())])
     reduced = fmpz_mat(rows).lll()
     shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
-    # Random shortest vectors have a length near a root of the determinant; true relations are much shorter.
+    # Without a relation, the shortest vector has about the length det^(1/n); a relation is much shorter.
     longest = max(abs(c) for c in shortest).bit_length()
     if 2 * longest * (len(values) + 1) > known:
         return None

@@ -42,7 +42,7 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
             except (OSError, CancelledError, TimeoutError, KilledWorker) as problem:
                 killed = isinstance(problem, KilledWorker)
                 raise InputError(
-                    "its workers die" if killed else "the scheduler no longer answers",
+                    "workers of the cluster die" if killed else "the scheduler no longer answers",
                     where=f"--dask {address}",
                     expected="a cluster that runs until the end",
                     hint="restart the cluster and repeat the command; a checkpoint keeps finished batches",
@@ -58,13 +58,13 @@ def _client(address: str) -> Any:
         from distributed import Client
     except ImportError:
         raise InputError(
-            "dask's distributed is not installed",
+            "the package distributed (dask) is not installed",
             where="--dask",
             expected="pip install 'orderconds[cluster]'",
         ) from None
     try:
         return Client(address, timeout=TIMEOUT)
-    except (OSError, ValueError, TimeoutError, TypeError) as problem:  # TypeError: tls without certificates
+    except (OSError, ValueError, TimeoutError, TypeError) as problem:  # TypeError: tls without a certificate
         raise InputError(
             f"no cluster answers ({_words(problem)})",
             where=f"--dask {address}",

@@ -105,7 +105,7 @@ def _conditions(problem: Problem) -> tuple[OrderCondition, ...]:
 
 
 def _numerator(x: Laurent | fmpq_mpoly, plain: Polynomials) -> fmpq_mpoly:
-    """Return a polynomial that vanishes with ``x`` wherever ``x`` is defined."""
+    """Return the numerator of ``x``, which is zero wherever ``x`` is defined and zero."""
     numerator = x.numerator if isinstance(x, Laurent) else x
     return plain.zero.context().from_dict({tuple(map(int, e)): c for e, c in numerator.terms()})
 

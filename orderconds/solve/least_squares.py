@@ -13,7 +13,7 @@ import numpy as np
 from orderconds.solve.tape import Floats
 
 System = Callable[[Floats], tuple[Floats, Floats]]
-"""A function of points x n; returns residuals, points x m, and Jacobians, points x m x n."""
+"""A function of an array points x n; it returns residuals (points x m) and Jacobians (points x m x n)."""
 
 SOLVED = 1e-13
 """The residual norm of a solved system; a smaller norm may be a rounding error."""

@@ -1,6 +1,6 @@
 """Linear constraints on the coefficients of a tableau, eliminated exactly, one after another. If a constraint
-contradicts earlier ones, the error message names it. The result is a set of free coefficients; all other
-coefficients are affine functions of the free ones.
+contradicts earlier constraints, the error message names this constraint. The result is a set of free
+coefficients; all other coefficients are affine functions of the free ones.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ class Constraint:
 
 @dataclass
 class Elimination:
-    """The elimination of coefficients ``names``; each constraint expresses one of them in terms of others.
+    """The elimination of coefficients ``names``; each constraint expresses one coefficient in terms of
+    others.
 
     >>> elimination = Elimination(("a", "b", "c"))
     >>> elimination.impose([equality("c = a + 1/2"), equality("b = a")])
@@ -58,7 +59,7 @@ class Elimination:
                     raise InputError(
                         f"{constraint.text} contradicts the other constraints",
                         where="constraints",
-                        expected="constraints that some tableau meets",
+                        expected="constraints that some tableau satisfies",
                     )
                 continue
             pivot = max(unknown, key=rank.__getitem__)

@@ -1,8 +1,8 @@
 """Minimise the principal error over a family of solutions, by Gauss-Newton steps in the tangent space.
 
 Each step p solves the linearised conditions, F + F' p = 0. Among these solutions it minimises |E + E' p|^2 +
-damping |p|^2. A few Newton steps then return to the family. This is sequential quadratic programming with the
-Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*, Section 18.4).
+damping |p|^2. A few Newton steps then lead back to a solution. This is sequential quadratic programming with
+the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*, Section 18.4).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ PATIENCE = 12
 
 
 def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[Floats, float]:
-    """Return a solution near ``point`` with least principal error, and the error; ``point`` solves the
+    """Return a solution near ``point`` with least principal error, and this error; ``point`` must solve the
     conditions.
 
     >>> from orderconds.solve.spec import Spec

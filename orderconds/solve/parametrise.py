@@ -23,7 +23,7 @@ from orderconds.solve.spec import Spec, refuse
 
 
 def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
-    """Return the coefficients after elimination of the constraints of a layout and of ``--fix``."""
+    """Return the coefficients after elimination of the given constraints and of the constraints ``--fix``."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text) for text in spec.fix]
     for constraint in fixed:
@@ -131,7 +131,7 @@ def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, st
             values[name] = spell(form)
         elif name in elimination.solved:
             raise InputError(
-                f"{name} = {spell(form)}", where=WHERE, expected="entries of A that are numbers or free"
+                f"{name} = {spell(form)}", where=WHERE, expected="each entry of A either a number or free"
             )
     return values
 
@@ -182,15 +182,15 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums a_ij of exponents with the required abscissae, and for the last
-    exponentials of the stages."""
+    """Return formulas for the sums a_ij of each stage's exponents that give the required abscissae, and for
+    the last exponents of the stages."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="no fixed coefficients of stages",
+                expected="no constraint that fixes coefficients of stages",
             )
     A = [[named("a", i, j) for j in every] for i in every]
     b = [named("b", i) for i in every]
@@ -231,11 +231,11 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums x_ij of the exponents of each stage with the required abscissae, and for
-    the last exponents."""
+    """Return formulas for the sums x_ij of each stage's exponents that give the required abscissae, and for
+    the last exponents of the stages."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
-        raise InputError("one stage", where=WHERE, expected="at least two")
+        raise InputError("one stage", where=WHERE, expected="at least two stages")
     cells = _Cells(elimination)
     b = [named("b", i) for i in range(1, s + 1)]
     written = [[cells.written(x) for x in line] for line in update]
@@ -247,7 +247,7 @@ def _symmetric_abscissae(
             raise InputError(
                 f"{name} = {spell(elimination.cell(name))}",
                 where=WHERE,
-                expected="no fixed coefficients of stages",
+                expected="no constraint that fixes coefficients of stages",
             )
     middle: list[str] = []
     extra = commutator_free_times(written, b)
@@ -307,7 +307,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 
 
 def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of splittings T + V that begin and end with T.
+    """Return the ansatz of splittings of T + V whose first and last flows are flows of T.
 
     >>> from orderconds.families import get
     >>> splitting(get("splitting"), Spec(stages=1), "full", "m").free

@@ -1,4 +1,4 @@
-"""The exponentials of commutator-free methods, with free coefficients or for symmetric methods.
+"""The exponentials of commutator-free methods, with all coefficients free or with the symmetric form.
 
 Let a method have s stages and m exponentials in the update, and let bar exchange stages j and s + 1 - j. The
 method is symmetric under two conditions. First, reversing the order of the exponentials and applying bar does
@@ -60,9 +60,7 @@ def symmetric_paths(spec: Spec) -> Paths:
     ([['b1_1', 'b1_2'], ['a1_2_1', 'a1_2_2']], [['b1_1', 'b1_2'], ['b2_1', 'b2_2']])
     """
     if spec.explicit:
-        raise InputError(
-            "--explicit with --symmetric", where="constraints", expected="one of them: no symmetric method is"
-        )
+        raise InputError("--explicit with --symmetric", where="constraints", expected="at most one of them")
     s, m, inner = spec.stages, spec.exponentials, spec.inner
     every = range(1, s + 1)
     update = [[f"b{J}_{j}" for j in every] for J in range(1, m + 1)]

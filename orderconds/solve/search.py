@@ -41,8 +41,7 @@ CHEAP = 4
 
 
 SINGULAR = 1e6
-"""A penalty on the score of solutions at which the gradients of the conditions are dependent; they come
-last."""
+"""A penalty on the score of singular solutions, where the gradients of the conditions are dependent."""
 
 
 @dataclass(frozen=True)
@@ -151,7 +150,9 @@ class Checkpoint:
             ) from None
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             raise InputError(
-                "no checkpoint of a search", where=str(self.path), expected="what an interrupted search left"
+                "not a checkpoint of a search",
+                where=str(self.path),
+                expected="the file of an interrupted search",
             ) from None
         if not same:
             raise InputError(
@@ -188,7 +189,7 @@ def write_whole(path: Path, text: str) -> None:
     'text'
     """
     if path.is_symlink() or (path.exists() and not path.is_file()):
-        raise InputError("no regular file", where=str(path), expected="a file that can be written")
+        raise InputError("not a regular file", where=str(path), expected="a file that can be written")
     try:
         write_files({path: text.encode()})
     except OSError as problem:

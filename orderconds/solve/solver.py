@@ -1,4 +1,4 @@
-"""The whole search: prove that no method exists, or search and return the best method with a proof."""
+"""Prove that no method exists, or search for methods and return the best one with a proof."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """A recorded program compiled for numpy: values and exact Jacobians at many points together.
 
-The operations that the outputs need are sorted into levels, each depending on earlier levels only. A few
-calls of numpy evaluate a level with any number of operations. The Jacobian is computed by forward
+The operations that the outputs need are sorted into levels; the operations of a level depend on earlier
+levels only. A few calls of numpy evaluate all operations of a level. The Jacobian is computed by forward
 differentiation: the gradient of each operation is computed with its value.
 """
 
@@ -50,7 +50,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        wanted = [x.placed() for x in outputs]  # this call records the constants
+        wanted = [x.placed() for x in outputs]  # placed() also records the constants
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
         place = {operation: row for row, operation in enumerate(rows)}

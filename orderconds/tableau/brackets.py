@@ -1,6 +1,6 @@
 """The text of Lie algebra elements over numbered nodes: ``"[2,1]"``, ``"[a, [1, b]]"``, ``"S*S*S"``.
 
-A number denotes the field at the node of that number, and a name denotes a Lie element defined earlier. The
+The number i denotes the field at node i, and a name denotes a Lie element defined earlier. The
 commutator is ``[x,y] = x y - y x``. Products are allowed only in methods for quadratic groups (Cayley).
 """
 
@@ -104,7 +104,7 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return the function that gives the least and the greatest number of nodes in a term's products.
+    """Return a function: a term -> the least and the greatest number of nodes in the products it expands to.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)
@@ -134,7 +134,7 @@ def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, 
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Return a combination of terms as words of nodes in the order of action, zeros left out.
+    """Return a combination of terms as words of nodes in the order of action, without zero coefficients.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)
@@ -207,13 +207,13 @@ def _factor(tokens: list[str], place: int, text: str, where: str, depth: int) ->
     if token.isdigit():
         return int(token) - 1, place + 1
     if token in ",]*":
-        raise _error(f"{token!r} where a term begins in {text[:80]!r}", where)
+        raise _error(f"{token!r} in place of a term in {text[:80]!r}", where)
     return token, place + 1
 
 
 def _expect(token: str, tokens: list[str], place: int, text: str, where: str) -> int:
     if place == len(tokens) or tokens[place] != token:
-        raise _error(f"no {token!r} where it is due in {text[:80]!r}", where)
+        raise _error(f"a missing {token!r} in {text[:80]!r}", where)
     return place + 1
 
 

@@ -8,15 +8,16 @@ of these rules, in which l_j are the Lagrange polynomials of the nodes:
 rows                C(s): a_ij is the integral of l_j from 0 to c_i, as in collocation
 columns             D(s): a_ij is b_j / b_i times the integral of l_i from c_j to 1
 first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher's Lobatto III)
-mean                of two of the others (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
+mean                the mean of two such matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
 Two kinds have an embedded row for step-size control. The row is the quadrature of order s - 1 that leaves out
-one node: the last node for Radau IIA, the (first) middle node for Lobatto IIIA. The two updates differ by a
-multiple of the stages' divided difference. The stages of collocation methods, and hence this estimate, stay
-accurate for stiff equations; the stages of methods of low stage order do not.
+one node: the last node for Radau IIA, the (first) middle node for Lobatto IIIA. The update and the embedded
+update differ by a multiple of the divided difference of the stages. The stages of collocation methods, and
+hence this estimate, stay accurate for stiff equations; the stages of methods of low stage order do not.
 
-No coefficient is typed in: nodes are algebraic numbers, and the rest is rational arithmetic with them.
+All coefficients are computed: the nodes are algebraic numbers, and the other coefficients follow from them by
+rational arithmetic.
 
 Sources: Hairer and Wanner, *Solving Ordinary Differential Equations II*, Section IV.5; Jay, *Lobatto
 methods*, Encyclopedia of Applied and Computational Mathematics, 2015.
@@ -44,8 +45,8 @@ Matrix = list[list[Algebraic]]
 class Nodes:
     """The nodes c, ascending, as numbers of one field, with the weights and Lagrange polynomials over them.
 
-    ``ends`` is the number of nodes among the ends 0 and 1 of the interval. M is the derivative of order
-    s - ends of x^(s - right) (x - 1)^(s - left), so the ends that are nodes are roots of M.
+    ``left`` is true if 0 is a node, ``right`` if 1 is a node, and ends = left + right. M is the derivative of
+    order s - ends of x^(s - right) (x - 1)^(s - left); hence 0 and 1 are roots of M if they are nodes.
     """
 
     def __init__(self, s: int, left: bool, right: bool) -> None:
@@ -95,18 +96,18 @@ class Nodes:
         return [x - share * y for x, y in zip(self.b, leading, strict=True)]
 
     def rows(self) -> Matrix:
-        """Return the A of C(s)."""
+        """Return the matrix A that satisfies C(s)."""
         return [[self.integral(j, x) for j in range(self.s)] for x in self.c]
 
     def columns(self) -> Matrix:
-        """Return the A of D(s)."""
+        """Return the matrix A that satisfies D(s)."""
         b, stages = self.b, range(self.s)
         return [[b[j] / b[i] * (b[i] - self.integral(i, self.c[j])) for j in stages] for i in stages]
 
     def column(self, k: int, value: Algebraic) -> Matrix:
-        """Return the A of C(s - 1) whose column k is ``value`` in each row.
+        """Return the matrix A that satisfies C(s - 1) and has ``value`` in every entry of column k.
 
-        The rows that satisfy C(s - 1) differ by multiples of the leading coefficients of l_1, ..., l_s.
+        Two rows that satisfy C(s - 1) differ by a multiple of the leading coefficients of l_1, ..., l_s.
         """
         leading = [polynomial[-1] for polynomial in self.lagrange]
         return [
@@ -115,11 +116,11 @@ class Nodes:
         ]
 
     def first_column(self) -> Matrix:
-        """Return the A of Lobatto IIIC."""
+        """Return the matrix A of Lobatto IIIC."""
         return self.column(0, self.b[0])
 
     def last_column(self) -> Matrix:
-        """Return the A of Lobatto IIIC*."""
+        """Return the matrix A of Lobatto IIIC*."""
         return self.column(self.s - 1, self.tower.field.zero)
 
 
@@ -142,7 +143,7 @@ def middle(s: int) -> int:
 
 
 def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Callable[[Nodes], Matrix]:
-    """Return the rule that takes the mean of two matrices.
+    """Return the rule whose matrix is the mean of the matrices of two other rules.
 
     >>> rule = mean(Nodes.first_column, Nodes.last_column)
     >>> rule(Nodes(2, True, True))[0]
@@ -241,9 +242,9 @@ def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
 
 
 def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
-    """Return the roots of a polynomial with real roots only, as radicals where squares suffice.
+    """Return the roots of a polynomial that has only real roots, by square roots where these suffice.
 
-    Roots of irreducible factors beyond those are named c1, c2, ... in ascending order.
+    Roots that square roots do not express are named c1, c2, ... in ascending order.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

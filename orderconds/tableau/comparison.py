@@ -1,4 +1,4 @@
-"""Compare the coefficients of two tableaux, up to their digits."""
+"""Compare the coefficients of two tableaux, up to the uncertainty of rounded decimals."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
 
 
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
-    """Return enclosures of the coefficients, those of the embedded row last."""
+    """Return enclosures of all coefficients; the embedded row comes last."""
     enclosures: list[tuple[fmpq, fmpq]] = []
     ring = cast("Rationals | NumberField | Balls", tableau.ring)
 

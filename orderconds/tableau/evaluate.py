@@ -1,8 +1,9 @@
-"""Coefficients of one file evaluated in one ring: Q, the number field their radicals generate, or balls.
+"""Evaluate the coefficients of a file in one ring: Q, the number field of their radicals, or balls.
 
 The coefficients determine the ring: rationals stay rational; radicals and named roots build a number field,
-of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. With a ``~`` anywhere, or a larger degree, all
-coefficients become balls. Equal expressions in one file denote one number and share one element.
+of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If a coefficient contains ``~``, or if the degree
+would be larger, all coefficients become balls. Equal expressions in one file denote one number and share one
+element.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.grammar import MAX_DEPTH, Chain, Constant, Expression, Name, Power
 
 MAX_SIZE = 40_000
-"""No intermediate value may need integers of more bits than this."""
+"""The maximal size, in bits, of the integers in an intermediate value."""
 
 
 class NamedRoot(Struct, frozen=True):
@@ -41,10 +42,10 @@ class Scalars(Protocol):
         """Return the real root; ValueError for an even root of a negative number."""
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
-        """Return the one real root within a unit of ``near``; ValueError unless there is exactly one."""
+        """Return the real root within ``unit`` of ``near``; ValueError unless there is exactly one."""
 
     def size(self, x: Element) -> int:
-        """Return the bits of the largest integer in the representation of x."""
+        """Return the number of bits of the largest integer in the representation of x."""
 
 
 def evaluate(
@@ -68,7 +69,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            evaluation.check_unused()  # only now: unused numbers must not enlarge the ring
+            evaluation.check_unused()  # evaluated last: unused numbers must not enlarge the ring
             return ring, _shared(values, lift)
         except DegreeError:
             pass
@@ -84,7 +85,7 @@ def evaluate(
 def evaluate_in(
     scalars: Scalars, expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> dict[str, Element]:
-    """Evaluate expressions in given scalars; raises :class:`TableauError`.
+    """Evaluate expressions in the ring ``scalars``; raises :class:`TableauError`.
 
     >>> from orderconds.ring.balls import Balls
     >>> from orderconds.tableau.grammar import parse
@@ -154,7 +155,7 @@ class _Evaluation:
 
     def bounded(self, value: Element) -> Element:
         if self.scalars.size(value) > MAX_SIZE:
-            raise self.error("an exploding number", f"values whose integers have at most {MAX_SIZE} bits")
+            raise self.error("a number that grows too large", f"integers of at most {MAX_SIZE} bits")
         return value
 
     def compute(self, x: Expression) -> Element:
@@ -183,7 +184,7 @@ class _Evaluation:
 
     def power(self, base: Element, exponent: Fraction) -> Element:
         if self.scalars.size(base) * abs(exponent.numerator) > MAX_SIZE:
-            raise self.error(f"an exploding power ^{exponent}", f"results of at most {MAX_SIZE} bits")
+            raise self.error(f"a power ^{exponent} that grows too large", f"at most {MAX_SIZE} bits")
         try:
             root = self.scalars.root(base, exponent.denominator) if exponent.denominator > 1 else base
             return root**exponent.numerator
@@ -197,11 +198,11 @@ class _Evaluation:
             defined = ", ".join(self.numbers) or "none"
             raise self.error(f"the name {name!r}", f"a number, or a name defined under numbers ({defined})")
         if name in self.open:
-            raise self.error(f"numbers defined in a circle: {' -> '.join([*self.open, name])}", "no circle")
+            raise self.error(f"circular definitions: {' -> '.join([*self.open, name])}", "no cycle")
         if len(self.open) >= MAX_DEPTH:
             first, second = self.open[:2]
             raise self.error(
-                f"numbers defined one by another {MAX_DEPTH} deep: {first} -> {second} -> ... -> {name}",
+                f"a chain of more than {MAX_DEPTH} definitions: {first} -> {second} -> ... -> {name}",
                 "a shorter chain",
             )
         definition = self.numbers[name]

@@ -36,9 +36,10 @@ from orderconds.tableau.unknowns import Proof, SymbolicCoefficients
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
-"""A file with one of these keys is taken for a tableau."""
+"""Keys that identify a tableau: a TOML file with one of them is read as a tableau file."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-"""Characters that end lines invisibly or change the direction of writing, without tab and newline."""
+"""Control characters, invisible line ends and changes of the direction of writing; tab and newline are
+allowed."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -52,7 +53,8 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """A tableau file: its keys and values, untyped (``data``) and typed (``entry``), and what they define."""
+    """A tableau file: its keys and values, untyped (``data``) and typed (``entry``), and the method they
+    define."""
 
     data: Mapping[str, object]
     entry: Format
@@ -75,7 +77,7 @@ def text_of(path: str | Path) -> str:
         return bytes_of(path).decode("utf-8")
     except UnicodeDecodeError:
         raise TableauError(
-            "bytes that are no UTF-8", where=str(path), expected="a tableau file (TOML)"
+            "bytes that are not UTF-8", where=str(path), expected="a tableau file (TOML)"
         ) from None
 
 
@@ -87,7 +89,7 @@ def bytes_of(path: str | Path) -> bytes:
     b'name'
     """
     content = read_bytes(path, "a tableau file", error=TableauError)
-    return content.removeprefix(BOM_UTF8)  # some editors and spreadsheets begin a file with this mark
+    return content.removeprefix(BOM_UTF8)  # the byte order mark, which some editors and spreadsheets write
 
 
 def meant_as_tableau(path: str | Path) -> bool:
@@ -116,18 +118,18 @@ def parsed(text: str, where: str) -> Data:
             str(problem), where=where, expected="a TOML file in which each key occurs once"
         ) from None
     except RecursionError:
-        raise TableauError("TOML nested too deep", where=where, expected="a table or list or two") from None
-    # Python raises it for an integer of more than some thousand digits and for a date outside the calendar.
+        raise TableauError("TOML nested too deep", where=where, expected="shallow tables and lists") from None
+    # Python raises ValueError for an integer with thousands of digits and for a date outside the calendar.
     except ValueError:
         raise TableauError(
             "an integer of thousands of digits, or an impossible date",
             where=where,
-            expected='coefficients quoted, as "1/2"',
+            expected='coefficients in quotation marks, as "1/2"',
         ) from None
 
 
 def read(data: Mapping[str, object], where: str) -> File:
-    """Return the content of a file from its keys and values, as TOML or JSON give them.
+    """Return the typed content of a file, given its keys and values as parsed from TOML or JSON.
 
     >>> read({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}, "data").method
     RungeKutta(A=((0,),), b=(1,))
@@ -212,7 +214,7 @@ def _verify_names(entry: Format, where: str) -> None:
             raise TableauError(
                 f"the control character U+{ord(character[0]):04X}",
                 where=f"{where}: {key}",
-                expected="text that reads as it is written",
+                expected="text without control characters",
             )
     if not _NAME.fullmatch(entry.name):
         raise TableauError(
@@ -223,7 +225,7 @@ def _verify_names(entry: Format, where: str) -> None:
             raise TableauError(
                 f"the name {name!r}",
                 where=f"{where}: numbers",
-                expected="a letter, then letters, digits and _; sqrt is taken",
+                expected="a letter, then letters, digits and _; sqrt is reserved",
             )
 
 
@@ -335,4 +337,4 @@ def _refuse_repeats(orders: list[OrderClaim], where: str) -> None:
     labels = [claim.label for claim in orders]
     for label in labels:
         if labels.count(label) > 1:
-            raise TableauError(f"two claims for {label}", where=f"{where}: claims", expected="one claim each")
+            raise TableauError(f"two claims for {label}", where=f"{where}: claims", expected="at most one")

@@ -69,7 +69,7 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """Whether named arrays can hold a tableau of this format (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The array that identifies this format if none is stated; '' for the format of all other arrays."""
+    """The name of the array that identifies this format; '' for the format of all other sets of arrays."""
     as_products: ClassVar[bool] = False
     """Whether arrays hold the format as a list of exponentials."""
 
@@ -111,7 +111,7 @@ def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) ->
 
 
 def counted(s: int, where: str, noun: str = "stages") -> int:
-    """Return a number of stages; :class:`TableauError` unless it is from 1 to :data:`MAX_STAGES`.
+    """Return the number of stages s; raise :class:`TableauError` unless 1 <= s <= :data:`MAX_STAGES`.
 
     >>> counted(3, "b")
     3

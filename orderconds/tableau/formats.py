@@ -40,8 +40,8 @@ class EmbeddedEntry(Struct, forbid_unknown_fields=True):
 
 
 class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "rk"``: A by rows (zeros at the end of a row may be left out), b, and optionally c, which is
-    verified."""
+    """``family = "rk"``: A by rows (zeros at the end of a row may be left out), b, and optionally c, which
+    must equal the row sums of A."""
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
@@ -88,18 +88,18 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.embedded:
             embedded = Embedded(filled_row(values, "embedded.b", s, ring), self.embedded.order)
             if all(ring.is_zero(x - y) for x, y in zip(method.b, embedded.b, strict=True)):
-                raise _identically_zero(f"{self.name}: embedded.b", "other weights than b")
+                raise _identically_zero(f"{self.name}: embedded.b", "weights that differ from b")
         return method, embedded
 
     def _compare(self, method: RungeKutta, c: Row, ring: Ring) -> None:
-        """Refuse a c that is not the row sums."""
+        """Raise an error if c differs from the row sums of A."""
         for i, (given, total) in enumerate(zip(c, method.c, strict=True)):
             if ring.is_zero(given - total) is False:
                 raise TableauError(
-                    f"c_{i + 1} = {ring.text(given)} beside a row of A that sums to {ring.text(total)}",
+                    f"c_{i + 1} = {ring.text(given)}, but row {i + 1} of A sums to {ring.text(total)}",
                     where=f"{self.name}: c[{i + 1}]",
                     expected="c_i = sum_j a_ij",
-                    hint="correct the row, or leave c out: it is computed",
+                    hint="correct the row, or leave c out, because it is computed from A",
                 )
 
 
@@ -196,7 +196,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
         if self.low_storage:
             if self.stage or self.update:
                 raise TableauError(
-                    "low_storage beside stage or update", where=where, expected="one of the two forms"
+                    "both low_storage and stage or update", where=where, expected="only one of the two forms"
                 )
             s = counted(len(self.low_storage.B), f"{where}: low_storage.B")
             if len(self.low_storage.A) != s:
@@ -248,7 +248,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
             return method, None
         lower = _product(self.embedded, "embedded", values, s, ring)
         if method.same_update(lower, ring):
-            raise _identically_zero(f"{self.name}: embedded", "another product than the update")
+            raise _identically_zero(f"{self.name}: embedded", "a product that differs from the update")
         return method, EmbeddedUpdate(lower, self.embedded.order)
 
 
@@ -262,7 +262,7 @@ def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
             where=where,
             expected=f"an earlier stage, 1 to {before}"
             if before
-            else "no from: nothing comes before stage 1",
+            else "no key from, because there is no earlier stage",
         )
 
 

@@ -9,8 +9,8 @@
     atom    = integer | decimal | decimal "~" | name | "sqrt" "(" sum ")" | "(" sum ")"
 
 ``0.5`` is exactly 1/2; ``0.81772~`` is a ball of one unit in its last digit. An exponent is a fraction of
-integers; ``a^b^c`` is refused, since readers disagree about it. Text length, nesting and exponents are
-bounded here, the size of intermediate values in :mod:`orderconds.tableau.evaluate`.
+integers; ``a^b^c`` is refused, because programs disagree about its meaning. Text length, nesting and
+exponents are bounded here, the size of intermediate values in :mod:`orderconds.tableau.evaluate`.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _TOKEN = re.compile(
 
 
 class Constant(Struct, frozen=True, cache_hash=True):
-    """A rational number; with ``unit`` positive, a ball of that radius around it."""
+    """A rational number or, if ``unit`` is positive, the ball of radius ``unit`` around this number."""
 
     value: Fraction
     unit: Fraction = Fraction(0)
@@ -228,7 +228,7 @@ class _Parser:
             return base
         exponent = self.exponent()
         if self.accept("^"):
-            raise self.error(f"a tower of powers in {self.shown()}", "parentheses and one exponent")
+            raise self.error(f"an iterated power in {self.shown()}", "parentheses, as in (a^b)^c")
         return self.raised(base, exponent)
 
     def raised(self, base: Expression, exponent: Fraction) -> Expression:

@@ -14,8 +14,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def root() -> Path:
     """Return the folder of tableau files.
 
-    It is ``tableaux/`` of the source tree when the package sits beside a ``pyproject.toml`` named orderconds,
-    else the copy in the installed package.
+    In a source tree, where a ``pyproject.toml`` named orderconds is next to the package, it is ``tableaux/``.
+    Otherwise it is the copy in the installed package.
 
     >>> root().is_dir()
     True
@@ -41,7 +41,8 @@ def available() -> tuple[str, ...]:
 
 
 def find(name: str) -> Path:
-    """Return the file of the tableau ``name``; :class:`UnknownName` with the nearest names otherwise.
+    """Return the file of the tableau ``name``; raise :class:`UnknownName`, with similar names, if there is
+    none.
 
     >>> find("gauss2").name
     'gauss2.toml'

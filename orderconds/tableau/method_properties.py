@@ -1,6 +1,6 @@
 """Properties of methods, as identities between their coefficients.
 
-Each is True, False, or None if the coefficients are balls too wide to decide.
+Each property is True, False, or None if the coefficients are balls too wide to decide.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
 
 
 def explicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_ij = 0 for j >= i.
+    """Whether the method is explicit: a_ij = 0 for j >= i.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -42,7 +42,7 @@ def explicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_ij = 0 for j > i, and not all a_ii = 0.
+    """Whether the method is diagonally implicit: a_ij = 0 for j > i, and not all a_ii = 0.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -55,7 +55,7 @@ def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
-    """b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3).
+    """Whether the method is symplectic: b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3).
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -69,7 +69,9 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
-    """b_i ahat_ij + bhat_j a_ji = b_i bhat_j, which suffices where H = T(p) + V(q) (HLW Theorem VI.4.6).
+    """Whether the pair is symplectic for H = T(p) + V(q): b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
+
+    The source is HLW Theorem VI.4.6.
 
     >>> from orderconds.ring import QQ
     >>> half, one = QQ.rational(1, 2), QQ.one
@@ -85,7 +87,9 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 
 
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3), with the stages in the given order.
+    """Whether the method is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
+
+    The stages are compared in the given order.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -98,7 +102,7 @@ def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
-    """a_sj = b_j.
+    """Whether the method is stiffly accurate: a_sj = b_j.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -109,7 +113,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """First same as last: stiffly accurate, more than one stage, and the first stage is the start value.
+    """Whether the method is first-same-as-last: stiffly accurate, more than one stage, and the first stage is
+    the start value.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))

@@ -46,7 +46,7 @@ class RungeKutta:
         """Read the tableau as a Crouch-Grossman method: one exponential for each non-zero a_ij, ascending j.
 
         Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, the update likewise with b (HLW IV.8.3, (1.4)).
-        Only proven zeros are skipped.
+        A coefficient is skipped only if it is proved to be zero.
         """
 
         def product(row: Row) -> Stage:
@@ -223,4 +223,4 @@ class EmbeddedUpdate:
 
 
 LowerOrder = Embedded | EmbeddedUpdate
-"""The data for an error estimate: weights of a Runge-Kutta method, an update of a commutator-free method."""
+"""The data for an error estimate: weights of a Runge-Kutta method, or an update of a commutator-free one."""

@@ -1,4 +1,4 @@
-"""Whether a commutator-free method is symmetric: read backwards it is the same method.
+"""Whether a commutator-free method is symmetric, that is, equal to itself read backwards.
 
 Exchange stages j and s + 1 - j. A step of length -h from y1 undoes a step of length h from y0 under two
 conditions: the update reads the same backwards, and the exponentials from y1 to stage s + 1 - i are the

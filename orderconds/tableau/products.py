@@ -45,7 +45,8 @@ class Splitting:
 
 @dataclass(frozen=True)
 class AdjointComposition:
-    """A composition of any basic method Phi and its adjoint Phi*: beta_1, alpha_1, ..., alpha_s.
+    """A composition of any basic method Phi and its adjoint Phi*, with steps beta_1 h, alpha_1 h, ...,
+    alpha_s h.
 
     One step is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}, Phi*_{beta_1 h} acting
     first (HLW, Section II.4).
@@ -72,7 +73,7 @@ class AdjointComposition:
         return AdjointComposition(alpha, beta)
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the tableau with the explicit Euler method as Phi, the implicit one as Phi*.
+        """Return the tableau with the explicit Euler method as Phi and the implicit Euler method as Phi*.
 
         Phi_{alpha h} Phi*_{beta h} evaluates f once: b_i = beta_i + alpha_i, a_ii = beta_i, a_ij = b_j for
         j < i (HLW, Section II.4).
@@ -82,7 +83,8 @@ class AdjointComposition:
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Return the splitting in which Phi is the flow of part 0, then of part 1, and Phi* the reverse.
+        """Return the splitting if Phi is the flow of part 0 and then of part 1, and Phi* is Phi in reverse
+        order.
 
         Neighbouring flows of one part are joined. The splitting has the order of the composition (McLachlan,
         SIAM J. Sci. Comput. 16 (1995) 151).
@@ -104,9 +106,9 @@ MOST_WORDS = 10_000
 class Magnus:
     """A method for Y' = A(t) Y: a product of exponentials of combinations of brackets of A_i = h A(c_i h).
 
-    ``exponents`` are combinations of brackets, of which the first acts first. ``elements`` are Lie elements,
-    to which later elements and the exponents may refer. ``transform`` is ``"exp"``, or ``"cay"``
-    for cay(x) = (1 - x/2)^-1 (1 + x/2).
+    ``exponents`` are combinations of brackets; the exponential of the first combination acts first.
+    ``elements`` are Lie elements, to which later elements and the exponents may refer. ``transform`` is
+    ``"exp"``, or ``"cay"`` for cay(x) = (1 - x/2)^-1 (1 + x/2).
 
     >>> from orderconds.ring import QQ
     >>> Magnus((QQ.rational(1, 2),), (((0, QQ.one),),)).is_commutator_free(QQ)
@@ -149,7 +151,7 @@ class Magnus:
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Whether :meth:`words` are few enough to be expanded."""
+        """Whether the exponents contain few enough products for :meth:`words` to expand them."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 

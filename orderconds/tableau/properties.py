@@ -1,6 +1,6 @@
 """Properties of a tableau, computed from its coefficients.
 
-Each is True, False, or None if the coefficients are balls too wide to decide.
+Each property is True, False, or None if the coefficients are balls too wide to decide.
 """
 
 from __future__ import annotations
@@ -86,9 +86,10 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 
 
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
-    """Return the properties of composed midpoints, symplectic and diagonally implicit for all steps.
+    """Return the properties of a composition of midpoint rules.
 
-    The composition is symmetric if the steps read the same backwards.
+    It is symplectic and diagonally implicit for all steps. It is symmetric if the steps read the same
+    backwards.
     """
     gamma = method.gamma
     verdicts = {

@@ -1,10 +1,10 @@
 """A file's method with random numbers in place of its rounded decimals and its radicals, over Q.
 
-An identity that holds for them holds for all values of the decimals, up to a negligible probability: a false
-identity between rational functions of degree at most D holds at a random point, with 2^128 values for each
-coordinate, with probability at most D / 2^128 (Schwartz 1980; Zippel 1979). The numbers come from a digest of
-the file. Hence nobody can construct a file for which the test is wrong. Arithmetic is exact, not modulo
-primes.
+If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
+probability. The reason is a bound on false identities between rational functions of degree at most D: such an
+identity holds at a random point, with 2^128 values for each coordinate, with probability at most D / 2^128
+(Schwartz 1980; Zippel 1979). The numbers are computed from a digest of the file. Hence nobody can construct a
+file for which the test is wrong. Arithmetic is exact, not modulo primes.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""Bits of a random number. The bound on the size of values keeps degrees far below 2^40."""
+"""Bits of a random number. The size of values is bounded, so the degrees D stay far below 2^40."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""The errors of a member that cannot be evaluated: its numbers grow too large, or a divisor is zero."""
+"""The errors if a random method cannot be evaluated: its numbers grow too large, or a divisor is zero."""
 
 
 class RandomMember(Rationals):

@@ -25,7 +25,7 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Tableau:
-    """A named method over ``ring``; ``family`` is its file's format: ``rk``, ``prk``, ``cf`` ...."""
+    """A named method over ``ring``; ``family`` is the format of its file: ``rk``, ``prk``, ``cf``, ..."""
 
     name: str
     family: str
@@ -37,7 +37,7 @@ class Tableau:
     embedded: LowerOrder | None = None
     path: str | None = None
     proof: Proof | None = field(default=None, compare=False)
-    """The equations that the rounded decimals solve, where the file names them."""
+    """The equations that the true values of the rounded decimals solve; None if the file names none."""
     file: File | None = field(default=None, compare=False, repr=False)
     """The file that was read; None once the coefficients are no longer those of a file."""
 
@@ -138,7 +138,7 @@ def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
 
 
 def from_data(data: Mapping[str, object], where: str = "<data>", path: str | None = None) -> Tableau:
-    """Return the tableau of a file's keys and values, as TOML or JSON give them.
+    """Return the tableau, given the keys and values of a file as parsed from TOML or JSON.
 
     >>> from_data({"name": "euler", "family": "rk", "A": [[]], "b": ["1"]}).method
     RungeKutta(A=((0,),), b=(1,))
@@ -168,4 +168,4 @@ def _flows(method: Method, ring: Ring) -> Method | None:
 
 
 READINGS: dict[str, Callable[[Method, Ring], Method | None]] = {"rk": _composed, "splitting": _flows}
-"""For a file format, the function that converts methods of other formats to it, or returns None."""
+"""For each file format, a function that converts a method to this format, or returns None if it cannot."""

@@ -22,15 +22,15 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 
 Polynomial = list[Element]
-"""Ascending coefficients, the last one not zero; the zero polynomial is empty."""
+"""A polynomial by its ascending coefficients, the last one not zero; the zero polynomial is empty."""
 
 
 LARGEST = 100
 """Rational tableaux with a larger implicit block are left undecided; flint takes a second at this size."""
 
 EFFORT = 10**11
-"""Limit on the work over other fields, in products of bits: about a second. Remainders in Euclid's algorithm
-grow fast."""
+"""The limit on the work over other fields, in products of two bits; this takes about a second. The limit is
+necessary because the remainders in Euclid's algorithm grow fast."""
 
 
 class SignedRing(Ring, Protocol):
@@ -57,7 +57,7 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     {'a_stable': True, 'l_stable': True}
     """
     if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
-        return {"a_stable": False, "l_stable": False}  # a polynomial, unbounded
+        return {"a_stable": False, "l_stable": False}  # R is a polynomial, hence unbounded
     if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
         return {"a_stable": None, "l_stable": None}
     try:
@@ -90,8 +90,8 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
     """Return the result of :func:`stability` for midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the axis and at infinity. A negative step gives a pole in the left half plane, unless a
-    positive step cancels it.
+    |R| = 1 on the imaginary axis and at infinity. A negative step gives a pole in the left half plane, unless
+    a positive step cancels it.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -141,7 +141,7 @@ def _bits(x: Element) -> int:
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Count the work of ``count`` products of these numbers, which may be quadratic in their length."""
+    """Count the work of ``count`` products of these numbers, linear or ``quadratic`` in their length."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -180,7 +180,7 @@ def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
 
 
 def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
-    """Return det(I - zA) by Faddeev and LeVerrier, lower blocks first where A is block triangular."""
+    """Return det(I - zA) by the method of Faddeev and LeVerrier, block by block if A is block triangular."""
     result = [ring.one]
     start = 0
     for end in range(1, len(A) + 1):

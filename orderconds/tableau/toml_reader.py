@@ -1,4 +1,4 @@
-"""TOML with short keys. (The standard reader needs gigabytes for keys with thousands of parts.)"""
+"""Read TOML, but refuse long dotted keys: with thousands of parts they cost the standard reader gigabytes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import tomllib
 from orderconds.tableau.file_format import Data
 
 MAX_PARTS = 24
-"""The most parts of a key; keys of tableau files have at most two."""
+"""The maximal number of parts of a dotted key; keys of tableau files have at most two."""
 
 _PART = r"(?:[A-Za-z0-9_-]{1,99}+|\"[^\"\n]{0,99}+\"|'[^'\n]{0,99}+')"
 _LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){{{MAX_PARTS}}}")

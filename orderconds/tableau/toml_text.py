@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeGuard
 
 WIDTH = 110
-"""Lists of lists on longer lines are broken by rows."""
+"""The maximal length of a line with a list of lists; a longer list is written with one line for each row."""
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 

@@ -7,12 +7,13 @@ unknown: the true method solves the order conditions that the table names, near 
 
     [proof]
     conditions = "cg"          # the family whose independent conditions are the equations
-    order = 4                  # all of them up to this order
+    order = 4                  # all conditions up to this order
     pins = ["a31", "a42"]      # decimals that are exact numbers, not unknowns
     reduction = "symmetric"    # optional: a reason why fewer equations suffice
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-An unknown is named as under ``numbers``, or by its place (``A[2][1]``). Equal decimals are one unknown.
+The name of an unknown is its name under ``numbers``, or its place (``A[2][1]``). Equal decimals are the same
+unknown.
 """
 
 from __future__ import annotations

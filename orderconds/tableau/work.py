@@ -35,7 +35,7 @@ class Work:
 
 
 def evaluations(tableau: Tableau) -> Work | None:
-    """Return the field evaluations of a step, None for a format without such a count.
+    """Return the number of field evaluations of a step; None for a format without such a count.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
@@ -144,7 +144,7 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of brackets of dexpinv cut after this power: up to the last non-zero B_k."""
+    """Return the number of brackets of dexpinv: the highest power up to ``cutoff`` with B_k != 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

@@ -126,7 +126,7 @@ def test_a_method_of_rounded_coefficients_is_not_said_to_be_symplectic() -> None
         ("rk4", None, 0, False, "order 0"),
         ("rk4", "vcg", 3, False, "neither a B-series nor a Lie-Butcher series"),
         ("rk4", "cf4", 3, False, "unknown family"),
-        ("strang", None, 3, False, "expected one that family rk or cf reads"),
+        ("strang", None, 3, False, "expected a tableau that is a method of family rk or cf"),
         ("cf4", "cf", 3, True, "expected a B-series"),
     ],
 )
@@ -140,5 +140,5 @@ def test_bad_requests_are_refused(
 
 def test_an_inconsistent_method_has_no_modifying_equation() -> None:
     tableau = Tableau.loads('name = "half"\nfamily = "rk"\nA = [[]]\nb = ["1/2"]\n')
-    with pytest.raises(InputError, match="weights that sum to 1/2"):
+    with pytest.raises(InputError, match="the weights sum to 1/2"):
         modified_equation(tableau, 2, modifying=True)

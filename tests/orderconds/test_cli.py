@@ -118,7 +118,7 @@ def test_every_command_takes_json(name: str) -> None:
 def test_an_option_of_one_value_is_not_given_twice(args: list[str], said: str) -> None:
     result = run(*args)
     assert (result.exit_code, result.stdout) == (2, "")
-    assert result.stderr.startswith(f"orderconds: {said}; it takes one value")
+    assert result.stderr.startswith(f"orderconds: {said}; give it once")
 
 
 def test_flags_and_options_of_several_values_may_be_repeated() -> None:
@@ -130,7 +130,7 @@ def test_flags_and_options_of_several_values_may_be_repeated() -> None:
 def test_an_empty_place_to_write_to_is_told_what_to_type_for_the_present_folder() -> None:
     from orderconds.commands.place import FOLDER
 
-    with pytest.raises(click.BadParameter, match=r"type '\.' for the present one"):
+    with pytest.raises(click.BadParameter, match=r"type '\.' for the current folder"):
         FOLDER.convert("", None, None)
 
 

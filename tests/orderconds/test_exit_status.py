@@ -177,7 +177,7 @@ def test_a_terminal_without_the_letters_of_a_name_is_no_error(
     try:
         (tmp_path / name).write_text('name = "euler"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n')
     except (OSError, UnicodeError):
-        pytest.skip("no name of a file on this system")
+        pytest.skip("not a valid file name on this system")
     done = subprocess.run(
         [sys.executable, "-m", "orderconds", "check", str(tmp_path / name)],
         env={**os.environ, "PYTHONIOENCODING": encoding},

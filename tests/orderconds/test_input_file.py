@@ -34,10 +34,10 @@ def test_a_file_of_the_bound_is_read_and_a_byte_more_is_not(tmp_path: Path) -> N
 
 def test_bytes_that_are_no_text_and_names_that_are_none_are_bad_input(tmp_path: Path) -> None:
     (tmp_path / "latin").write_bytes(b"\xe9")
-    with pytest.raises(InputError, match="bytes that are no UTF-8"):
+    with pytest.raises(InputError, match="bytes that are not UTF-8"):
         read_text(tmp_path / "latin")
     for name in ("a\0b", "a\ud800b"):
-        with pytest.raises(InputError, match="no name of a file"):
+        with pytest.raises(InputError, match="not a valid file name"):
             read_text(name)
 
 
@@ -95,4 +95,4 @@ def test_a_list_of_excuses_that_is_no_text_is_bad_input(tmp_path: Path) -> None:
     (tmp_path / "DECIMAL").write_bytes(b"\xff: why\n")
     result = CliRunner().invoke(program, ["check", str(tmp_path)])
     assert (result.exit_code, result.stdout) == (2, "")
-    assert "DECIMAL: bytes that are no UTF-8" in result.stderr
+    assert "DECIMAL: bytes that are not UTF-8" in result.stderr

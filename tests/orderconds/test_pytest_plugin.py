@@ -66,7 +66,7 @@ def test_a_file_that_cannot_be_read_fails_with_its_message(folder: Path) -> None
 def test_complete_demands_every_family(folder: Path) -> None:
     result = run(folder, "--orderconds-complete")
     assert result.returncode == 1
-    assert "no order is claimed in family cg, which it can serve: its order there is 1" in result.stdout
+    assert "no order is claimed in family cg, in which the method has order 1" in result.stdout
 
 
 def test_certified_demands_proofs(folder: Path) -> None:
@@ -83,7 +83,7 @@ def test_a_tableau_without_claims_is_skipped_with_its_order(folder: Path) -> Non
     (folder / "silent.toml").write_text(EULER.partition("[claims]")[0], encoding="utf-8")
     result = run(folder, "--orderconds", "-rs")
     assert result.returncode == 0
-    assert "the file claims no order; it has rk 1" in result.stdout
+    assert "the file claims no order; computed orders: rk 1" in result.stdout
 
 
 def test_other_files_are_left_alone_unless_named(folder: Path) -> None:

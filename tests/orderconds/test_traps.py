@@ -64,10 +64,10 @@ REFUSED = {
     "cf4_embedded_equal": "embedded: an embedded row equal to the main one",
     "coefficient_code": 'b[1]: "\'" in',
     "coefficient_divides_by_zero": "b[1]: division by zero",
-    "coefficient_explodes": "b[1]: a tower of powers in '9^9^9^9'",
+    "coefficient_explodes": "b[1]: an iterated power in '9^9^9^9'",
     "embedded_equal": "its error estimate is identically zero",
     "name_twice": "Cannot overwrite a value",
-    "row_sums": "c_3 = 17/25 beside a row of A that sums to 17/24",
+    "row_sums": "c_3 = 17/25, but row 3 of A sums to 17/24",
     "unknown_family": "unknown_family.toml: claims.rkkm: unknown family 'rkkm'",
 }
 

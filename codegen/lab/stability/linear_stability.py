@@ -53,7 +53,10 @@ class Region:
 
 
 def region(method: Method) -> Region | None:
-    """Return the linear stability of a tableau on R^n; None for splittings and inexact coefficients."""
+    """Return the linear stability of a method's tableau on R^n.
+
+    None for splitting methods, and for tableaux whose coefficients are not exact.
+    """
     tableau = method.tableau
     try:
         R = stability_function(tableau.abelian(), tableau.ring)

@@ -171,7 +171,7 @@ def test_a_list_that_cannot_be_read_is_bad_input(tmp_path):
     wrong = {
         LIST + "extra = 1\n": "module 1: the keys extra, method",
         "[[module": "not TOML",
-        "\xff": "bytes that are no UTF-8",
+        "\xff": "bytes that are not UTF-8",
         'name = "euler"\n': "no list of modules; its keys are: name",
         "": "no list of modules; its keys are: none",
         "module = 3": "no list of modules",

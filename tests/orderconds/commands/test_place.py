@@ -22,7 +22,7 @@ from orderconds.errors import InputError
 def test_an_empty_place_is_bad_usage(arguments: list[str], place: str) -> None:
     result = CliRunner().invoke(program, [*arguments, "-o", place])
     assert result.exit_code == 2
-    assert "names no file" in result.output
+    assert "is not the name of a file" in result.output
 
 
 def test_a_file_is_replaced_whole_its_permissions_and_links_kept(tmp_path: Path) -> None:

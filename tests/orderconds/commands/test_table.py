@@ -53,7 +53,7 @@ def test_a_file_without_marks_is_bad_usage(tmp_path: Path) -> None:
     (tmp_path / "x.md").write_text("nothing", encoding="utf-8")
     result = run("--write", str(tmp_path / "x.md"))
     assert result.exit_code == 2
-    assert "no place for the table" in result.output
+    assert "no markers for the table" in result.output
 
 
 def test_a_file_that_cannot_be_read_is_told_before_anything_is_computed(
@@ -62,7 +62,7 @@ def test_a_file_that_cannot_be_read_is_told_before_anything_is_computed(
     monkeypatch.setattr(table, "computed", None)
     (tmp_path / "latin.md").write_bytes(b"caf\xe9")
     for name, said in (
-        ("latin.md", "bytes that are no UTF-8"),
+        ("latin.md", "bytes that are not UTF-8"),
         ("absent.md", "no such file"),
         (".", "is a dir"),
     ):

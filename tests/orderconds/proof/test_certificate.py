@@ -96,7 +96,7 @@ REFUSED: dict[str, tuple[str, str]] = {
     ),
     "not low-storage": (
         kutta3(ZEROS, 'conditions = "rk"\norder = 3\nreduction = "low-storage"\npins = ["x"]'),
-        "no low_storage scheme",
+        "no table low_storage",
     ),
     "low-storage beyond what is known": (
         text("carpenter_kennedy4").replace("order = 4\nreduction", "order = 6\nreduction"),
@@ -107,7 +107,7 @@ REFUSED: dict[str, tuple[str, str]] = {
             ZEROS,
             'conditions = "rk"\norder = 3\nreduction = "simplifying"\nassumptions = { B = 3, C = 1 }',
         ),
-        "it implies order 2, the file says 3",
+        "it implies order 2, but [proof] has order = 3",
     ),
 }
 

@@ -142,7 +142,7 @@ def test_a_checkpoint_is_not_written_through_a_link_that_foresees_its_name(tmp_p
     assert victim.read_text() == "mine"
     checkpoint.remove()
     (tmp_path / "checkpoint").symlink_to(victim)
-    with pytest.raises(InputError, match="no regular file"):
+    with pytest.raises(InputError, match="not a regular file"):
         checkpoint.add(Batch(1, 1.0))
     with pytest.raises(InputError, match="a checkpoint that cannot be used: not a regular file"):
         checkpoint.load()

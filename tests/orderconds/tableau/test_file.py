@@ -126,14 +126,14 @@ MALFORMED = {
     "unknown key": (EULER + "d = [0]\n", "unknown key 'd'", "one of A, b, bibtex"),
     "row sums other than c": (
         EULER + 'c = ["1/2"]\n',
-        "c_1 = 1/2 beside a row of A that sums to 0",
+        "c_1 = 1/2, but row 1 of A sums to 0",
         "c_i = sum",
     ),
     "c of another length": (EULER + "c = [0, 1]\n", "c: 2 entries for 1 weights", "as long as b"),
     "embedded row equal to b": (
         EULER + 'embedded = { b = ["1"], order = 1 }',
         "embedded.b: an embedded row equal to the main one",
-        "other weights",
+        "weights that differ",
     ),
     "unknown key in embedded": (
         EULER + 'embedded = { b = ["1"], order = 1, x = 2 }',
@@ -192,15 +192,15 @@ MALFORMED = {
     "spelled NaN": (HEAD + 'A = [[]]\nb = ["nan"]\n', "b[1]: the name 'nan'", "a number"),
     "code": (HEAD + 'A = [[]]\nb = ["open(1)"]\n', "b[1]: '('", "coefficient"),
     "division by zero": (HEAD + 'A = [[]]\nb = ["1/(1 - 1)"]\n', "b[1]: division by zero", "not zero"),
-    "tower of powers": (HEAD + 'A = [[]]\nb = ["9^9^9^9"]\n', "b[1]: a tower of powers", "one exponent"),
+    "tower of powers": (HEAD + 'A = [[]]\nb = ["9^9^9^9"]\n', "b[1]: an iterated power", "parentheses"),
     "unknown number": (HEAD + 'A = [[]]\nb = ["g"]\nnumbers = { h = "1" }\n', "the name 'g'", "numbers (h)"),
-    "numbers in a circle": (EULER + 'numbers = { g = "h", h = "1/g" }\n', "g -> h -> g", "no circle"),
+    "numbers in a circle": (EULER + 'numbers = { g = "h", h = "1/g" }\n', "g -> h -> g", "no cycle"),
     "numbers in a long chain": (
         EULER + "[numbers]\n" + "".join(f'g{i} = "g{i + 1}"\n' for i in range(60)) + 'g60 = "1"\n',
-        "numbers defined one by another 40 deep: g0 -> g1 -> ... -> g40",
+        "a chain of more than 40 definitions: g0 -> g1 -> ... -> g40",
         "a shorter chain",
     ),
-    "number called sqrt": (EULER + 'numbers = { sqrt = "1" }\n', "the name 'sqrt'", "taken"),
+    "number called sqrt": (EULER + 'numbers = { sqrt = "1" }\n', "the name 'sqrt'", "reserved"),
     "number with a dash": (EULER + 'numbers = { a-b = "1" }\n', "the name 'a-b'", "letter"),
     "unused number that is bad": (
         EULER + 'numbers = { g = "1/0" }\n',
@@ -235,12 +235,12 @@ MALFORMED = {
     "claim twice": (
         EULER + "claims = { rkmk = [{ cutoff = 1, order = 1 }, { cutoff = 1, order = 2 }] }\n",
         "two claims for rkmk(1)",
-        "one claim",
+        "at most one",
     ),
     "stage from itself": (
         CF + '[[stage]]\nfrom = 1\n[update]\nexp = [["1"]]\n',
         "stage[1]: from = 1",
-        "no from",
+        "no key from",
     ),
     "stage from a later one": (
         CF + '[[stage]]\n[[stage]]\nfrom = 2\n[update]\nexp = [["1"]]\n',
@@ -255,7 +255,7 @@ MALFORMED = {
     ),
     "two forms of cf": (
         CF + '[[stage]]\n[update]\nexp = [["1"]]\n[low_storage]\nA = ["0"]\nB = ["1"]\n',
-        "low_storage beside",
+        "both low_storage",
         "one of the two",
     ),
     "low storage of two lengths": (
@@ -267,9 +267,13 @@ MALFORMED = {
     "an integer longer than Python reads": (
         HEAD + "A = [[]]\nb = [" + "9" * 5000 + "]\n",
         "thousands of digits",
-        "quoted",
+        "quotation marks",
     ),
-    "lists in lists in lists": (HEAD + "A = " + "[" * 3000 + "]" * 3000 + "\n", "nested too deep", "table"),
+    "lists in lists in lists": (
+        HEAD + "A = " + "[" * 3000 + "]" * 3000 + "\n",
+        "nested too deep",
+        "shallow tables",
+    ),
     "rk keys in cf": (CF + 'A = [[]]\nb = ["1"]\n', "unknown key", "low_storage"),
 }
 

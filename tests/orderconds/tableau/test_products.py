@@ -186,10 +186,10 @@ MALFORMED = {
         "a letter",
     ),
     "a term twice": (MAGNUS + 'exponents = [{ "[1,2]" = 1, "[1, 2]" = 2 }]\n', "'[1,2]' twice", "once"),
-    "an open bracket": (MAGNUS + 'exponents = [{ "[1,2" = 1 }]\n', "no ']'", "a bracket"),
-    "no comma": (MAGNUS + 'exponents = [{ "[1 2]" = 1 }]\n', "no ','", "a bracket"),
+    "an open bracket": (MAGNUS + 'exponents = [{ "[1,2" = 1 }]\n', "a missing ']'", "a bracket"),
+    "no comma": (MAGNUS + 'exponents = [{ "[1 2]" = 1 }]\n', "a missing ','", "a bracket"),
     "an empty term": (MAGNUS + 'exponents = [{ "" = 1 }]\n', "an incomplete term", "a node"),
-    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' where a term begins", "a node"),
+    "an empty bracket": (MAGNUS + 'exponents = [{ "[,1]" = 1 }]\n', "',' in place of a term", "a node"),
     "more than a term": (MAGNUS + 'exponents = [{ "1 2" = 1 }]\n', "'2' after a complete term", "a node"),
     "another sign": (MAGNUS + 'exponents = [{ "1+2" = 1 }]\n', "'+'", "a node"),
     "brackets too deep": (
@@ -265,15 +265,15 @@ def test_without_claims_the_format_names_the_family() -> None:
 @pytest.mark.parametrize(
     ("family", "text", "message"),
     [
-        ("splitting(3)", SPLITTING + 'step = [["T", 1]]', "ask for the family 'splitting'"),
-        ("rkn", SPLITTING + 'step = [["T", 1]]', "without rkn"),
+        ("splitting(3)", SPLITTING + 'step = [["T", 1]]', "use the family 'splitting'"),
+        ("rkn", SPLITTING + 'step = [["T", 1]]', "without the key rkn"),
         ("symmetric_composition", PAIR + 'alpha = ["1"]\nbeta = ["0"]', "symmetric-2"),
-        ("cf_magnus", MAGNUS + 'exponents = [{ "[1,2]" = 1 }]', "ask for the family 'magnus'"),
-        ("magnus", MAGNUS + 'map = "cay"\nexponents = [{ "1" = 1 }]', "ask for the family 'cayley'"),
-        ("cayley", MAGNUS + 'exponents = [{ "1" = 1 }]', "ask for the family 'magnus'"),
+        ("cf_magnus", MAGNUS + 'exponents = [{ "[1,2]" = 1 }]', "use the family 'magnus'"),
+        ("magnus", MAGNUS + 'map = "cay"\nexponents = [{ "1" = 1 }]', "use the family 'cayley'"),
+        ("cayley", MAGNUS + 'exponents = [{ "1" = 1 }]', "use the family 'magnus'"),
         ("fer", MAGNUS + 'exponents = [{ "1" = 1 }, { "[1,2]" = 1 }]', "last exponent"),
         ("rk", MAGNUS + 'exponents = [{ "1" = 1 }]', "is no Runge-Kutta method"),
-        ("magnus", SPLITTING + 'step = [["T", 1]]', "has no reading in family magnus"),
+        ("magnus", SPLITTING + 'step = [["T", 1]]', "cannot be read in family magnus"),
     ],
 )
 def test_a_family_refuses_what_is_no_member_of_it(family: str, text: str, message: str) -> None:
