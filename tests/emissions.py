@@ -44,7 +44,7 @@ def drawn(seed: int, count: int) -> Iterator[tuple[str, str, Options]]:
             try:
                 emitted(scene, method, chosen)
             except InputError:
-                continue  # not every tableau has the family's order, an embedded row, or coefficients in range
+                continue  # not every tableau has the family's order or an embedded row
             yield scene, method, chosen
             count -= 1
             break

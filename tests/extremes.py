@@ -17,8 +17,8 @@ typedef {real} number;
 
 static const number start[SIZE] = {{{start}}};
 static const number defaults[PARAMETERS + 1] = {{{defaults}}};
-static const number extremes[] = {{(number)NAN, (number)INFINITY, (number)-INFINITY, {huge}, -{huge}, {big}, -{big},
-    {denormal}, -{denormal}, {least}, 0, -(number)0, 1, -1}};
+static const number extremes[] = {{(number)NAN, (number)INFINITY, (number)-INFINITY, {huge}, -{huge},
+    {big}, -{big}, {denormal}, -{denormal}, {least}, 0, -(number)0, 1, -1}};
 enum {{ EXTREMES = sizeof extremes / sizeof *extremes }};
 
 static number *state, *before, *inputs, *values, *rows;
@@ -69,7 +69,7 @@ static void judge(int status, size_t completed)
     calls++;
     check(status >= 0 && status <= 4, "an unknown status", status);
     if (status == 0) successes++;
-    if (status == 0 && completed) check(finite_state(state), "a success with a state that is not finite", status);
+    if (status == 0 && completed) check(finite_state(state), "a success that is not finite", status);
     if (completed == 0) check(memcmp(state, before, SIZE * sizeof *state) == 0, "a changed state", status);
     else check(finite_state(state), "a good state that is not finite", status);
     memcpy(state, before, SIZE * sizeof *state);
@@ -157,7 +157,8 @@ ADAPTIVE = """
         const number to = k % 2 ? {huge} : now + 2 * h;
         size_t accepted = 7, rejected = 7;
         status = {prefix}run_adaptive(
-            state, &now, to, &size, tolerances[k] / 1024, tolerances[draw(5)], k == 4 ? 0 : 8, {run}{counts}&accepted, &rejected);
+            state, &now, to, &size, tolerances[k] / 1024, tolerances[draw(5)], k == 4 ? 0 : 8, {run}{counts}
+            &accepted, &rejected);
         check(accepted + rejected <= 8, "more steps than the limit", status);
         judge(status, accepted);
     }}

@@ -139,5 +139,7 @@ def _program(artifact: Artifact) -> str:
     chosen = {"adaptive": interface["adaptive"], "jacobian": interface["variations"]}
     texts = {"adaptive": ADAPTIVE, "jacobian": JACOBIAN}
     more = [INPUT] * bool(inputs) + [texts[name] for name, there in chosen.items() if there]
-    calls = [f'    printf("{name} %zu\\n", used(call_{name}) - own);' for name, there in chosen.items() if there]
+    calls = [
+        f'    printf("{name} %zu\\n", used(call_{name}) - own);' for name, there in chosen.items() if there
+    ]
     return PROGRAM.format(**words, more="".join(x.format(**words) for x in more), calls="\n".join(calls))

@@ -27,7 +27,7 @@ dialects = pytest.mark.parametrize("dialect", [pytest.param(d, id=d or "default"
 
 @pytest.fixture(scope="module")
 def files(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """All modules, their examples, modules with options, and programs that include all modules and headers."""
+    """All modules, their examples, modules with options, and programs that include modules and headers."""
     folder = tmp_path_factory.mktemp("dialects")
     texts = surroundings(GENERATED)
     for path in GENERATED:

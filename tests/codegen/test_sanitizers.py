@@ -19,7 +19,9 @@ SEEDS = (1, 2, 3, 4, 5, 6, 7, 8)
 """Seeds of the draws; each gives five emissions."""
 
 
-def check(emission: tuple[str, str, Options], compiler: Compiler, dialect: str, folder: Path, draws: int) -> None:
+def check(
+    emission: tuple[str, str, Options], compiler: Compiler, dialect: str, folder: Path, draws: int
+) -> None:
     """Compile an emission with sanitizers and run it with extreme arguments."""
     artifact = emitted(*emission)
     files = {**artifact.files, "main.c": program(artifact, draws)}

@@ -20,7 +20,11 @@ LEVELS = ("-O0", "-O1", "-O2", "-O3")
 STIFF: tuple[tuple[str, str, Options], ...] = (
     ("dipole", "ambient:radau2a3", (("adaptive", True), ("solver", "newton"))),
     ("free_rigid_body_attitude", "ambient:radau2a3", (("adaptive", True), ("solver", "simplified-newton"))),
-    ("actuated_rigid_body", "ambient:gauss3", (("solver", "newton"), ("jacobian", True), ("inputs", ("u0",)))),
+    (
+        "actuated_rigid_body",
+        "ambient:gauss3",
+        (("solver", "newton"), ("jacobian", True), ("inputs", ("u0",))),
+    ),
 )
 """Methods with large matrices: they need the most stack beyond the names of a module."""
 

@@ -32,12 +32,13 @@ FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-
 FRAMES = 640
 """Bytes for return addresses, saved registers and the frames of helpers."""
 
-EACH = 10
-"""Bytes of the bound on the stack for each number of a step, in either precision, if equations are solved.
+EACH, EACH_SOLVING = 8, 10
+"""Bytes of the bound on the stack for each number of a step, in either precision, without and with equations.
 
-An optimiser may then need space for values without a name as well: subexpressions that it moves out of a
-loop, and pairs of numbers for vector instructions, which have 16 bytes in single precision, too. The most
-that was measured were 8.8 bytes in double precision and 6.9 bytes in single precision.
+Single precision needs no less: an optimiser keeps pairs of numbers for vector instructions in 16 bytes. Where
+equations are solved, an optimiser also needs space for values without a name, which it moves out of a loop.
+The most that was measured with equations were 8.8 bytes in double precision and 8.0 bytes in single
+precision.
 """
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
@@ -128,20 +129,21 @@ def inverted(kernel: Kernel) -> int:
 
 
 def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
-    """Return a bound on the stack of a call: space for all numbers of a step at the same time.
+    """Return a bound on the stack of a call: space for all numbers of a step at the same time, and a margin.
 
-    If equations are solved, a margin is added. At -O0 a compiler uses about the bound without the margin,
-    because each name has its own slot. Tests compare the bound with ``-fstack-usage`` and with a painted
-    stack.
+    At -O0 a compiler uses about the bound without the margin, because each name has its own slot. Tests
+    compare the bound with ``-fstack-usage`` and with a painted stack.
     """
-    size = {"double": 8, "float": 4}[interface.format.c_type]
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
-    names = size * numbers_held(unit) + frames
-    each = EACH if interface.blocks else size
-    bound = -(-(each * numbers_held(unit) + frames) // 64) * 64
-    margin = f", {bound - names} of them as a margin" if interface.blocks else ""
+    size, each = (
+        {"double": 8, "float": 4}[interface.format.c_type],
+        EACH_SOLVING if interface.blocks else EACH,
+    )
+    numbers = numbers_held(unit)
+    bound = -(-(each * numbers + frames) // 64) * 64
+    margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
 
 
@@ -149,7 +151,8 @@ def own_names(interface: Interface, unit: Unit) -> frozenset[str]:
     """Return the names that a module declares itself, and that no variable may hide."""
     prefix, upper = interface.prefix, interface.prefix.upper()
     names = {"step", "run", "run_adaptive", "jacobian", "statistics", "input", "hold"}
-    names |= {x.name for x in (*unit.functions, *unit.records)} | {t.name.text for t in unit.tables}
+    names |= {f.name for f in unit.functions} | {r.name for r in unit.records}
+    names |= {t.name.text for t in unit.tables}
     names |= {snippet.name for snippet in snippets(interface.format)}
     return frozenset({f"{prefix}{name}" for name in names} | {f"{upper}{name}" for name in (*STATUSES, "H")})
 

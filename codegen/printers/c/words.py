@@ -28,12 +28,12 @@ _WORDS = """
     input context
 """
 
-_CONSTANTS = (
-    "M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2".split()
-)
+_CONSTANTS = """
+    M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
+"""
 _FORMATS = ("", "f", "l", "f32", "f32x", "f64", "f64x", "f128")
 
-RESERVED = frozenset(_WORDS.split()) | {f"{name}{kind}" for name in _CONSTANTS for kind in _FORMATS}
+RESERVED = frozenset(_WORDS.split()) | {f"{name}{kind}" for name in _CONSTANTS.split() for kind in _FORMATS}
 """Words that are excluded as names of variables, besides the names of the run representation.
 
 Keywords of C and, since both read headers, of C++; macros of headers that the module or its caller is likely
