@@ -19,6 +19,7 @@ LEVELS = ("-O0", "-O1", "-O2", "-O3")
 
 STIFF: tuple[tuple[str, str, Options], ...] = (
     ("dipole", "ambient:radau2a3", (("adaptive", True), ("solver", "newton"))),
+    ("dipole", "cf:radau2a5", (("precision", "single"), ("solver", "newton"))),
     ("free_rigid_body_attitude", "ambient:radau2a3", (("adaptive", True), ("solver", "simplified-newton"))),
     (
         "actuated_rigid_body",
@@ -31,6 +32,7 @@ STIFF: tuple[tuple[str, str, Options], ...] = (
 OTHERS: tuple[tuple[str, str, Options], ...] = (
     ("free_rigid_body", "cf4", ()),
     ("free_rigid_body", "cf43", (("adaptive", True), ("precision", "single"))),
+    ("dipole", "ambient:dop853", (("adaptive", True),)),
     ("heavy_top", "slgi:midpoint", (("frame", "body"), ("jacobian", True))),
 )
 
@@ -53,7 +55,7 @@ def check(emission: tuple[str, str, Options], compiler: Compiler, level: str, fo
 @pytest.mark.parametrize(
     "level", [pytest.param(x, marks=[pytest.mark.slow] * (x in ("-O1", "-O3"))) for x in LEVELS]
 )
-@pytest.mark.parametrize("emission", [STIFF[0], OTHERS[1]], ids=lambda x: f"{x[0]}-{x[1]}")
+@pytest.mark.parametrize("emission", [STIFF[0], OTHERS[1], OTHERS[2]], ids=lambda x: f"{x[0]}-{x[1]}")
 def test_calls_stay_within_the_stated_stack(
     compiler: Compiler, level: str, emission: tuple[str, str, Options], tmp_path: Path
 ) -> None:
