@@ -19,6 +19,8 @@ from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.precision import DOUBLE
+from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, operations
@@ -32,8 +34,6 @@ from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
-from codegen.run.precision import DOUBLE
-from codegen.run.precision import precision as known_precision
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
 from codegen.scene.momentum_frame import with_frame

@@ -304,7 +304,8 @@ class CompiledIntegrator(Integrator):
         if status != Status.OK:
             why = reason(status, self._block(counted), span[2])
             if status == Status.BAD_STEP:
-                why = "from {} to {} by {} with rtol = {}, atol = {}".format(*span, *tolerances)
+                given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
+                why = f"expected finite numbers and no negative tolerance, found {given}"
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
@@ -417,7 +418,7 @@ def reason(status: int, block: str, h: float) -> str:
         case Status.NOT_CONVERGED:
             return f"{block} did not converge"
         case _:
-            return f"{block} met a number that is not finite" if block else "the new state is not finite"
+            return f"{block} computed a number that is not finite" if block else "the new state is not finite"
 
 
 def like(state: State, values: Sequence[Any]) -> State:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     "-t",
     "targets",
     multiple=True,
-    help="A target (orderconds list targets), by default c; may be repeated.",
+    help="A target (see orderconds list targets), by default c; may be repeated.",
 )
 @click.option(
     "--against",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
-@click.option("--target", help="A target (orderconds list targets), or interpreter; by default c.")
+@click.option("--target", help="A target (see orderconds list targets) or interpreter; by default c.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(

@@ -79,9 +79,9 @@ def command(
     module.
     """
     from codegen.emitter import bare, compile_method, emit_compiled
+    from codegen.ir.precision import precision as known_precision
     from codegen.printers import DEFAULT
     from codegen.printers import target as known_target
-    from codegen.run.precision import precision as known_precision
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing: the folder to write to (or give --explain or --json)")

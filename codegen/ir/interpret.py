@@ -78,18 +78,33 @@ def interpret(
             # near is a queue: each block removes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
-            # Fixed-point iteration is tried first: where it contracts, its result is accurate to rounding,
-            # and it needs no difference quotients.
-            patience = getattr(domain, "patience", limit) if newton else limit
-            try:
-                _iterate(statement, env, domain, run, min(limit, patience), expected)
-            # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
-            except (ArithmeticError, ValueError):
-                if not newton or not hasattr(domain, "increment"):
-                    raise
-                _correct(statement, env, _differenced(domain), run, limit)
+            _fixed_point_first(statement, env, domain, run, limit, expected, newton)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
+
+
+def _fixed_point_first(
+    block: Solve,
+    env: Env,
+    domain: Domain,
+    run: Callable[[Assign], None],
+    limit: int,
+    expected: Env,
+    newton: bool,
+) -> None:
+    """Solve a block by fixed-point iteration and, if this fails and ``newton`` is true, by Newton's method.
+
+    Where the fixed-point iteration contracts, its result is accurate to rounding, and it needs no difference
+    quotients.
+    """
+    patience = getattr(domain, "patience", limit) if newton else limit
+    try:
+        _iterate(block, env, domain, run, min(limit, patience), expected)
+    # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
+    except (ArithmeticError, ValueError):
+        if not newton or not hasattr(domain, "increment"):
+            raise
+        _correct(block, env, _differenced(domain), run, limit)
 
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:

@@ -128,7 +128,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The number is not zero: the pass for zeros has removed multiples by a proven zero.
+    # The coefficient is not zero: an earlier pass has removed every term with the coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 

@@ -52,6 +52,7 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
+        # Resolved at each use: a description of a target then needs no import of its printer and templates.
         return cast("PrintModule", resolve_name(self.printer))
 
     @property

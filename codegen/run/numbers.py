@@ -29,8 +29,11 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
+            # Arrays of one name in different blocks are counted separately: a compiler need not overlap
+            # them.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
+        # A scalar that is assigned several times has one place on the stack.
         scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
     return arrays + passed + len(scalars) + len(function.parameters)
 

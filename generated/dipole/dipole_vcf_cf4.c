@@ -21,7 +21,7 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
- *             2 mul an initial guess, in the first step of a run
+ *             2 mul for an initial guess, in the first step of a run
  *             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
@@ -449,7 +449,7 @@ static double dipole_vcf_cf4_difference_size(const struct dipole_vcf_cf4_memory 
 static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     const double solution[static 12])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

@@ -25,7 +25,7 @@ left out:   24 adjoint maps, 5 products, 1 sum: coefficients are zero, or terms
             parameters, folded: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
-            2 mul an initial guess, in the first step of a run
+            2 mul for an initial guess, in the first step of a run
             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1,
             n2, n3, n4
             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of
@@ -53,7 +53,7 @@ BAD_STEP = 3
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
+    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -446,7 +446,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is only a copy: do not judge it
+    # with fewer than three solutions the guess is a copy of the last one and is not
+    # judged
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])
@@ -1389,7 +1390,7 @@ def _run(state, h, steps, trajectory, stride, statistics, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
+    """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 12:
         raise ValueError(f"expected 12 numbers in state, found {len(numbers)}")
@@ -1406,7 +1407,7 @@ def _failure(status, step, state, h, statistics):
         if status == NOT_CONVERGED:
             reason = f"{label} did not converge"
         else:
-            reason = f"{label} met a number that is not finite"
+            reason = f"{label} computed a number that is not finite"
     return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
@@ -1421,8 +1422,8 @@ def step(state, h, *, statistics=None):
 def run(state, h, steps, *, stride=0, statistics=None):
     """Return the state after ``steps`` steps of size h, as a list.
 
-    With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. If a step fails, StepFailed is raised, with the last good state.
+    With a positive stride, return rows instead: the initial state, and the state after every
+    stride-th step. If a step fails, StepFailed is raised; it contains the last good state.
     """
     state = _numbers(state)
     h = float(h)

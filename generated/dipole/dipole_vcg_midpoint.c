@@ -19,7 +19,7 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 38 add, 58 mul, 1 stumpff_12 a step
- *             2 mul an initial guess, in the first step of a run
+ *             2 mul for an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
@@ -323,7 +323,7 @@ static double dipole_vcg_midpoint_difference_size(const struct dipole_vcg_midpoi
 static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

@@ -23,7 +23,7 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 114 add, 174 mul, 3 stumpff_12 a step
- *             6 mul an initial guess, in the first step of a run
+ *             6 mul for an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
@@ -331,7 +331,7 @@ static double dipole_vcg_triple_jump_difference_size(const struct dipole_vcg_tri
 static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

@@ -23,7 +23,7 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
- *             2 mul an initial guess, in the first step of a run
+ *             2 mul for an initial guess, in the first step of a run
  *             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
@@ -427,7 +427,7 @@ static double dipole_vrkmk2_gauss2_difference_size(const struct dipole_vrkmk2_ga
 static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

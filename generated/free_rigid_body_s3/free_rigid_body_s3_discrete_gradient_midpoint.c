@@ -13,7 +13,7 @@
  *             3 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
- *             21 add, 42 mul an initial guess, in the first step of a run
+ *             21 add, 42 mul for an initial guess, in the first step of a run
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
  * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1408 of them as
@@ -229,7 +229,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01(doub
     }
 }
 
-/* a/b, or 0 if b = 0, which is the limit */
+/* a/b, or its limit 0 if b = 0 */
 static inline double free_rigid_body_s3_discrete_gradient_midpoint_quotient(double a, double b)
 {
     return b > 0.0 || b < 0.0 ? a / b : b;
@@ -365,7 +365,7 @@ static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(cons
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

@@ -11,7 +11,7 @@
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   the time: the scene does not depend on it
  * operations: 50 add, 71 mul, 1 stumpff_1 a step
- *             3 mul an initial guess, in the first step of a run
+ *             3 mul for an initial guess, in the first step of a run
  *             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1, n1
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of xi1, n1
  * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1120 of them as
@@ -476,7 +476,7 @@ static double heavy_top_slgi_midpoint_difference_size(const struct heavy_top_slg
 static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoint_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

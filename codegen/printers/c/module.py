@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.printers.c.terms import literal
@@ -17,7 +18,6 @@ from codegen.run.identifiers import identify
 from codegen.run.language import Unit, terms
 from codegen.run.numbers import numbers_held
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.sweeps import WIDE
 from codegen.run.terms import STATUSES
 from codegen.run.trajectory import is_looped
@@ -55,15 +55,20 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
+        # Explicit kernels call each function a few times only; inlining all branches there would only add
+        # code.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
+        # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
         chain=chain(kernel),
         prefix=interface.prefix,
     )
     public = {f.name: f for f in unit.functions if f.public}
+    # Width 96: the comment adds a star and a space to each line of at most 100 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
+        # Titles and names come from users: an end of a comment in them must not end the header.
         "recipe": [comment(line) for line in comments],
         "usage": usage(interface, recipe),
         "module": interface.module,
@@ -78,6 +83,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
+        # Prototypes come from the same functions as definitions, so the two cannot differ.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -90,6 +96,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> list[list[str]]:
     """Return the lines of the definitions of a module: records, tables, functions."""
+    # Public records are in the header, because callers allocate them.
     definitions = [printer.record(record.name) for record in unit.records if not record.public]
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
@@ -119,12 +126,14 @@ def helpers(unit: Unit) -> list[str]:
                 names.add("all_finite")
             elif term.op == "call":
                 names.add({"abs": "fabs", "greatest": "greater"}.get(term.text, term.text))
+    # pow and copysign are in math.h and need no helper.
     return sorted(names - {"power", "copysign"})
 
 
 def inverted(kernel: Kernel) -> int:
     """Return the size of the inverted matrices, 0 if they have several sizes or are large."""
     sizes = {len(x.unknowns) for x in kernel.loops if x.newton is not None and not x.newton.inverted}
+    # A single small size allows unrolled rows; with several sizes, each would need its own function.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
@@ -142,6 +151,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
         EACH_SOLVING if interface.blocks else EACH,
     )
     numbers = numbers_held(unit)
+    # Rounded up to 64 bytes, which covers the alignment of vector registers.
     bound = -(-(each * numbers + frames) // 64) * 64
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
@@ -205,12 +215,14 @@ def example_input(interface: Interface) -> list[str]:
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return the lines of a program that runs the step from the scene's initial state."""
     real = interface.format
+    # printf converts float to double silently, about which -Wdouble-promotion warns.
     wide = "" if real is DOUBLE else "(double)"
 
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
     initial = ", ".join(map(number, recipe.initial))
+    # The example starts at t = 0; the order of the arguments is that of ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["constant", "NULL"] if interface.inputs else []

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from codegen.ir.precision import DOUBLE
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.run.identifiers import identify
 from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Table, Unit, While
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import Kind, count, number, real, whole
 
 X, Y, N, INDEX = real("x"), real("y"), count("n"), count("i")
@@ -42,7 +42,9 @@ def test_a_local_array_is_copied_by_its_own_size() -> None:
 
 def test_every_function_has_the_prefix_and_public_ones_no_storage_class() -> None:
     assert lines(Return(X), returns=Kind.REAL, public=True)[0] == "double m_f(double x, size_t n)"
-    assert lines(Return(X), returns=Kind.REAL, often=True)[0] == "static inline double m_f(double x, size_t n)"
+    assert (
+        lines(Return(X), returns=Kind.REAL, often=True)[0] == "static inline double m_f(double x, size_t n)"
+    )
 
 
 def test_an_unread_parameter_is_cast_to_void() -> None:
