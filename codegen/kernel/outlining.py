@@ -16,7 +16,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from codegen.ir.domain import ExprDomain, FloatDomain
+from codegen.errors import MethodError
+from codegen.ir.domain import ExprDomain, FloatDomain, PreciseDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.kernel import Function
 from codegen.ir.program import Program
@@ -45,6 +46,9 @@ AGREE = 1e-9
 
 Outlining hardly changes the operations, so the difference is at most 1.4e-17 for the methods named at
 :data:`WORTH`. A wrong argument or result changes the leading digits. Any limit far from both is suitable."""
+
+ATTEMPTS, DIGITS = 8, 60
+"""The number of points for the verification in doubles, and in DIGITS digits if doubles overflow."""
 
 Shape = tuple[Key, tuple[int, ...]]
 """The key of the trees of one function, and the results that are read."""
@@ -190,19 +194,27 @@ class Outline:
         """Raise :class:`codegen.ir.verify.IllFormed` if the calls give different values."""
         # Sorted names and fixed sines give the same point in every run.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
-        for attempt in range(1, 9):
+        for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
             # Roots of negative numbers or overflow at one point prove nothing; try shorter steps.
             values |= {x: 0.5**attempt for x in names if x == "h"}  # long steps overflow
+            domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
+            if attempt > ATTEMPTS:
+                domain = precise = PreciseDomain(0.1, DIGITS)
+                values = {x: precise.context.mpf(v) for x, v in values.items()}
             try:
-                old = evaluate(before, FloatDomain(0.1), values)
-                new = evaluate(after, WithFunctions(FloatDomain(0.1), self.outlined), values)
+                old = evaluate(before, domain, values)
+                new = evaluate(after, WithFunctions(domain, self.outlined), values)
             except (ArithmeticError, ValueError):
                 continue
-            if not all(map(math.isfinite, old)):
+            # abs(x) < inf is false for NaN as well, in both domains.
+            if not all(abs(x) < math.inf for x in old):
                 continue
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
                 raise IllFormed(f"outlining changed the meaning of {self.program.name}")
             return
-        raise IllFormed(f"outlining of {self.program.name} could not be verified")
+        raise MethodError(
+            f"the step of {self.program.name} is finite at no point that was tried",
+            expected="coefficients and parameters of moderate size",
+        )
