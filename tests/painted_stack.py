@@ -20,43 +20,48 @@ enum {{ STACK = 1 << 20, PAINT = 0x5a }};
 
 static const {real} start[{size}] = {{{start}}};
 static {real} state[{size}], rows[{size} * 8];
-{more}
-static void *nothing(void *argument)
+static unsigned char *bottom;
+static size_t depth;
+
+/* Count the bytes between a frame and the deepest byte that the thread has written so far. */
+static void measure(const unsigned char *frame)
 {{
-    return argument;
+    size_t untouched = 0;
+    while (bottom[untouched] == PAINT) untouched++;
+    depth = (size_t)(frame - (bottom + untouched));
 }}
 
+{more}
 static void *call_step(void *argument)
 {{
     {prefix}step(state, {t}{h}{step});
+    measure(__builtin_frame_address(0));
     return argument;
 }}
 
 static void *call_run(void *argument)
 {{
     {prefix}run(state, {t}{h}, 5, {run}rows, 1{counts}, NULL);
+    measure(__builtin_frame_address(0));
     return argument;
 }}
 
 static size_t used(void *(*function)(void *))
 {{
-    unsigned char *stack = aligned_alloc(4096, STACK);
+    bottom = aligned_alloc(4096, STACK);
     pthread_attr_t attributes;
     pthread_t thread;
-    memset(stack, PAINT, STACK);
+    memset(bottom, PAINT, STACK);
     memcpy(state, start, sizeof start);
-    if (pthread_attr_init(&attributes) || pthread_attr_setstack(&attributes, stack, STACK)) exit(1);
+    if (pthread_attr_init(&attributes) || pthread_attr_setstack(&attributes, bottom, STACK)) exit(1);
     if (pthread_create(&thread, &attributes, function, NULL) || pthread_join(thread, NULL)) exit(1);
-    size_t untouched = 0;
-    while (untouched < STACK && stack[untouched] == PAINT) untouched++;
-    free(stack);
-    return STACK - untouched;
+    free(bottom);
+    return depth;
 }}
 
 int main(void)
 {{
-    const size_t own = used(nothing);
-    printf("step %zu\\nrun %zu\\n", used(call_step) - own, used(call_run) - own);
+    printf("step %zu\\nrun %zu\\n", used(call_step), used(call_run));
 {calls}
     return 0;
 }}
@@ -78,6 +83,7 @@ static void *call_adaptive(void *argument)
 {{
     {real} now = {time}, size = {h};
     {prefix}run_adaptive(state, &now, {time} + 3 * {h}, &size, {rtol}, {rtol}, 30, {run}{first}NULL, NULL);
+    measure(__builtin_frame_address(0));
     return argument;
 }}
 """
@@ -88,6 +94,7 @@ static {real} matrix[{columns} * {columns}];
 static void *call_jacobian(void *argument)
 {{
     {prefix}jacobian(state, {t}{h}{held}, matrix);
+    measure(__builtin_frame_address(0));
     return argument;
 }}
 """
@@ -139,7 +146,5 @@ def _program(artifact: Artifact) -> str:
     chosen = {"adaptive": interface["adaptive"], "jacobian": interface["variations"]}
     texts = {"adaptive": ADAPTIVE, "jacobian": JACOBIAN}
     more = [INPUT] * bool(inputs) + [texts[name] for name, there in chosen.items() if there]
-    calls = [
-        f'    printf("{name} %zu\\n", used(call_{name}) - own);' for name, there in chosen.items() if there
-    ]
+    calls = [f'    printf("{name} %zu\\n", used(call_{name}));' for name, there in chosen.items() if there]
     return PROGRAM.format(**words, more="".join(x.format(**words) for x in more), calls="\n".join(calls))
