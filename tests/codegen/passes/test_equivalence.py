@@ -128,7 +128,7 @@ def test_a_field_that_is_not_there_around_the_initial_state_is_bad_input(field):
         view, program = lowered("rk", "euler", on_the_line(field, 1))
         return Reference(program, view)
 
-    with pytest.raises(SceneError, match=r"no step can be computed from|f at the initial state is no finite"):
+    with pytest.raises(SceneError, match=r"no step can be computed from|f at the initial state is not a finite"):
         compared()
 
 
