@@ -49,9 +49,10 @@ class _Inputs:
 
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
-) -> tuple[Function, list[int]]:
-    """Return the function for a tree, and the positions of those inputs of the tree that are arguments.
+) -> tuple[Function, list[int], list[str]]:
+    """Return the function for a tree, and its arguments: positions of inputs of the tree, then parameters.
 
+    The parameters are those of the scene that operations of the tree read at run time.
     ``read`` are the indices of the results that the function computes. ``fixed`` has, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
     None.
@@ -99,7 +100,9 @@ def function(
     outputs = tuple(ends[k] for k in read)
     # An argument may be read by unused results only; such arguments are dropped.
     taken = inputs.read(outputs)
-    return Function(name, tuple(inputs.symbols[p].payload for p in taken), (), outputs, texts[-1]), taken
+    own_inputs = [inputs.symbols[p].payload for p in taken]
+    parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
+    return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:

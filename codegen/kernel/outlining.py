@@ -113,14 +113,15 @@ class Outline:
                 for x, *others in zip(*inputs, strict=True)
             ]
             # The first tree is the pattern: trees with the same key differ only in operands and coefficients.
-            outlined, places = function(name, self.trees, trees[0], self.scene, key[1], fixed)
+            outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
+            constant = [self.domain.space.sym(x) for x in parameters]
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
                     # Two trees may share a result, because equal expressions are one node; the first call
                     # computes it.
-                    calls.setdefault(results[out].id, (name, k, [flat[p] for p in places]))
+                    calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:

@@ -111,6 +111,7 @@ def needed(
     wide: int = 0,
     widest: int = 0,
     chain: int = 1,
+    prefix: str = "",
 ) -> Needed:
     """Return the helpers and library functions that a module of a target needs, and no others.
 
@@ -119,7 +120,8 @@ def needed(
     inline all branches of Stumpff functions. ``wide`` is the common number of rows of all inverted matrices,
     0 if they differ or are large; C unrolls a row of this length. ``widest`` is the largest number of rows; C
     reserves this much memory. ``chain`` is the number of angles that depend on one another
-    (:func:`codegen.snippets.stumpff.limit`).
+    (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two modules
+    can share one translation unit.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -136,6 +138,7 @@ def needed(
         "wide": wide,
         "widest": widest or wide,
         "limit": stumpff.limit(precision, chain),
+        "prefix": prefix,
     }
     texts = tuple(_text(target, snippet, precision, given) for snippet in ordered if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
@@ -151,6 +154,8 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
 
     # C appends "f" to the names of its library functions in single precision.
     values: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
+    # In C, NAN is a float; the cast avoids the warning of -Wdouble-promotion.
+    values["nan"] = "(double)NAN" if precision is DOUBLE else "NAN"
     for name, value in (given | snippet.variables).items():
         if isinstance(value, float):
             values[name] = number(value)

@@ -33,6 +33,7 @@ from codegen.run.language import (
 from codegen.run.scope import declarations
 from codegen.run.terms import Kind, Term, own, symbols
 from codegen.run.writes import written
+from codegen.snippets.graph import LIBRARY
 
 MANY = 20
 """More than MANY consecutive short statements share lines."""
@@ -41,7 +42,7 @@ ONE_TEST = "one test for all values; if the sum overflows, test the terms x - x:
 
 
 class FunctionPrinter:
-    """Writes the functions of one unit in C; names of functions start with a prefix."""
+    """Writes the functions of one unit in C; names of functions, records and tables start with a prefix."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
@@ -54,9 +55,7 @@ class FunctionPrinter:
 
     def called(self, name: str) -> str:
         """Return the name of a function in C."""
-        function = self.unit.parts.get(name)
-        # Only external names need the prefix: private ones are static and local to the file.
-        return f"{self.prefix}{name}" if function is not None and function.public else name
+        return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def type_of(self, kind: Kind) -> str:
         """Return the type of a scalar."""
@@ -66,7 +65,7 @@ class FunctionPrinter:
 
     def record_type(self, name: str) -> str:
         """Return the type of a record."""
-        return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
+        return f"{'' if self.unit.record(name).public else 'struct '}{self.prefix}{name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
         """Return the declaration of a parameter; without ``static`` sizes in a ``header``, as in C++."""
@@ -96,8 +95,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
-        # Private functions are static: the compiler may inline them, and two modules in one program have no
-        # name conflicts.
+        # Private functions are static, so that the compiler may inline them. They have the prefix as well:
+        # two modules may be included in one file, and no header declares such a name.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -121,7 +120,7 @@ class FunctionPrinter:
         """Return the lines of a constant array."""
         rows = [[literal(self.precision, x) for x in row] for row in table.rows]
         size = "".join(f"[{n}]" for n in table.name.shape)
-        start = f"static const {self.real} {table.name.text}{size} ="
+        start = f"static const {self.real} {self.prefix}{table.name.text}{size} ="
         # Tables are static const, so that compilers can fold their entries into the code.
         about = [f"/* {comment(table.about)} */"]
         if len(table.name.shape) == 1:
@@ -133,7 +132,7 @@ class FunctionPrinter:
         """Return the lines of a record's type."""
         record = self.unit.record(name)
         lines = block_comment(record.about)
-        lines.append("typedef struct {" if record.public else f"struct {record.name} {{")
+        lines.append("typedef struct {" if record.public else f"{self.record_type(name)} {{")
         for field, about in record.fields:
             size = "".join(f"[{n}]" for n in field.shape)
             note = f" /* {comment(about)} */" if about else ""
@@ -159,7 +158,8 @@ class _Body:
         self.declared = declarations(function, self.identifiers)
         # Records among the parameters are pointers, local records are not: their fields need -> or a dot.
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
-        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers)
+        tables = [table.name.text for table in printer.unit.tables]
+        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers, tables)
         self.pointers = pointers
 
     def lines(self) -> list[str]:
