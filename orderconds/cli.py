@@ -218,7 +218,8 @@ def main() -> NoReturn:
     gc.set_threshold(100_000, 20, 20)
     catch_signals()
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a character that the terminal lacks is no error
+        # A character that the terminal cannot display must not raise an error.
+        if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
         program.main()

@@ -96,10 +96,10 @@ def family_order(
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     ``bound`` is the order in another family, whose conditions are a subset of those of ``family``. It is
-    therefore an upper bound. ``search_limit`` is the order up to which ``family`` searches without a claim.
-    If the order of ``bound`` is at least this limit, or with ``brief`` in any case, the search stops when it
-    reaches this bound. It then reports the failing conditions of ``bound``. Conditions that follow from
-    others, and from the orders ``proved`` in other families, are not evaluated
+    therefore an upper bound. ``search_limit`` is the highest order that is evaluated for a file without a
+    claim in ``family``. If the order of ``bound`` is at least this limit, or with ``brief`` in any case, the
+    search stops when it reaches this bound. It then reports the failing conditions of ``bound``. Conditions
+    that follow from others, and from the orders ``proved`` in other families, are not evaluated
     (:mod:`orderconds.families.reductions`). The search also ends when ``meter`` reports that a limit is
     reached.
 
@@ -217,7 +217,7 @@ def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
 
 
 def _norm(sizes: list[Decimal]) -> float:
-    """Return the 2-norm, to 15 digits."""
+    """Return the 2-norm of residuals with these absolute values, to 15 digits."""
     context = Context(prec=30)
     total = Decimal(0)
     for x in sizes:

@@ -84,7 +84,7 @@ def check(
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
     """Return the orders of the embedded row in families whose stages do not depend on the weights.
 
-    These families are the wanted ones, the classical one, and the family of the tableau format.
+    These are the families in ``wanted``, the classical family ``rk``, and the family of the tableau format.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:

@@ -126,8 +126,8 @@ def command(
 
 @contextmanager
 def _without_collection(paths: Sequence[str]) -> Iterator[None]:
-    """Switch garbage collection off for one file, because a check creates many small objects that live to its
-    end."""
+    """Switch garbage collection off for one file, because a check creates many small objects that are used
+    until the check ends."""
     collects = gc.isenabled()
     if len(paths) == 1:
         gc.disable()
@@ -179,7 +179,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # only the main process knows the terminal
+    if not job.one_of_many:  # only the main process writes to the terminal
         _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
     with redirect_stdout(io.StringIO()) as printed:

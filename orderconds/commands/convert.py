@@ -28,8 +28,8 @@ NAMES = click.Choice(list(FORMATS))
 def command(
     source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
 ) -> int:
-    """Convert a tableau: a file, or one of the library by name. Input is never executed as code. Reading the
-    output back gives the same method.
+    """Convert a tableau, given as a file or by its name in the library. Input is never executed as code. If
+    the output is read again, the method is the same.
     """
     bare = of is None and not os.path.exists(source) and "." not in os.path.basename(source)
     path = find(source) if bare else Path(source)

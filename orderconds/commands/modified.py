@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:
-    """Print the modified equation of a tableau: a file, or one of the library by name.
+    """Print the modified equation of a tableau, given as a file or by its name in the library.
 
     \b
     A step of the method is the exact flow, over the time h, of the field

@@ -36,7 +36,8 @@ PRIME_BITS = 61
 fractions."""
 
 MAX_PRIMES = 24
-"""The largest number of primes. Combinations with larger coefficients would need more primes."""
+"""The largest number of primes. A combination whose coefficients are too large for this number of primes is
+not found."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A dependent condition as a combination of monomials; each coefficient is x + y sqrt(d)."""

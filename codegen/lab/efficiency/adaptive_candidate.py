@@ -26,7 +26,7 @@ require short steps."""
 class AdaptiveCandidate(EmittedCandidate):
     """A method with an embedded row, emitted to a target, run over the span with step-size control.
 
-    MethodError for a method without an error estimate.
+    Raises MethodError for a method without an error estimate.
     """
 
     def __post_init__(self) -> None:

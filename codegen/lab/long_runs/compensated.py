@@ -29,7 +29,7 @@ def compensated(compiled: Compiled) -> Compiled:
 
     All carries are zero initially.
 
-    :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
+    Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
     """
     kernel = compiled.kernel
     if kernel.deferred is not None:  # deferred flows would be applied once for many steps

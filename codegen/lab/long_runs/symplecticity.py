@@ -33,7 +33,7 @@ def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: f
     Entries are compared by absolute value.
 
     ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
-    :class:`NotConverged` if an implicit block takes more than :data:`SWEEPS` iterations.
+    Raises :class:`NotConverged` if an implicit block takes more than :data:`SWEEPS` iterations.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
