@@ -134,7 +134,8 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line; --help prints during parsing."""
+        """Parse the command line. Closed pipes are handled here too, because click prints --help during
+        parsing."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -203,7 +204,7 @@ def _ask_for_traceback(ctx: click.Context, parameter: click.Parameter, asked: bo
     expose_value=False,
     callback=_ask_for_traceback,
     envvar="ORDERCONDS_TRACEBACK",
-    help="Show the traceback of an internal error (or set the variable ORDERCONDS_TRACEBACK=1).",
+    help="Show the traceback of an internal error. The variable ORDERCONDS_TRACEBACK=1 has the same effect.",
 )
 def program() -> None:
     """Derive, prove and compile Lie group integrators."""

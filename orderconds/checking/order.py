@@ -197,7 +197,8 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield (conditions, True) with all conditions that decide order n, or (batch, False) repeatedly.
+    """Yield the conditions that decide order n: all of them at once, as (conditions, True), or in batches,
+    each as (batch, False).
 
     The conditions are an independent set or, if such a set costs more, the conditions of all trees. The size
     of the batches doubles.

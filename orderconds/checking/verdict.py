@@ -195,7 +195,8 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the lowest order in a family whose conditions are a subset of those of ``family``."""
+    """Return the best upper bound of the order in ``family``: the lowest computed order in a family whose
+    conditions are a subset of the conditions of ``family``."""
     if not computed:
         return None
     from orderconds.proof.implications import consequences

@@ -36,7 +36,7 @@ WIDTH = 200
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
-@click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), claimed or not.")
+@click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), even without a claim.")
 @click.option(
     "--order", "-p", type=click.IntRange(1, 20), help="Ignore the claims; require at least this order."
 )
@@ -48,7 +48,7 @@ WIDTH = 200
 @click.option(
     "--certified",
     is_flag=True,
-    help="Require an exact or ball certificate for every file not listed in DIR/DECIMAL.",
+    help="Require a proof of each order (certificate exact or ball), except for the names in DIR/DECIMAL.",
 )
 @click.option(
     "--max-conditions",

@@ -20,9 +20,11 @@ NAMES = click.Choice(list(FORMATS))
 
 @click.command(name="convert", short_help="Convert a tableau to or from another file format.")
 @click.argument("source", metavar="FILE|NAME")
-@click.option("--from", "of", type=NAMES, help="The format of FILE. Default: by its suffix.")
-@click.option("--to", type=NAMES, help="The format to write. Default: by the suffix of --output, else toml.")
-@click.option("--name", help="The name of the tableau if FILE contains none.")
+@click.option("--from", "of", type=NAMES, help="The format of FILE. Default: from its suffix.")
+@click.option(
+    "--to", type=NAMES, help="The format to write. Default: from the suffix of --output, else toml."
+)
+@click.option("--name", help="The name of the tableau, if FILE contains no name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(

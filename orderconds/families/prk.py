@@ -74,8 +74,8 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic, else None. For symplectic pairs,
-        other families have the same order and fewer conditions."""
+        """Return this family for a pair of tableaux that is not symplectic, else None. For a symplectic pair,
+        other families determine the same order with fewer conditions."""
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None

@@ -134,8 +134,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # At even weight the logarithm vanishes. It is the sum over all divisions of the word into m parts of
-    # (-1)^(m+1)/m times the product of the values of the parts.
+    # The logarithm vanishes on words of even weight. Its value on a word is the sum, over all divisions of
+    # the word into m parts, of (-1)^(m+1)/m times the product of the values on the parts.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

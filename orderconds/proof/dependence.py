@@ -209,7 +209,7 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """Samples in which radicals are random numbers, except for a lone square root, which is
+    """Samples in which radicals are random numbers. If the only radical is a square root, it has the value
     ``square_root``."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:

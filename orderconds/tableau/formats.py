@@ -119,7 +119,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
         yield "A_hat", self.A_hat, "b_hat", self.b_hat
 
     def verify(self, where: str) -> None:
-        """Check that both parts have the same number of stages, and that no row is longer than this number."""
+        """Check that both parts have the same number of stages, and that all rows fit this number."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.b_hat) != s:
             raise TableauError(

@@ -32,7 +32,7 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""Steps from one start to the next."""
+"""The number of steps between two consecutive starts."""
 
 TIMES = 9
 """The number of measurements of a deviation; each is made after twice as many steps as the previous one."""
