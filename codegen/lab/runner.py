@@ -101,7 +101,7 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test, about one second."""
+        """The largest number of steps in a convergence test; a run with it takes about one second."""
         return printers.target(self.target).most_steps
 
     @cached_property

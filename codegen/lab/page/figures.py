@@ -219,7 +219,7 @@ def _draw(axes: Axes, curves: Sequence[Curve], *, marked: bool = True) -> None:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw the line C h^order over the range of h of the curve, slightly below the point with the smallest h."""
+    """Draw the line C h^order over the curve's range of h, slightly below the point with the smallest h."""
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
