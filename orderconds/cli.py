@@ -176,7 +176,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # click sets no context if an option lacks its value
+        error.ctx = error.ctx or ctx  # click sets no context if the value of an option is missing
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()

@@ -73,7 +73,7 @@ class FamilyOrder:
             "verdict": self.verdict,
             "certificate": self.certificate,
             "failing": [failure.as_json() for failure in self.failing],
-            # JSON has no infinity
+            # an infinite norm becomes null, because JSON has no infinity
             "error_norm": None if self.error_norm == math.inf else self.error_norm,
         }
         if self.limit is not None:
@@ -178,7 +178,8 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # For balls, a theorem proves only that the digits support an order.
+        # Over balls, a theorem about a condition proves only that the digits support the condition. Such a
+        # condition is skipped only if the certificate is already ``decimal``.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

@@ -84,7 +84,7 @@ def command(
     from orderconds.families import get
 
     if family is not None:
-        get(family)  # an unknown family is one error for the command, not one for each file
+        get(family)  # report an unknown family once, not for each file
     excused = _excused(tableaux)
     limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
     paths = list(_files(tableaux))

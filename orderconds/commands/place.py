@@ -40,7 +40,7 @@ def put(path: str, content: bytes) -> None:
     >>> import os
     >>> put(os.devnull, b"gone")
     """
-    target = Path(path).resolve()  # write to the target of a link, and keep the link
+    target = Path(path).resolve()  # write to the target of a symbolic link, and keep the link
     try:
         if target.exists() and not target.is_file():
             target.write_bytes(content)

@@ -153,11 +153,11 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # Long exponents would give numbers that fill the memory.
+    # A number with a long exponent could fill the memory.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
-    except (ValueError, ZeroDivisionError):  # such as 1/0 or 1/2e3
+    except (ValueError, ZeroDivisionError):  # for example 1/0 or 1/2e3
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

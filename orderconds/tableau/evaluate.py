@@ -69,7 +69,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            evaluation.check_unused()  # evaluated last: unused numbers must not enlarge the ring
+            evaluation.check_unused()  # evaluated last, because unused numbers must not enlarge the ring
             return ring, _shared(values, lift)
         except DegreeError:
             pass

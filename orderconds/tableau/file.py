@@ -89,7 +89,8 @@ def bytes_of(path: str | Path) -> bytes:
     b'name'
     """
     content = read_bytes(path, "a tableau file", error=TableauError)
-    return content.removeprefix(BOM_UTF8)  # the byte order mark, which some editors and spreadsheets write
+    # Some editors and spreadsheets write a byte order mark at the start of a file.
+    return content.removeprefix(BOM_UTF8)
 
 
 def meant_as_tableau(path: str | Path) -> bool:

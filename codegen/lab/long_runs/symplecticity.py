@@ -28,7 +28,8 @@ SWEEPS = 100
 
 
 def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: float = 0.0) -> float:
-    """Return the largest entry of J^T Omega(end) J - Omega(start), relative to that of Omega(start).
+    """Return the largest entry of J^T Omega(end) J - Omega(start) divided by the largest entry of
+    Omega(start).
 
     Entries are compared by absolute value.
 

@@ -296,7 +296,8 @@ def _svg(figure: Figure, name: str) -> str:
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
     text = re.sub(r'\s+(width|height)="[\d.]+pt"', "", text, count=2)
-    text = re.sub(r"<style.*?</style>", "", text, flags=re.DOTALL)  # a style applies to the whole page
+    # A style element in the figure would apply to the whole page.
+    text = re.sub(r"<style.*?</style>", "", text, flags=re.DOTALL)
     text = re.sub(r'\s+id="[^"]*_\d+"', "", text)
     text = re.sub(r"""'DejaVu Sans'(?:, [^;"]*)?""", "var(--sans)", text)
     for colour, variable in COLOURS.items():
