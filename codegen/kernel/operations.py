@@ -44,7 +44,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # A stored inverse times the residual: n^2 products and n (n - 1) additions.
+                    # The product of a stored inverse and the residual takes n^2 products and n (n - 1)
+                    # additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -119,7 +120,7 @@ def _counted(
             roots.append(statement.value)
     for root in roots:
         total = _plus(total, _operations_in_text(root))
-    # Arithmetic operations first, then calls in alphabetical order.
+    # Arithmetic operations come first, then calls in alphabetical order.
     first = ("add", "mul", "div")
     return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
 
