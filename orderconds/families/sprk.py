@@ -1,8 +1,8 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
 Suppose that the root of a tree moves across an edge. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
-weights of both trees add up to a product of weights of smaller trees. Conditions therefore belong to free
-trees with directed edges (Abia and Sanz-Serna 1993; HLW VI.7).
+weights of both trees add up to a product of weights of smaller trees. The conditions are therefore indexed by
+free trees with directed edges (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations

@@ -212,7 +212,9 @@ def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
 
 def _reached(proof: Proof, order: int) -> int:
     if proof.order > order:
-        raise NotProved(f"reduction: it implies order {order}, but [proof] has order = {proof.order}")
+        raise NotProved(
+            f"reduction: the assumptions imply order {order}, but [proof] has order = {proof.order}"
+        )
     return proof.order
 
 

@@ -119,7 +119,9 @@ def parsed(text: str, where: str) -> Data:
             str(problem), where=where, expected="a TOML file in which each key occurs once"
         ) from None
     except RecursionError:
-        raise TableauError("TOML nested too deep", where=where, expected="shallow tables and lists") from None
+        raise TableauError(
+            "TOML nested too deep", where=where, expected="tables and lists with few levels"
+        ) from None
     # Python raises ValueError for an integer with thousands of digits and for a date outside the calendar.
     except ValueError:
         raise TableauError(

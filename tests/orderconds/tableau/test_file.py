@@ -272,7 +272,7 @@ MALFORMED = {
     "lists in lists in lists": (
         HEAD + "A = " + "[" * 3000 + "]" * 3000 + "\n",
         "nested too deep",
-        "shallow tables",
+        "with few levels",
     ),
     "rk keys in cf": (CF + 'A = [[]]\nb = ["1"]\n', "unknown key", "low_storage"),
 }
