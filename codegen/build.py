@@ -1,4 +1,5 @@
-"""Compile emitted C to a shared object; results are cached by content and compiler.
+"""Compile emitted C to a shared object. A cache keeps the shared object for the same sources and the same
+compiler.
 
 The compiler writes into a temporary folder inside the cache, and the finished file is renamed
 (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes may build the same

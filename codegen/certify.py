@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 DOUBLE_BITS = 53
-"""Bits of a double: rounding changes a number by a relative error of at most 2^-53."""
+"""The number of significant bits of a double: rounding causes a relative error of at most 2^-53."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class CertifiedOrder:
 
     If ``bound`` is true, the search ended before a condition failed, so the order may be higher. If the order
     was computed for an abelian group, ``classical`` is the classical family to which the method reduces
-    there. ``radius`` is the uncertainty of the coefficients if it exceeds double precision; in this case
-    there is no certificate.
+    there. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error of a double; in
+    this case there is no certificate.
     """
 
     order: int
@@ -63,7 +63,8 @@ def family_of(method: Method) -> Family:
 
 
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
-    """Return the order of a method in its family; raise a MethodError if the order cannot be decided.
+    """Return the order of a method in its family; raise a MethodError if the precision of the coefficients
+    does not determine the order.
 
     On a ``scene`` with an abelian group the method belongs to a classical family, whose conditions determine
     the order.

@@ -49,11 +49,12 @@ COUNTED = "; the numbers of sweeps above are for double precision"
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5}
-"""The cost model for comparing two forms of a step: costs in additions; functions that are not listed cost
-twelve."""
+"""The cost of an operation in units of one addition, by which two forms of a step are compared. Additions and
+products cost 1, and functions that are not listed cost 12."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Headers and modules that emitted files or their examples include; no emitted file may have their names."""
+"""Headers and modules that emitted files or their examples include. No emitted file may have the name of one
+of them."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,8 @@ class Compiled(Optimised):
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
-    """Return a method on a scene lowered and optimised, for groups without closed forms as well."""
+    """Return the optimised step program of a method on a scene. The group need not have closed forms, because
+    no kernel is built."""
     problem, lowered = problem_for(scene, method), lower(scene, method)
     program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
     return Optimised(scene, method, problem, lowered, program, trace)
@@ -143,7 +145,8 @@ def compile_method(
 
 
 def work(kernel: Kernel) -> int:
-    """Estimate the cost of a step in additions: SWEEPS sweeps of each block, and the rest once."""
+    """Estimate the cost of a step in units of one addition. The operations of each block are counted SWEEPS
+    times, all other operations once."""
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in operations(arrange(kernel)).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
@@ -281,7 +284,8 @@ def emit_kernel(
 ) -> Artifact:
     """Return a kernel as a module of a target; ``about`` is added to the manifest entry.
 
-    The prefix starts every external C name and names the files. UnknownName for an unknown target.
+    Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
+    target.
     """
     interface = Interface.of(kernel, prefix, precision)
     files = known_target(target).print_module(kernel, interface, recipe)
@@ -367,7 +371,8 @@ def quoted(word: str) -> str:
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
-    """Return SCENE_FAMILY_TABLEAU_, without the family if the tableau's name starts with it.
+    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the tableau's name starts with the
+    family.
 
     A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
     """
@@ -382,8 +387,8 @@ def prefix_of(name: str, hint: str = "") -> str:
     """Return a prefix that ends in one underscore; raise an InputError if it is not an identifier of C and
     Python.
 
-    The files have this name, too. So it must not be a keyword, because Python cannot import such a file, and
-    it must not be the name of a header or module that emitted code includes.
+    The names of the files begin with the prefix. It must not be a keyword, because Python cannot import a
+    module with this name. It must not be the name of a header or module that emitted code includes.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

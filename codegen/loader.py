@@ -31,7 +31,7 @@ Signals = Callable[[float], Sequence[float]]
 
 
 class Status(IntEnum):
-    """The result of a step, with the numbers of emitted code."""
+    """The result of a step; emitted code returns these numbers."""
 
     OK = 0
     NOT_CONVERGED = 1
@@ -41,7 +41,8 @@ class Status(IntEnum):
 
 
 class StepFailed(ArithmeticError):
-    """A step failed: its status, the number of steps completed before it, the last good state."""
+    """The error of a failed step: its status, the number of steps completed before it, and the state after
+    these steps."""
 
     def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
         super().__init__(f"step {step + 1}: {reason}")
@@ -61,8 +62,9 @@ class Arrival:
 
 @dataclass
 class Statistics:
-    """Sweeps by block, the largest number of sweeps of a block in one step, and the number of the block that
-    failed (counted from 1; 0 if no block failed).
+    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
+    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
+    failed.
 
     ``matrices`` is the number of Newton matrices that were computed.
     """
@@ -182,7 +184,8 @@ class Integrator(ABC):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the derivative of one step; the module's header names the variations in its rows.
+        """Return the derivative of one step with respect to the state. The header of the emitted module
+        describes its rows and columns.
 
         TypeError is raised for a module without a Jacobian (``emit --jacobian``), StepFailed if the step
         fails.
@@ -212,7 +215,7 @@ class Integrator(ABC):
     def _checked_count(self, steps: int) -> int:
         count = operator.index(steps)
         if count < 0:
-            raise ValueError(f"expected no negative number of steps, found {steps}")
+            raise ValueError(f"expected a number of steps of at least 0, found {steps}")
         return count
 
     def _numbers(self, state: State) -> list[float]:
@@ -225,7 +228,7 @@ class Integrator(ABC):
         known = self.interface.parameters
         for name in parameters:
             if name not in known:
-                raise TypeError(f"unknown parameter {name}; this step reads {', '.join(known) or 'none'}")
+                raise TypeError(f"unknown parameter {name}; the parameters are: {', '.join(known) or 'none'}")
         values = {**self.defaults, **parameters}
         for name in known:
             if name not in values:
@@ -259,7 +262,7 @@ class Integrator(ABC):
 
 
 class CompiledIntegrator(Integrator):
-    """A module in a shared object; calls release the interpreter lock."""
+    """An emitted C module in a shared object. Calls release Python's global interpreter lock."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
         from cffi import FFI
@@ -271,7 +274,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            self._ffi.dlclose(self._library)  # an open library would hide a rebuilt library of the same name
+            # while a library is open, loading a rebuilt library of the same name returns the old one
+            self._ffi.dlclose(self._library)
             raise
 
     def _call(
@@ -306,13 +310,14 @@ class CompiledIntegrator(Integrator):
             why = reason(status, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
-                why = f"expected finite numbers and no negative tolerance, found {given}"
+                why = f"expected finite numbers and tolerances of at least 0, found {given}"
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
     @contextmanager
     def _observed(self, begun: _Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments for inputs and statistics; afterwards raise the error of an input function."""
+        """Yield the arguments for inputs and statistics. After the call, raise the error that an input
+        function has raised in it, if any."""
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
         counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
@@ -456,7 +461,8 @@ def load_compiled(
     try:
         return CompiledIntegrator(interface, defaults, build(files))
     except (OSError, AttributeError):
-        # The cached file has the recorded digest but is no library, or lacks the symbols: build it again.
+        # The cached file has the recorded digest, but it is no library or it lacks the functions of the
+        # module. It is built again.
         return CompiledIntegrator(interface, defaults, build(files, again=True))
 
 

@@ -55,8 +55,8 @@ class Method:
         return self.tableau.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number; a rational coefficient becomes an element of QQ, also from a
-        larger field."""
+        """Return a coefficient as a number. A rational coefficient becomes an element of QQ, even if the
+        coefficients of the tableau are in a larger field."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -74,7 +74,8 @@ class Method:
         return method
 
     def can_reduce_brackets(self) -> bool:
-        """Whether the tableau is explicit and exact: the algorithm for the fewest brackets requires both."""
+        """Whether the tableau is explicit and its coefficients are exact: the search for the fewest brackets
+        requires both."""
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             return False
@@ -84,8 +85,8 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials; a Butcher tableau is read as a
-        Crouch-Grossman method."""
+        """Return the exponents of the stages and of the update as products of exponentials. A Butcher tableau
+        is read as a Crouch-Grossman method."""
         method = self.tableau.read_as(("cf",))
         if isinstance(method, CommutatorFree):
             return method
@@ -94,8 +95,9 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method if ``adaptive`` is set; raise :class:`MethodError` if there is none.
 
-        The embedded method shares the stages, so the stages of the family must not depend on the weights. The
-        fewest brackets depend on the weights, so a family that searches for them needs a cut-off.
+        The embedded method uses the same stages with other weights, so the stages must not depend on the
+        weights. The fewest brackets depend on the weights, so a family that searches for the fewest brackets
+        needs a cut-off.
         """
         if not self.adaptive:
             return None
@@ -183,7 +185,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
             where=text,
             expected=f"a cut-off for {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau has no A and b, even if it claims an order in rk (for its sums of exponents).
+    # A commutator-free tableau has no A and b. It may claim an order in rk, but the claim is for the sums of
+    # its exponents.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # as splitting(3)

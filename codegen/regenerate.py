@@ -34,7 +34,7 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of the list; an InputError names an entry that cannot be read.
 
-    A file without modules is an error, because all of ``generated/`` would be stale.
+    A list without modules is an error, because every file of ``generated/`` would then be removed as stale.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -124,8 +124,8 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Return whether a file may be ignored: it is left by a run of an emitted module, or by a write that was
-    killed."""
+    """Return whether a file may be ignored, because running an emitted module creates it, or because a
+    process that was writing the folder was killed."""
     return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 

@@ -23,10 +23,12 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: on built-in scenes, compare orders measured in 50 digits with the claims; give no SCENE.",
+    help="strict: measure orders in 50 digits on built-in scenes, and compare them with the claims. Omit SCENE.",
 )
 @click.option(
-    "--stated", type=click.IntRange(1, 20), help="The order that the observed order is compared with."
+    "--stated",
+    type=click.IntRange(1, 20),
+    help="The stated order of the methods, with which the observed order is compared.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
@@ -41,8 +43,8 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    The exit status is 0 if every observed order equals the stated order, 1 if an order differs or is
-    undecided.
+    The exit status is 0 if every observed order equals the stated order, and 1 if an observed order differs
+    or is undecided.
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
@@ -115,7 +117,8 @@ def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) ->
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
-    """Return the numbers of steps in comma lists, sorted; raise :class:`InputError` for any other text.
+    """Return the numbers of steps in texts such as ``20,40,80``, sorted; raise :class:`InputError` for any
+    other text.
 
     >>> read_steps(("40,20", "80"))
     [20, 40, 80]

@@ -58,7 +58,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each pass, and the operations that were left out.",
+    help="Print the program after each pass, and the operations that the step does not need.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(

@@ -58,7 +58,7 @@ def command(
 
     problem = scenes.load(scene)
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
-    if not 1e-300 <= abs(h) <= 1e300:  # also true for NaN
+    if not 1e-300 <= abs(h) <= 1e300:  # the condition is negated, so that NaN is refused
         raise InputError(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
         )

@@ -87,8 +87,8 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequence[str]) -> Expr:
-    """Return row.z + constant as an expression in the expression space of s; ``names`` are the symbols of
-    z.
+    """Return row.z + constant as an expression of the space to which ``s`` belongs; ``names`` are the symbols
+    of z.
     """
     space = s.space
     total = space.const(Number.rational(*constant.as_integer_ratio()))

@@ -55,7 +55,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Formula:
-    """The formula of one part, which the kinds of flow examine."""
+    """The formula of one part, in which each kind of flow looks for a closed form."""
 
     problem: Problem
     name: str
@@ -66,7 +66,7 @@ class Formula:
         return Part(self.name, (Summand(((self.name, flow),)),))
 
     def refused(self, reason: str) -> Part:
-        """Return the part without flows."""
+        """Return the part without flows, with the reason."""
         return Part(self.name, (), reason)
 
     @property

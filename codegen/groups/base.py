@@ -36,7 +36,7 @@ class LieGroup(ABC):
     """A Lie group in coordinates.
 
     ``name`` is printed in messages and headers, ``dim`` is the dimension of the algebra, ``size`` is the
-    number of coordinates of an element. ``abelian`` promises that all brackets vanish. ``layout`` describes
+    number of coordinates of an element. ``abelian`` is true only if all brackets vanish. ``layout`` describes
     the order of the coordinates, for example ``, row by row``. It is printed after the name in the
     description of the state.
     """
@@ -47,8 +47,8 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations that a capability adds; the message about a group without the capability
-    contains it."""
+    """A noun for the operations that a capability adds. It is part of the error message for a group without
+    the capability."""
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:

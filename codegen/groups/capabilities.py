@@ -61,11 +61,11 @@ class Coadjoint(LieGroup):
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return P*_(order)(x, y) mu: <P*(x, y) mu, z> = <mu, derivative of dexpinv_x y along z>.
+        """Return P*_(order)(x, y) mu: <P*(x, y) mu, z> = <mu, d/deps dexpinv_{x + eps z} y at eps = 0>.
 
         The result is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq.
-        3.16 of H. Marthinsen's thesis). ad* is linear in its subscript, so the subscripts are summed over k
-        first.
+        3.16 of H. Marthinsen's thesis). Since ad*_v is linear in v, the elements ad_x^{k-1-i} y with the same
+        i are summed over k first.
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -113,7 +113,8 @@ class BodyFrame(Coadjoint):
 
     @abstractmethod
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x), each row computed from the same row of g, so that unused rows can be left out."""
+        """Return g exp(x). Each row is computed from the same row of g, so that rows that nothing reads need
+        not be computed."""
 
     @abstractmethod
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -139,11 +140,11 @@ class ClosedFormSeries(Coadjoint):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v), in fewer brackets than by calls of
-        :meth:`series`.
+        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v), with fewer brackets than one call of
+        :meth:`series` for each term.
 
-        ``total(numbers)`` returns the sum of f v over the terms with these numbers. A caller that has a
-        shorter formula for such sums may pass it.
+        ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
+        shorter formula for these sums may pass it as ``total``.
         """
 
 
@@ -176,7 +177,7 @@ class MatrixRepresentation(LieGroup):
 class MatrixElements(MatrixRepresentation):
     """Elements are n x n matrices row by row, size = n^2; the matrices act on columns of n scalars.
 
-    The representation is the identity: velocity(x, g) = hat(x) g.
+    The matrix of an element is the element itself, so velocity(x, g) = hat(x) g.
     """
 
     provides: ClassVar[str] = "matrix elements"
@@ -266,8 +267,8 @@ class Projection(LieGroup):
 
     @abstractmethod
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g moved towards the group: an element stays fixed, and a defect of size eps becomes
-        O(eps^2)."""
+        """Return coordinates closer to the group than g. An element of the group is not changed. If g
+        violates the equations of the group by eps, the result violates them by O(eps^2)."""
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:

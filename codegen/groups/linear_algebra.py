@@ -40,7 +40,7 @@ Vector = tuple[S, ...]
 
 
 def dot(a: Vector[S], b: Vector[S]) -> S:
-    """Return sum a_i b_i, added from the left."""
+    """Return sum a_i b_i; the terms are added in order."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y

@@ -47,12 +47,13 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation):
     def offers(self, capability: type[C]) -> C | None:
         """Return this product as a group with a capability; None if a factor lacks the capability."""
         own = super().offers(capability)
-        if issubclass(DirectProduct, capability):  # this capability depends on no factor
+        if issubclass(DirectProduct, capability):  # the product has this capability, whatever its factors are
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
-        """Return operation(factor, its own arguments) for all factors, one after the other."""
+        """Return the results of operation(factor, the factor's arguments) for all factors in order, joined to
+        one tuple."""
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 

@@ -39,8 +39,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         self.dependent = dependent
 
     def variants(self) -> Sequence[SO3]:
-        """Return the group without a dependent column, then the group with each of the three columns
-        dependent."""
+        """Return four implementations: without a dependent column, and with column 0, 1 or 2 as the dependent
+        column."""
         return (self, *(SO3(column) for column in range(3)))
 
     def identity(self, d: Domain) -> Vector[S]:
@@ -123,8 +123,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
 
         Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
-        once. ``total(numbers)`` returns the sum of f v over the terms with these numbers; a caller that has a
-        shorter formula may pass it.
+        once. ``total(indices)`` returns the sum of f v over the terms with these indices; a caller that has a
+        shorter formula for these sums may pass it as ``total``.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -157,7 +157,7 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x): each row of g rotated by -x."""
+        """Return g exp(x): each row of g is rotated about x by the angle -|x|."""
         back = tuple(-a for a in x)
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 

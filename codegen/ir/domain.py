@@ -20,7 +20,8 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """An iteration of the interpreter reached its limit, or a number that is not finite."""
+    """The error of an iteration of the interpreter that did not converge within its limit, or computed a
+    number that is not finite."""
 
 
 # The scalars are float, mpf, series and Expr: they share operators but no base class.
@@ -36,8 +37,8 @@ Values: TypeAlias = tuple[Value, ...]
 
 
 class Domain(Protocol):
-    """A number system: it creates scalars and evaluates functions of scalars; ``h`` is the step size as a
-    scalar."""
+    """A number system. Its methods create scalars and evaluate functions of scalars; ``h`` is the step size
+    as a scalar of the domain."""
 
     h: Scalar
 
@@ -51,8 +52,8 @@ class Domain(Protocol):
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether an iteration has converged, and the size of its change, which is ``previous`` in the
-        next call."""
+        """Return whether an iteration has converged, and the size of its last change. The caller passes this
+        size as ``previous`` in the next call."""
 
 
 class Differenced(Domain, Protocol):

@@ -1,9 +1,9 @@
 """Scalar expressions: immutable, hash-consed within a :class:`Space`, ordered by creation.
 
-A space interns every node, so equal expressions are identical objects and are stored once. Node numbers grow
-with creation and a space belongs to one build, hence operand order and emitted text depend on nothing but
-the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are never flattened,
-because flattening would destroy sharing.
+A space interns every node, so equal expressions are identical objects and are stored once. Nodes are numbered
+in the order of their creation, and each build has a new space. Hence the order of operands and the emitted
+text depend only on the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are
+never flattened, because flattening would destroy sharing.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
 exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``; None for all other
-operations."""
+"""The data of a node besides its arguments: a number for ``const``, a name for ``sym`` and ``call``, an
+exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
     "sqrt",
@@ -180,7 +180,8 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # Signs move outwards, where a surrounding sum absorbs them: -x - b = -(x + b) shares x + b.
+            # The sign is moved to the outside, because a sum that contains the result becomes a difference at
+            # no cost: -x - b = -(x + b), where x + b may be shared.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -204,8 +205,8 @@ class Space:
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # A constant absorbs the sign. Otherwise the sign moves outwards, so that x y and x (-y) share one
-            # product.
+            # If a is a constant, its sign changes. Otherwise the sign is moved to the outside of the product,
+            # so that x y and x (-y) share one product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
@@ -249,7 +250,8 @@ class Space:
         if a.op == "neg":
             power = self.pow(a.args[0], n)
             return self.neg(power) if n % 2 else power
-        # (sqrt x)^(2m) = x^m where the root is real, and formulas are evaluated only there.
+        # (sqrt x)^(2m) = x^m for x >= 0, and formulas are evaluated only where the arguments of their roots
+        # are not negative.
         if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
             return self.pow(a.args[0], n // 2)
         return self._make("pow", (a,), n)
@@ -265,7 +267,8 @@ class Space:
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Whether two constants can be folded into one constant: they need a common ring."""
-    # Rational numbers embed in every ring. Two different rings have no common ring.
+    # A rational number is an element of every ring. For elements of two different other rings, no common ring
+    # is known.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
@@ -291,7 +294,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The remaining arguments of the user are visited after this one.
+                    # The user of this node goes back to the stack: its remaining arguments are visited after
+                    # this one.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break

@@ -29,7 +29,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     import sympy
 
     try:
-        formula = sympy.sympify(expression, strict=True)  # strict: a string is no formula
+        formula = sympy.sympify(expression, strict=True)  # strict: sympify must not parse a string
     except sympy.SympifyError:
         what = f"{type(expression).__name__} {expression!r}"
         raise SceneError(what, where=where, expected="a sympy formula or a number") from None
@@ -57,10 +57,11 @@ class _Reader:
 
         if isinstance(e, sympy.Symbol):
             return self.space.sym(e.name)
-        # Rational is tested before Float: a rational number stays exact, a float is refused.
+        # A rational number stays exact; the next test refuses a float.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
-        # Sums are read as binary operations in sorted order, so rounding, too, depends on the formula alone.
+        # A sum is read as a chain of binary additions in sorted order, so its rounding errors also depend
+        # only on the formula.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -97,7 +98,7 @@ class _Reader:
             return space.pow(base, int(exponent))
         if exponent.is_Rational and exponent.q == 2:
             root, n = space.call("sqrt", base), int(exponent.p)
-            # x^(n/2) = x^(n div 2) sqrt x: all half-integer powers of one base share one root.
+            # x^(n/2) = x^(n div 2) sqrt x for odd n: all half-integer powers of one base share one root.
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(f"the power {e}", where=self.where, expected="an integer or half-integer exponent")

@@ -75,7 +75,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # near is a queue: each block removes the first entry and appends its solution.
+            # ``near`` is a queue: each block removes the first entry, uses it as its start, and appends its
+            # solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -109,7 +110,8 @@ def _fixed_point_first(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    # Every group implements the operation Ad*_q of programs, so no separate formula is needed.
+    # The operation Ad*_q of step programs computes the result, so this function needs no formula for the
+    # group.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -180,7 +182,8 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # isinstance would miss a domain that wraps another domain and forwards attributes by __getattr__.
+    # isinstance is not used, because it is false for a domain that wraps another domain and forwards
+    # attributes by __getattr__.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -214,7 +217,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # sharp is true once the corrections have converged; one more correction follows.
+    # ``sharp`` becomes true when the corrections have converged; then one further correction is computed.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -231,16 +234,17 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # The increment is the square root of the precision. A smaller change is enough, because the next
-            # correction squares the error.
+            # A change below the increment, which is about the square root of the rounding unit, is small
+            # enough, because the next correction squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The last run of the body was at a displaced point, so the body runs once more at the solution.
+            # The body was last evaluated at a point displaced for a difference quotient, so it is evaluated
+            # once more at the solution.
             images(now)
             if sharp:
                 return now
-            sharp = True  # one more correction, because slow convergence leaves some rounding errors
+            sharp = True  # one further correction removes rounding errors that remain after slow convergence
     raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
 
 

@@ -27,16 +27,17 @@ LONGEST = 256
 """The largest number of steps for which a flow is deferred; the bound keeps the flow's angles moderate."""
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
-"""The methods that may solve a block."""
+"""The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
 """A lower bound for the rate of convergence: smaller measured rates are not reliable, because of rounding."""
 
 UNIT = 2.0**-53
-"""Half a unit in the last place of the number 1."""
+"""Half the distance from 1 to the next larger double: the largest relative rounding error."""
 
 LOST = 2.0**-47
-"""A change below this fraction of the largest number in a block of the state is lost in rounding."""
+"""A change below this fraction of the largest number in a block of the state is of the size of rounding
+errors."""
 
 VARIATION = "variation"
 """The name of the state field that holds a variation."""
@@ -64,7 +65,8 @@ class Newton:
 
     If ``residuals`` is true, the loop's images are residuals that vanish at the solution. The matrix is then
     minus their derivative to first order in h, and its inverse is used for ``period`` steps. ``changes``
-    names the last changes of the unknowns, by which values that are read after the loop may be corrected.
+    contains the names of the last changes of the unknowns. Values of the body that are read after the loop
+    may be corrected by these changes.
     """
 
     body: tuple[Let, ...]
@@ -81,8 +83,8 @@ class Newton:
         """The number of steps for which an inverse is used; 0 means that it is used as long as the loop
         contracts.
 
-        The inverse costs a multiple of n^3, a sweep a multiple of n. The older the inverse, the more sweeps a
-        step takes.
+        Computing the inverse of an n x n matrix costs a multiple of n^3. An old inverse is less accurate, so
+        a step takes more sweeps.
         """
         # With n = len(matrix), n/2 steps share the cost of order n^3, so each step pays a cost of order n^2.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
@@ -132,8 +134,8 @@ class Loop:
         change by only h L times the last change. A rate that is small enough to end the loop therefore also
         bounds the error of these values.
         """
-        # If values after the loop are recomputed from the last unknowns, their error is the rate times the
-        # last change.
+        # If only the unknowns are read after the loop, their error is the rate of convergence times the last
+        # change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -231,7 +233,7 @@ class Sample:
 class Estimate:
     """The new state minus an embedded solution of lower order, component by component.
 
-    Both solutions differ from the flow by O(h^order) or less in one step.
+    After one step from the same state, both solutions differ from the exact flow by O(h^order).
     """
 
     errors: tuple[Expr, ...]
@@ -288,7 +290,8 @@ class Kernel:
     @property
     def start(self) -> Start | None:
         """The common start of all loops; None if each loop has its own starts."""
-        # A kernel has at most one Start: warm starts extrapolate the unknowns of all loops as one vector.
+        # A kernel has at most one Start, because warm starts extrapolate the unknowns of all loops as one
+        # vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -309,7 +312,8 @@ class Kernel:
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
-            # A Start has values, a Loop has starts and images, and only a Loop may have a matrix.
+            # The expressions of a Start are its values. The expressions of a Loop are its starts and images,
+            # and the entries of its Newton matrix if it has one.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue

@@ -54,7 +54,7 @@ class Number:
 
     @classmethod
     def rational(cls, p: int, q: int = 1) -> Number:
-        """Return p/q.
+        """Return the rational number p/q.
 
         >>> Number.rational(1, 2) + Number.rational(1, 2) == Number.rational(1)
         True
@@ -72,7 +72,7 @@ class Number:
         True
         """
         try:
-            # Fraction reads 0.1 as 1/10; a float would not.
+            # Fraction converts the text 0.1 to 1/10 exactly; a conversion through float would round it.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
             value = None
@@ -104,7 +104,8 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number embeds in any ring. Two rings other than QQ have no common ring.
+        # A rational number is an element of every ring. For elements of two different rings other than QQ, no
+        # common ring is known.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -156,7 +157,8 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # 40 digits are far more than the 17 of a double, so only the last rounding affects the result.
+        # The value is first computed to 40 digits, far more than the 17 digits of a double, so only the final
+        # rounding affects the result.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:

@@ -34,7 +34,7 @@ class Precision:
 
     @property
     def unit(self) -> float:
-        """Half a unit in the last place of one."""
+        """The unit roundoff: half the distance from 1 to the next larger number of the format."""
         return math.ldexp(1.0, -self.bits)
 
     @property
@@ -72,7 +72,7 @@ class Precision:
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
-        raise AssertionError(x)  # ``self.digits`` digits always read back
+        raise AssertionError(x)  # A text of ``self.digits`` digits always reads back as the same number.
 
 
 def _double(value: Number | Fraction | float) -> float:

@@ -84,7 +84,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # This operation does not count as an evaluation: it is a constant matrix times a vector.
+    # This operation does not count as an evaluation, because it multiplies a vector by a constant matrix.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -113,7 +113,7 @@ class Differential(OfGroup):
 class Secant(OfGroup):
     """The covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x, H0, H1."""
 
-    # The secant is one operation, because its quotient is 0/0 at x = 0 and needs a guard.
+    # The formula is one operation, because it contains a quotient that is 0/0 at x = 0 and is then set to 0.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -121,7 +121,8 @@ class Secant(OfGroup):
 
 @dataclass(frozen=True)
 class Bivector(OfGroup):
-    """omega_y(alpha, .); it is f(y) where alpha is the differential of H."""
+    """omega_y(alpha, .), the bivector at y applied to a covector alpha. If alpha is the differential of H at
+    y, the result is f(y)."""
 
     # Passes may move numbers out of the covector alpha, because the result is linear in alpha.
     name = "bivector"

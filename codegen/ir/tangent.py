@@ -30,8 +30,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # A node that depends on no seeded symbol is not in the table: its tangent is exactly zero.
         if not moving:
             continue
-        # The derivatives are formed after the test above: functions without a derivative are allowed where
-        # all arguments are constant.
+        # Derivatives are formed only after this test, because a function without a derivative is allowed if
+        # all its arguments are constant.
         slopes = partials(node)
         total = node.space.zero
         # The chain rule along one direction takes one product for each argument that is not constant,

@@ -38,12 +38,12 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # The embedded solution is a second y, and replaces no input called by its own name.
+            # The embedded solution has its own name, but its kind must be the kind of the input y.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
     def define(self, var: Var, at: str | Assign) -> None:
-        """Record a definition, and raise for a name that is defined already."""
+        """Record a definition; raise :class:`IllFormed` for a name that is already defined."""
         # The test is by name and not by variable: one name with two kinds would be one identifier in emitted
         # code.
         if var.name in self.names:
@@ -52,7 +52,7 @@ class _Verifier:
         self.defined.add(var)
 
     def use(self, var: Var, at: str | Assign) -> None:
-        """Raise for a value that is not defined yet."""
+        """Raise :class:`IllFormed` for a value that is not defined yet."""
         if var not in self.defined:
             what = f"{var.name}: {var.kind} is used before it is defined"
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
@@ -68,7 +68,7 @@ class _Verifier:
 
     def block(self, block: Solve) -> None:
         """Check one block; its body may read the unknowns."""
-        # The shape comes first: unknowns, starts and images correspond by place.
+        # The shape is checked first, because the k-th start and the k-th image belong to the k-th unknown.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")

@@ -45,7 +45,8 @@ class Lowering(ABC):
     """
 
     family: ClassVar[str] = ""
-    """The name of the family in :mod:`orderconds.families` and in methods, as ``vcg:midpoint``."""
+    """The name of the family in :mod:`orderconds.families` and in names of methods such as
+    ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
     """Whether programs work on (q, mu) of a Hamiltonian scene, not on a point y of a vector field."""
     preference: ClassVar[int] = 0
@@ -70,11 +71,11 @@ class Lowering(ABC):
 
     @abstractmethod
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the verified step program of a method, all its stages in one block.
+        """Return the verified step program of a method, with all stages in one block.
 
         ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
-        family does not read the format of the tableau, :class:`orderconds.errors.ZeroWeight` if the family
-        divides by a weight that is zero.
+        family does not read the format of the tableau, :class:`orderconds.errors.ZeroWeight` if the formulas
+        of the family divide by a weight that is zero.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -98,9 +99,9 @@ class Lowering(ABC):
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
+        """Return the order of a method, computed from :meth:`conditions`; the order may be undecided."""
         from orderconds.checking import check
 
-        # The check is for one family, so the result has one order.
+        # The tableau is checked in one family, so the list of results has one entry.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -44,10 +44,11 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         # k.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
-            # All exponents of a stage are requested by one name, to which Builder appends numbers.
+            # Builder makes names unique by appending numbers, so all exponents of a stage may be requested
+            # with one name.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            # The factors are applied row by row: the first exponential acts first, so it is the rightmost
-            # factor.
+            # Each row gives one exponential. The first exponential is applied first, so it is the rightmost
+            # factor of the product.
             point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
@@ -71,7 +72,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        # The embedded solution needs exponentials of its own: it is not linear in the stages.
+        # The embedded solution needs further exponentials, because it is not a linear function of the stages.
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 

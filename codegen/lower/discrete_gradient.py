@@ -100,7 +100,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _check_bivector(scene: Problem, method: Method) -> None:
-    """Raise where the bivector does not map the differential of the energy to the field."""
+    """Raise MethodError if the bivector does not map the differential of the energy to the field at some
+    sample point."""
     # The identity is checked at points of the orbit, because the formulas need not agree elsewhere.
     orbit = orbit_of(scene)
     for point in orbit.points:

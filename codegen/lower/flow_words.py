@@ -125,11 +125,12 @@ class FlowLowering(Lowering):
         # summand, the carrier, so the carrier's flow advances t and all other flows keep t constant.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
-        # t and h are names of emitted arguments, also in steps whose formulas do not contain them.
+        # The names t and h are reserved, because they are arguments of emitted code even if no formula
+        # contains them.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
             step = Coefficient(duration, 1)
-            # The flows of one summand commute, so their order does not matter.
+            # The flows of one summand commute, so they may be applied in any order.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
             # The time advances after the flow. The carrier does not depend on t, so its own flow does not

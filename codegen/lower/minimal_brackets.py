@@ -16,8 +16,8 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""Bracket programs by ring and coefficients as text: lowering and certificate need the same bracket
-program."""
+"""Bracket programs that have been computed, by ring and text of the coefficients. Lowering and certificate
+use the same bracket program."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
@@ -69,7 +69,7 @@ def lower(scene: Problem, method: Method) -> Program:
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
-    # Stage values and brackets are in one table, because rows combine both.
+    # Stage values and brackets are in one table, because each u_i is a combination of both.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:

@@ -51,7 +51,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
         repetition = _repeated(method, tableau.method)
     else:
         return None
-    # One substep is the step itself.
+    # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
     # Proof, file and embedded row belong to the whole tableau, and would be wrong for the tableau of one
@@ -76,8 +76,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # Numbers are used and not ring elements: they are compared by key, which is decidable for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # The cuts are all places where the tableau separates into two tableaux. Groups are unions of the parts
-    # between cuts.
+    # The cuts are all k at which the tableau separates into two tableaux, for the stages before k and from k
+    # on. Each group consists of neighbouring parts between cuts.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # A group has from one part to half of the parts. The narrowest repeated method gives the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
@@ -126,8 +126,8 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # Numbers store rational values over QQ, whatever ring they came from. All coefficients of a tableau are
-    # in one ring.
+    # A Number stores a rational value in QQ, even if the tableau has another ring. All coefficients of a
+    # tableau must be in its ring.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

@@ -1,7 +1,7 @@
 """Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
 With Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and P*_(r)(x, xi) the dual of the derivative of
-dexp^{-1}_{(r),x} xi by x, the equations are
+dexp^{-1}_{(r),x} xi with respect to x, the equations are
 
     m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
     lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,
@@ -69,8 +69,8 @@ class _Step(ExpandedStep):
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A. If the method is explicit, it depends on
-        # later stages only.
+        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A. If the method is explicit, m_i depends
+        # on later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
             # If m_i depends on later stages only, values that are already computed determine m_i. It is then
@@ -86,7 +86,7 @@ class _Step(ExpandedStep):
             # The cut-off is the same as in M_i: the step is symplectic only if both come from one discrete
             # Lagrangian.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # dexp^{-1}_{(r),X} depends on X, except without brackets, and its derivative by X acts as a
+            # dexp^{-1}_{(r),X} depends on X unless r = 0, and its derivative with respect to X acts as a
             # force.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
@@ -95,7 +95,7 @@ class _Step(ExpandedStep):
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # The velocities were computed in the opposite order of the unknowns.
+        # The v_i were computed from the last stage to the first, and are returned from the first to the last.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:

@@ -48,8 +48,8 @@ def optimise(
 ) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each pass that changed the program.
 
-    ``scene`` is the problem that the program was lowered in; for ``framed`` and ``composed`` see
-    :class:`Optimiser`.
+    ``scene`` is the problem from which the program was lowered. :class:`Optimiser` explains ``framed`` and
+    ``composed``.
     """
     work = Optimiser(program, scene, composed)
     return work.framed() if framed else work.plain()
@@ -96,7 +96,7 @@ class Optimiser:
 
     def _run(self, each: Pass) -> None:
         old, new = self.program, verify(each.run(self.program))
-        # Many passes do not change a program, which then needs no comparison at several points.
+        # A program that the pass has not changed needs no comparison with the reference.
         if new == old:
             return
         # Each result is compared with the lowered program and not with the previous result, because small
@@ -128,7 +128,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # When flows are joined, the stage times of the replaced flows may become unused.
+        # After flows have been joined, nothing may read the stage times of the replaced flows.
         Pass("unused values", UNUSED, dead.run),
         # This pass follows the pass for zeros, because terms that cancel would keep a composition in one
         # large block.
@@ -138,7 +138,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # Factoring maps with a single reader always saves maps. Maps with several readers follow below.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # Factoring leaves sums of a single term.
+        # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
         # This pass follows value numbering, which merges equal exponentials: only then are the readers of

@@ -46,7 +46,8 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # A live unknown needs its image, and every value that the image is computed from.
     while wanted:
         var = wanted.pop()
-        # Values of a block may depend on each other in cycles, so a value may be reached again.
+        # Values of a block may depend on each other in cycles, so the search may reach a value that it has
+        # already visited.
         if var in needed:
             continue
         needed.add(var)

@@ -41,7 +41,8 @@ def run(program: Program) -> Program:
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
     """Return (unknown, start, image) for the first unknown of each image; map the other unknowns to it."""
-    # The first unknown keeps its own start; from the other starts the iteration finds the same solution.
+    # The first unknown keeps its start. The starts of the other unknowns are not needed, because the
+    # iteration finds the same solution from them.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

@@ -17,13 +17,14 @@ from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
-"""Step sizes to try, the largest first, because the effect of a wrong rewriting is largest there.
+"""Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
 
 Any other decreasing powers of two are possible. If the first step moves too far along a fast field, all steps
 are shortened."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""Negative powers of two for steps in DIGITS decimal digits, where doubles overflow or do not converge.
+"""Steps of size 2^-k, for k in TINY_STEPS, are computed in DIGITS decimal digits if doubles overflow or do
+not converge.
 
 Even with a coefficient of 1e300 in the scene, the last of these steps is short enough."""
 
@@ -74,8 +75,9 @@ that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``.""
 class _Step:
     """One step of the reference: the new state, and the solutions of the blocks.
 
-    ``moved`` says that the step begins beside the initial state, ``tiny`` that it is one of
-    :data:`TINY_STEPS`, whose results are compared relative to the change of the state.
+    ``moved`` says that the step begins at a point near the initial state and not at the initial state.
+    ``tiny`` says that the step is one of :data:`TINY_STEPS`; its results are compared relative to the change
+    of the state.
     """
 
     domain: Domain
@@ -96,7 +98,7 @@ class _Bounded(PreciseDomain):
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return as :class:`PreciseDomain`; NotConverged if the iteration diverges."""
+        """Return the result of :class:`PreciseDomain`; raise NotConverged if the iteration diverges."""
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
             raise NotConverged("a fixed-point iteration diverges")
@@ -122,9 +124,10 @@ class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
     One point is the initial state, which may be special (an equilibrium, a symmetric position). The other is
-    a nearby point without any symmetry. The step is the longest of moderate reach for which the results are
-    finite and the blocks converge. A compared program starts from the solutions of the reference; if its
-    equations differ, it iterates away from these solutions.
+    a nearby point without any symmetry. The step is the longest step that moves the state by at most
+    :data:`REACH` along the field, and for which the results are finite and the blocks converge. A compared
+    program starts from the solutions of the reference; if its equations differ, it iterates away from these
+    solutions.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -182,7 +185,8 @@ class Reference:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # A sum near the greatest double overflows in another order.
+        # Sums near the greatest double are excluded, because they may overflow if their terms are added in
+        # another order.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
@@ -260,7 +264,7 @@ class Reference:
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # A state that does not change is compared to rounding.
+                # If the step does not change the state, the results must agree up to rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
@@ -288,7 +292,8 @@ def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     On a group it is as exact as the numbers of the domain.
     """
     start = scene.initial(domain)
-    # Sines of integers: no symmetry, no integer relation that a scene might share, and no random seed.
+    # The directions are sines of integers. They have no symmetry and no integer relation that a scene might
+    # share, and need no random seed.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}

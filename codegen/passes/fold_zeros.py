@@ -51,7 +51,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Exp) and zero[0]:
         return rewriter.emit(Assign(assign.targets, Identity(), ()))
     if isinstance(operation, Multiply) and any(identity):
-        # A product has two factors; the one that is not the identity remains.
+        # A product of the identity and another factor is the other factor.
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)

@@ -2,8 +2,8 @@
 
 The pass is exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with
 multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
-closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. An exp(x) that is read by one adjoint
-operation only need not be computed.
+closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. If a single adjoint operation reads
+exp(x), the element exp(x) need not be computed.
 """
 
 from __future__ import annotations
@@ -62,8 +62,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # Functions of ad of proportional x commute, so the order of the maps does not matter, only the ratio of
-    # the two x.
+    # If x = s y, functions of ad_x and ad_y commute. The order of the two maps does not matter then, and only
+    # the ratio s is needed.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -74,7 +74,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             # x = scale y turns f(ad_x) into f(scale ad_y): both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # f(ad) of a sum of functions of ad: if f is distributed over the sum, all terms nest into two brackets.
+    # The argument of f(ad_x) is a sum of functions of ad_x. If f is distributed over the sum, all terms can
+    # be computed together with two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]

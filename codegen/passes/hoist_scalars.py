@@ -1,8 +1,8 @@
 """Numbers taken out of linear maps, L(c x) = c L(x), and sums nested in sums expanded into one sum.
 
-The pass is exact. The map is applied to the value x, which other operations share. The number c joins the
-coefficients of the sum that reads L(c x). Terms that several sums contain in the same proportion are added
-once for all these sums.
+The pass is exact. The map is applied to x in place of c x, so that other operations on x can share the
+result. The number c joins the coefficients of the sum that reads L(c x). Terms that several sums contain in
+the same proportion are added once for all these sums.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
         # patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A value that occurs twice in one sum would have to be removed twice.
+        # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
         # A negative power would divide by h, which may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):

@@ -11,7 +11,8 @@ from codegen.ir.values import Var
 
 @dataclass
 class Rewriter:
-    """Applies a rule to every assignment; the rule sees earlier definitions and how often values are used.
+    """Applies a rule to every assignment; the rule may read earlier definitions and the number of uses of
+    each value.
 
     ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. They are
     earlier variables, in which case the assignment is removed, or targets of assignments that the rule

@@ -60,7 +60,7 @@ class SeriesSums:
         sums = self._groups(assign)
         if not sums:
             return None
-        # The group's sum already contains the nested terms; the remaining terms are added to that sum.
+        # The nested sum already contains the terms of the groups; the remaining terms are added to it.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -81,7 +81,7 @@ class SeriesSums:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # Proportional x have the same ad up to a number, which becomes the scale of the factors.
+                # If x = s y, then ad_x = s ad_y, and the number s becomes the scale of the factors.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
@@ -93,7 +93,8 @@ class SeriesSums:
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of one sum, all in terms of the last x."""
+        """Return the value of one sum; all functions are written as functions of ad_x for the x of the last
+        term."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:

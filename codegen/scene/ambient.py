@@ -15,8 +15,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 def ambient(problem: Problem) -> Problem:
     """Return a problem as a field on R^n without its group.
 
-    A method for the returned problem does not stay on the manifold: the distance from the manifold is of the
-    size of the method's error.
+    Numerical solutions of the returned problem leave the manifold: their distance from it is of the size of
+    the error.
     """
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
     state = tuple(domain.space.sym(s) for s in problem.symbols)

@@ -30,7 +30,7 @@ OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 
 
 class Conservative(Protocol):
-    """The parts of a problem that this module reads."""
+    """The attributes of a problem that this module reads."""
 
     @property
     def group(self) -> LieGroup:

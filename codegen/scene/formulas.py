@@ -22,7 +22,7 @@ RESERVED = {
     "t": "t is the time; formulas may contain it, but it cannot be a coordinate or a parameter",
     "h": "h is the step size",
 }
-"""Names that are reserved for programs, with the reason."""
+"""Names that a scene may not use for its own symbols, with the reason."""
 
 
 class Reader:

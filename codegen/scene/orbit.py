@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""Allowed rounding error of a sum relative to the size of its terms, with room for cancellation."""
+"""The allowed rounding error of a sum, relative to the size of its terms. It is larger than the unit
+roundoff, because the terms may contain cancellation."""
 
 FLOOR = Fraction(1, 10**28)
 """Allowed absolute error, for sums whose terms are themselves small by cancellation."""

@@ -116,7 +116,8 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # refuses huge files
+    # raises SceneError for a very large file
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.
         with redirect_stdout(sys.stderr):
