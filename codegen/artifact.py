@@ -130,7 +130,7 @@ def _is_entry(entry: Mapping[str, Any]) -> bool:
 
 
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
-    """Return a module from a folder; If the folder contains several modules, ``module`` and ``target`` choose
+    """Return a module from a folder. If the folder contains several modules, ``module`` and ``target`` choose
     one.
 
     InputError is raised if no module or several modules match, and if a file is missing or has changed.

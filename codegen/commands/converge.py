@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: measure orders in 50 digits on built-in scenes, and compare them with the claims. Omit SCENE.",
+    help="strict: measure orders in 50 digits on built-in scenes, and compare them with claims. Omit SCENE.",
 )
 @click.option(
     "--stated",

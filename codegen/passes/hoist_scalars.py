@@ -1,4 +1,4 @@
-"""Numbers taken out of linear maps, L(c x) = c L(x), and sums nested in sums expanded into one sum.
+"""Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
 
 The pass is exact. The map is applied to x in place of c x, so that other operations on x can share the
 result. The number c joins the coefficients of the sum that reads L(c x). Terms that several sums contain in
