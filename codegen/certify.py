@@ -100,7 +100,7 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
 
 
 def upwards(x: float) -> str:
-    """Return a positive number with two digits, rounded up.
+    """Return the text of a positive number, rounded up to two digits.
 
     >>> upwards(1.01e-16), upwards(2e-5)
     ('1.1e-16', '2.0e-05')

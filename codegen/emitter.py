@@ -74,7 +74,7 @@ class Optimised:
 
 @dataclass(frozen=True)
 class Compiled(Optimised):
-    """A method on a scene, ready to be printed: with the kernel.
+    """A method on a scene, ready to be printed: the optimised program with its kernel.
 
     ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
     """

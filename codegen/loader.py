@@ -215,7 +215,7 @@ class Integrator(ABC):
     def _checked_count(self, steps: int) -> int:
         count = operator.index(steps)
         if count < 0:
-            raise ValueError(f"expected a number of steps of at least 0, found {steps}")
+            raise ValueError(f"expected no negative number of steps, found {steps}")
         return count
 
     def _numbers(self, state: State) -> list[float]:
@@ -310,7 +310,7 @@ class CompiledIntegrator(Integrator):
             why = reason(status, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
-                why = f"expected finite numbers and tolerances of at least 0, found {given}"
+                why = f"expected finite numbers and no negative tolerance, found {given}"
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 

@@ -29,7 +29,9 @@ if TYPE_CHECKING:
     help="A target (orderconds list targets), by default c; may be repeated.",
 )
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
-@click.option("--prefix", default="", help="Prefix of every external name; by default scene and method.")
+@click.option(
+    "--prefix", default="", help="Prefix of every external name; by default the names of scene and method."
+)
 @click.option(
     "--parameter",
     "-p",
@@ -145,7 +147,7 @@ def explanation(compiled: Compiled) -> str:
 
 
 def solvers_of(compiled: Compiled) -> list[str]:
-    """Return the solver of each block, followed by a line on every solver that was considered."""
+    """Return the text of the solver of each block, followed by one line for each solver that was compared."""
     return [
         line for choice in compiled.solvers for line in (choice.text(), *map("  {}".format, choice.compared))
     ]

@@ -162,8 +162,8 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`, and a linear
-        map."""
+        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`. It must be a
+        linear map."""
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:

@@ -102,7 +102,7 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation):
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the laws of every factor."""
+        """Return the equations of every factor."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 

@@ -37,7 +37,7 @@ class SE2(Coadjoint, PointMotions):
         return (c0, w * c1, c1 * u - turned * v, c1 * v + turned * u)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the motion k followed by g."""
+        """Return the product g k: the motion k, followed by the motion g."""
         c, s = g[:2]
         return (c * k[0] - s * k[1], s * k[0] + c * k[1], *self.move(d, g, k[2:]))
 

@@ -34,8 +34,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # Only the node without its numeric factor is kept, because the factor may still be combined with other
-    # numbers.
+    # The node without its numeric factor is kept, so that the factor can be combined with other numbers.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:

@@ -14,7 +14,7 @@ class NotDifferentiable(ValueError):
 
 
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
-    """Return the partial derivatives of root by the named symbols, in order.
+    """Return the partial derivatives of root with respect to the named symbols, in order.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x = s.sym("x")

@@ -238,8 +238,8 @@ class PreciseDomain:
         last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # A small change is not enough, because the next sweep may still gain digits: changes must have
-        # stopped decreasing.
+        # A small change is not sufficient, because the next sweep may give further correct digits. The
+        # changes must also have stopped decreasing.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -272,7 +272,8 @@ class SeriesDomain:
         """Return an entire function of a series without constant term, exactly; raise an ArithmeticError
         otherwise.
 
-        A quotient by a series of valuation v has v unknown coefficients at its end, which are set to zero.
+        In a quotient by a series whose lowest power is h^v, the last v coefficients are unknown and are set
+        to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -324,7 +325,7 @@ class SeriesDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether all unknowns are unchanged, and None: an exact comparison needs no size."""
-        # A contraction by O(h) fixes one more coefficient a sweep, so order + 1 sweeps suffice.
+        # Each sweep of a contraction by O(h) determines one further coefficient, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
@@ -335,7 +336,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The samples are keyed by node number: equal times are one node, because expressions are hash-consed.
+        # The node number of the time is the key of its samples, because equal times are the same node.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

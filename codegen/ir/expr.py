@@ -95,7 +95,7 @@ class Expr:
 
 
 class Space:
-    """An interning table for expressions.
+    """A table that contains each expression once.
 
     >>> s = Space(); x, y = s.sym("x"), s.sym("y")
     >>> (x + y) * 2 is (y + x) * 2
@@ -163,7 +163,7 @@ class Space:
         # x + x equals 2 x exactly, and the product 2 x is shared with other sums that contain it.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
-        # Addition commutes in floating point, so one order of operands is enough. It is not associative, so
+        # Floating-point addition is commutative, so a + b and b + a are one node. It is not associative, so
         # sums of three terms keep their order.
         return self._make("add", (a, b) if a.id < b.id else (b, a))
 
@@ -259,7 +259,7 @@ class Space:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return function(args) for a function of :data:`FUNCTIONS`."""
         if function not in FUNCTIONS:
-            # An unknown name would otherwise fail in a printer, far from the cause.
+            # Without this test an unknown name would cause an error only later, in a printer.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
@@ -276,8 +276,8 @@ def _joinable(a: Expr, b: Expr) -> bool:
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
     """Yield each node of the expressions once, arguments before users; skip the arguments of nodes for which
     stop is true."""
-    # An explicit stack is used, because long steps nest deeper than Python's limit of recursion. The loop is
-    # written for speed: a compilation visits millions of nodes.
+    # An explicit stack is used, because the expressions of long steps are nested more deeply than Python's
+    # recursion limit allows. The loop is written for speed, because a compilation visits millions of nodes.
     seen: set[Expr] = set()
     users: list[tuple[Expr, Iterator[Expr]]] = []
     for root in roots:
@@ -324,7 +324,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
     for node in walk(roots):
-        # Arguments come first in walk, so their values exist.
+        # walk yields the arguments of a node before the node, so the values of the arguments are already
+        # known.
         args = node.args
         if node.op in _BINARY:
             value = _BINARY[node.op](result[args[0]], result[args[1]])

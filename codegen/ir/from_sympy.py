@@ -57,7 +57,7 @@ class _Reader:
 
         if isinstance(e, sympy.Symbol):
             return self.space.sym(e.name)
-        # A rational number stays exact; the next test refuses a float.
+        # A rational number stays exact. A float fails this test and is refused below.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
         # A sum is read as a chain of binary additions in sorted order, so its rounding errors also depend

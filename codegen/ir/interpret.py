@@ -140,10 +140,11 @@ def _composed(
     newton: bool,
     near: list[list[Scalar]] | None,
 ) -> State:
-    """Return the new state after all substeps."""
+    """Return the new state after all substeps of the program."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # A shallow copy is enough: only h differs, and the caller's domain keeps its own h.
+        # The domain is copied, so that the caller's domain keeps its h. A shallow copy is enough, because
+        # only h differs.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:

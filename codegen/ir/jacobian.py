@@ -71,7 +71,7 @@ class _Graph:
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
-        # A vertex u without entry depends on no variable.
+        # A vertex u that is not in the table depends on no variable.
         if u not in self.after:
             return
         old = self.before[v].get(u)
@@ -117,7 +117,7 @@ class _Graph:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # The vertex is removed from both tables first: the products below must not find edges to the vertex.
+        # The vertex is first removed from both tables, so that the products below do not use edges to it.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]

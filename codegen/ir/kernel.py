@@ -30,7 +30,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
-"""A lower bound for the rate of convergence: smaller measured rates are not reliable, because of rounding."""
+"""A lower bound for the measured rate of convergence: a smaller measured rate is replaced by this bound,
+because rounding errors make it unreliable."""
 
 UNIT = 2.0**-53
 """Half the distance from 1 to the next larger double: the largest relative rounding error."""
@@ -167,8 +168,8 @@ class Start:
     # A start whose error is half of the change is hardly better than u1, the extrapolation of degree 0.
     ROUGH: ClassVar[float] = 0.5
     # The limit is hardly ever reached. Before the first success each try halves the step, so 100 tries reach
-    # 2^-100 h. After the first success each failure replaces the factor by its square root: nine failures in
-    # a row end the search.
+    # 2^-100 h. After the first success each failure replaces the factor by its square root: nine consecutive
+    # failures end the search.
     TRIES: ClassVar[int] = 100
     # The largest factor is 4, and 4^(1/2^9) < 1 + 2^-8: the ninth failure in a row is the last.
     SHORTEST: ClassVar[float] = 2.0**-8
@@ -176,8 +177,8 @@ class Start:
 
 @dataclass(frozen=True)
 class Field:
-    """A named block of scalars in the state, the input or the output, with the scalars' names in order and a
-    meaning."""
+    """A named block of scalars in the state, the input or the output: the names of its scalars in order, and
+    a description."""
 
     name: str
     symbols: tuple[str, ...]

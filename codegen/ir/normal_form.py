@@ -107,7 +107,8 @@ class NormalForms:
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
-                    # The argument is in normal form, so a function of equal arguments is the same variable.
+                    # The argument is in normal form, so two calls of a function with equal arguments are the
+                    # same variable.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value
@@ -185,7 +186,7 @@ class NormalForms:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The left side may be a square, i = j: then the exponent must be at least 2.
+                # The left side may be a square, that is i = j; the exponent must then be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1

@@ -115,7 +115,8 @@ class Number:
         raise TypeError(f"numbers of two different fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Rational numbers cancel exactly. Most numbers are rational, and keys take time.
+        # This case comes first, because most numbers are rational, and because rational numbers need no keys,
+        # which take time to compute.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
         # For balls the sum would be a ball around 0, which no simplification recognises.

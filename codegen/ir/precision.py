@@ -1,4 +1,4 @@
-"""Floating-point formats that emitted code computes in: rounding and text of constants.
+"""The floating-point formats of emitted code: how constants are rounded and printed in each format.
 
 >>> SINGLE.text(SINGLE.round(Number.rational(1, 3))), DOUBLE.text(DOUBLE.round(Number.rational(1, 3)))
 ('0.33333334', '0.3333333333333333')
@@ -54,7 +54,7 @@ class Precision:
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format, rounded once; InputError if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # The condition is negated, because comparisons with a NaN are false: a NaN is refused, too.
+        # The condition is negated, because comparisons with a NaN are false; a NaN is thus also refused.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -67,7 +67,8 @@ class Precision:
         # Python's ``repr`` of a float is already the shortest text that reads back as the same double.
         if self.bits == 53:
             return repr(x)
-        # Python prints the shortest digits of a double; the shortest digits of a single are found by trial.
+        # Python prints a double with the fewest digits. For other formats the smallest number of digits is
+        # found by trial.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):

@@ -92,8 +92,8 @@ Statement = Assign | Solve
 
 
 EMBEDDED = "embedded"
-"""The name of a second new state y, of lower order, in the output of a program; it gives an error
-estimate."""
+"""The output name of the embedded solution: a second new state y of lower order, from which the error is
+estimated."""
 
 
 SPACE, BODY = "space", "body"
@@ -142,7 +142,7 @@ class Program:
         return dict(sorted(total.items()))
 
     def text(self) -> str:
-        """Return the program as text, one statement a line."""
+        """Return the program as text, with one statement on each line."""
         # The lines have the order of execution, and the body of a block is indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]

@@ -34,8 +34,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # all its arguments are constant.
         slopes = partials(node)
         total = node.space.zero
-        # The chain rule along one direction takes one product for each argument that is not constant,
-        # whatever the number of seeds.
+        # In one direction the chain rule needs one product for each argument that is not constant, whatever
+        # the number of seeds.
         for k, rate in moving:
             total = total + slopes[k] * rate
         # Terms may cancel. A zero is not entered in the table, so that the users of the node skip it, too.

@@ -44,8 +44,8 @@ class _Verifier:
 
     def define(self, var: Var, at: str | Assign) -> None:
         """Record a definition; raise :class:`IllFormed` for a name that is already defined."""
-        # The test is by name and not by variable: one name with two kinds would be one identifier in emitted
-        # code.
+        # Names are compared and not variables, because two variables of one name and different kinds would
+        # have the same identifier in emitted code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
         self.names.add(var.name)
@@ -85,7 +85,8 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text of a place; it is formed only for errors, because long numbers make it slow."""
+    """Return the text of the statement in which a rule is broken. It is formed only for errors, because
+    printing long numbers is slow."""
     return at.text() if isinstance(at, Assign) else at
 
 

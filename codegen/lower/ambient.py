@@ -1,5 +1,5 @@
-"""Runge-Kutta methods in the coordinates of the state; numerical solutions leave the manifold by about the
-error of the method.
+"""Runge-Kutta methods in the coordinates of the state; the distance of numerical solutions from the manifold
+is about as large as their error.
 """
 
 from __future__ import annotations

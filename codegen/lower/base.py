@@ -48,7 +48,8 @@ class Lowering(ABC):
     """The name of the family in :mod:`orderconds.families` and in names of methods such as
     ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """Whether programs work on (q, mu) of a Hamiltonian scene, not on a point y of a vector field."""
+    """Whether the state of the programs is (q, mu) of a Hamiltonian scene, and not the point y of a vector
+    field."""
     preference: ClassVar[int] = 0
     """If a method's name contains no family, families with a higher number have priority."""
     repeats_substeps: ClassVar[bool] = False
@@ -86,8 +87,8 @@ class Lowering(ABC):
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
-        # symplectic() answers None where b_i a_ij + b_j a_ji = b_i b_j is undecided. Only a proof counts as
-        # symplectic.
+        # symplectic() returns None if it cannot decide whether b_i a_ij + b_j a_ji = b_i b_j for all i, j.
+        # The method counts as symplectic only if this is proved.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:

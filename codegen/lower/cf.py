@@ -65,7 +65,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The update may start from a stage, too.
+        # The update may also start from a stage.
         stage_points[:] = points
         return result
 

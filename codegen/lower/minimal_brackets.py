@@ -40,7 +40,7 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a number of brackets",
             hint=f"write rkmk(2):{name}",
         )
-    # This is the classical order of the tableau, which the brackets have to keep.
+    # The classical order of the tableau is the order that the method with brackets must have.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:

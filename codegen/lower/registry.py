@@ -47,7 +47,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
     """Register a lowering for all commands, and return it; this function may be used as a decorator.
 
-    ``family`` is the class of the order conditions. If it is given, it is registered, too
+    ``family`` is the class of the order conditions. If it is given, it is also registered
     (:func:`orderconds.families.register`), so that all commands of both packages support the family.
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
     family that already has a lowering of another class.
@@ -70,7 +70,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 def unregister(family: str) -> None:
     """Remove the lowering of a family that :func:`register` added; raise MethodError for a built-in
     family."""
-    # Built-in families stay, because the tableaux of the library refer to them.
+    # Built-in families cannot be removed, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(f"family {family} is built in", expected="a family that was registered")
     _registered.pop(family, None)

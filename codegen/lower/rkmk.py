@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 
 
 class MuntheKaas(FieldLowering):
-    """RKMK, with a cut-off or with the fewest brackets that keep the tableau's order."""
+    """Runge-Kutta-Munthe-Kaas methods, with a cut-off or with the fewest brackets that keep the order of the
+    tableau."""
 
     family = "rkmk"
 

@@ -55,7 +55,8 @@ class _Step(ExpandedStep):
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from the old values."""
-        # X_i is computed from the unknowns v_j, but Y below from the new v_j, which are one sweep ahead.
+        # X_i is computed from the unknowns v_j. Y below is computed from the new values of v_j, which are one
+        # sweep further.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -103,8 +104,9 @@ class _Step(ExpandedStep):
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group L and d_j both equal n_j, and the slope is zero. The coefficient of n_j is
-            # then h b_j (b_i - a_ji), as in the partitioned Runge-Kutta method.
+            # On an abelian group the transported force L and the force d_j both equal n_j, and the slope is
+            # zero. The coefficient of n_j is then h b_j (b_i - a_ji), as in the partitioned Runge-Kutta
+            # method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))

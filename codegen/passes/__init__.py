@@ -90,7 +90,8 @@ class Optimiser:
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The plain program is restored, because the body frame does not always need fewer operations.
+        # The optimiser continues with the program in the space frame, because the program in the body frame
+        # may need more operations.
         self.program, self.reports = plain, reports
         return outcome
 

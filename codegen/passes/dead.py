@@ -58,7 +58,8 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
         elif var in maker:
             wanted.extend(maker[var].args)
     pairs = list(zip(block.unknowns, block.starts, block.images, strict=True))
-    # An unknown that no live value reads is removed with its equation, and the block stays square.
+    # An unknown that no live value reads is removed together with its equation, so the block has as many
+    # equations as unknowns.
     pairs = [p for p in pairs if p[0] in needed]
     kept = tuple(residual[u] for u in block.unknowns if u in needed and u in residual)
     body = tuple(a for a in block.body if needed.intersection(a.targets))

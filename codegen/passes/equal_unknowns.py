@@ -40,7 +40,8 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return (unknown, start, image) for the first unknown of each image; map the other unknowns to it."""
+    """Return (unknown, start, image) for the first unknown of each image, and a dictionary from every other
+    unknown to the first unknown with the same image."""
     # The first unknown keeps its start. The starts of the other unknowns are not needed, because the
     # iteration finds the same solution from them.
     first: dict[Var, Var] = {}

@@ -29,9 +29,11 @@ not converge.
 Even with a coefficient of 1e300 in the scene, the last of these steps is short enough."""
 
 REACH = 0.5
-"""The largest move along the field in one step: longer steps would amplify rounding.
+"""The largest value of h times the largest component of the field: longer steps would amplify rounding
+errors.
 
-The value matters little, because :data:`AGREE` is 2^15 times as large as the rounding errors that occur."""
+The exact value is not important, because :data:`AGREE` is 2^15 times as large as the rounding errors that
+occur."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """Errors of an interpretation; a root of a negative number raises ValueError."""
@@ -223,8 +225,8 @@ class Reference:
         """Compare results after the longest step for which both programs have a finite result."""
         failure = ""
         for step in point.results():
-            # The same equations in another form may converge, and the same sums in another order may stay
-            # finite, only for shorter steps: try the next step.
+            # The equations of the compared program may converge, and its sums may stay finite, only for
+            # shorter steps. The next shorter step is then tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
@@ -289,7 +291,7 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a state moved from it by the group in fixed directions.
 
-    On a group it is as exact as the numbers of the domain.
+    The moved state is an element of the group up to the rounding errors of the domain.
     """
     start = scene.initial(domain)
     # The directions are sines of integers. They have no symmetry and no integer relation that a scene might

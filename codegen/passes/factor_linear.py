@@ -16,7 +16,8 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Each round has fewer maps than the previous round, so the loop ends.
     while True:
-        new = dead.run(rewrite(program, _rule))  # factored-out values must not count as used
+        # Values that were factored out in the last round must not count as readers.
+        new = dead.run(rewrite(program, _rule))
         if new == program:
             return program
         program = new

@@ -53,7 +53,8 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the place of the last flow of the same part and time that commutes with all flows after it."""
+    """Return the index of the last flow of the same part and time, if all flows after it commute with the new
+    flow."""
     for at in reversed(range(len(kept))):
         # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
@@ -75,7 +76,7 @@ def word(program: Program) -> list[Letter] | None:
         operation, args = statement.operation, statement.args
         if isinstance(operation, Advance):
             continue
-        # Each flow must start from the state that the flow before returned.
+        # Each flow must start from the state that the previous flow returned.
         if not isinstance(operation, FlowOf) or args[: len(state)] != state:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
@@ -100,7 +101,7 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return a predicate: whether the flows of two parts commute on the scene."""
+    """Return a function of the names of two parts that returns whether the flows of these parts commute."""
     orbit = orbit_of(scene)
     d = orbit.domain
 

@@ -43,8 +43,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # t + 0 h is t: the stage at the start of the step needs no stage time.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # Definitions are examined, and not numerical values: only an explicit Zero or Identity of the program
-    # counts.
+    # A value counts as zero or as the identity only if the program defines it by the operation Zero or
+    # Identity.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]

@@ -139,13 +139,13 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, or None if the terms of x and y do not show one."""
+    """Return the rational number s with x = s y, or None if no such s follows from the terms of x and y."""
     a, b = _terms(definitions, x), _terms(definitions, y)
     # Proportional combinations have the same terms; both dicts are sorted.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # One quotient for all terms means x = s y. Factors hold rational scales only.
+    # If all quotients of coefficients are equal to s, then x = s y. The scale of a factor must be rational.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 

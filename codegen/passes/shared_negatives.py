@@ -20,7 +20,8 @@ def run(program: Program) -> Program:
     the same block, or outside all blocks."""
     outside: dict[Terms, Var] = {}
     body = [
-        # Each block has a new table, because a sum in one block must not refer to a sum in another block.
+        # Each block begins with an empty table, because a sum in one block must not refer to a sum in another
+        # block.
         replace(s, body=_signed(s.body, {})) if isinstance(s, Solve) else _signed((s,), outside)[0]
         for s in program.body
     ]

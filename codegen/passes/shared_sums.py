@@ -71,7 +71,8 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations that are worth factoring: a map has fewer combinations than values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched: maps in a block are evaluated once a sweep, maps outside once a step.
+        # Only blocks are searched, because a map in a block is evaluated in every sweep, and a map outside
+        # only once in a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}
@@ -97,7 +98,8 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A value that occurs with two powers of h has no single coefficient in the combination.
+        # A value that occurs with two powers of h is skipped, because it has no single coefficient in the
+        # combination.
         if len({v for v, _ in terms}) < len(terms):
             continue
         # Divided by the coefficient of their first term, proportional combinations are equal.

@@ -14,7 +14,8 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with unknowns replaced one by one until no replacement is possible."""
+    """Return the program in which unknowns have been replaced by their images, one by one, until no
+    replacement is possible."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -65,7 +66,8 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
 
 
 def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
-    """Return assignments with definitions before uses, otherwise in the given order; None for a cycle."""
+    """Return the assignments sorted so that each definition precedes its uses; apart from this they keep
+    their order. The result is None if there is a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
     # The state is False while an assignment waits for its arguments. If it is reached in this state, there is

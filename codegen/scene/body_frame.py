@@ -123,7 +123,7 @@ def _same(group: BodyFrame, q: Sequence[str], mu: Sequence[str], a: Expr, b: Exp
             x, y = evaluate([a, b], domain, values)
             if abs(x - y) > TOLERANCE * max(1, abs(x)):
                 return False
-        except (ArithmeticError, ValueError, TypeError):  # TypeError: complex numbers have no order
+        except (ArithmeticError, ValueError, TypeError):  # a comparison of complex numbers raises TypeError
             return False
     return True
 

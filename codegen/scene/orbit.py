@@ -39,7 +39,7 @@ POINTS = 4
 
 @dataclass(frozen=True)
 class Orbit:
-    """A problem as a field, at sample points of its manifold.
+    """A problem as a field, which can be evaluated at sample points of its manifold.
 
     ``symbols`` are the coordinates, ``start`` the initial state, ``roots`` the components of f. The group of
     a Hamiltonian problem is T*G, which acts on itself.
@@ -124,7 +124,7 @@ class Orbit:
         return all(row is not None and all(self.sized(x, (1,)) for x in row) for row in values)
 
     def text(self, x: mpmath.mpf) -> str:
-        """Return a number for a message."""
+        """Return the text of a number for a message."""
         return str(self.domain.context.nstr(x, 6))
 
 
