@@ -79,7 +79,7 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    # only the process that created the folder removes it; a forked worker process does not
+    # Only the process that created the folder removes it. A forked worker process must not remove it.
     if os.getpid() == owner:
         shutil.rmtree(folder, ignore_errors=True)
 

@@ -274,7 +274,8 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            # while a library is open, loading a rebuilt library of the same name returns the old one
+            # The library is closed, because loading a rebuilt library of the same name would otherwise return
+            # this one.
             self._ffi.dlclose(self._library)
             raise
 

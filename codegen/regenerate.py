@@ -65,7 +65,8 @@ def _entry(module: object, where: str) -> Entry:
 
 
 def contents(listed: list[Entry]) -> dict[str, str]:
-    """Return every file that belongs in the folder, by its path within it, manifests included."""
+    """Return the text of every file that belongs in the folder, including manifests, by the path of the file
+    in the folder."""
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
@@ -130,7 +131,7 @@ def ignored(path: str) -> bool:
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Write the files, remove stale files, and return the differences that existed before."""
+    """Write the files, remove stale files, and return the differences that existed before writing."""
     changed = compare(directory, files)
     # Manifests are written last, because they identify emitted files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))

@@ -68,7 +68,7 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability]:
 
 
 def _alone(job: Job) -> list[Stability]:
-    """Return the results of a job; it runs in a separate process, without a progress display."""
+    """Return the results of a job. This function runs in a separate process, so it shows no progress."""
     return _run(job, str)
 
 

@@ -14,7 +14,8 @@ from codegen.ir.domain import Domain
 
 
 class Scalar(Protocol):
-    """A number of a domain (:mod:`codegen.ir.domain`); both operands must be of the same domain."""
+    """A number of a domain (:mod:`codegen.ir.domain`); the operands of an operation must be of the same
+    domain."""
 
     def __add__(self, other: Self, /) -> Self:
         """Return the sum."""

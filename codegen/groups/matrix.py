@@ -142,7 +142,7 @@ def _weighted(d: Domain, weights: Sequence[Fraction], values: Sequence[S]) -> S:
 
 
 def _added(d: Domain, total: S, w: Fraction, x: S) -> S:
-    """Return total + w x, without a product where w is 1 or -1."""
+    """Return total + w x; if w is 1 or -1, no product is computed."""
     if w == 1:
         return total + x
     if w == -1:

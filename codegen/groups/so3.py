@@ -148,12 +148,13 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         return tuple(p + q for p, q in zip(plain, cross(x, inner), strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return hat(x) g: x cross every column."""
+        """Return hat(x) g: the cross product of x with every column of g."""
         columns = [cross(x, g[j::3]) for j in range(3)]
         return tuple(columns[j][i] for i in range(3) for j in range(3))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x where v = x.g: the entries of x are those of v g^T below and above the diagonal."""
+        """Return x where v = x.g. The entries of x are off-diagonal entries of the skew matrix v g^T =
+        hat(x)."""
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
@@ -162,7 +163,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g hat(x), the derivative of g exp(eps x) at eps = 0: every row cross x."""
+        """Return g hat(x), the derivative of g exp(eps x) at eps = 0: the cross product of every row of g
+        with x."""
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:

@@ -29,7 +29,7 @@ class Factor:
 
     def scaled(self, by: Fraction) -> Factor:
         """Return phi(by*scale*t)^power: the factor with ``by`` times t in place of t."""
-        # phi(s t) with t = by t' is phi(s by t'): only the scale changes.
+        # phi(scale*t) with t = by*t' is phi(scale*by*t'): only the scale changes.
         return Factor(self.function, self.scale * by, self.order, self.power)
 
     def inverse(self) -> Factor:
@@ -45,7 +45,7 @@ UNIT = Fraction(1)
 def simplified(word: Word) -> Word:
     """Return a word with its exponentials joined and without factors that cancel.
 
-    The rule exp(-s t) dexp(s t) = dexp(-s t) is applied, too.
+    The rule exp(-s t) dexp(s t) = dexp(-s t) is also applied.
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'

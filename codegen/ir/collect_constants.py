@@ -88,8 +88,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     # A power of y counts only if an expression that is not a power of y reads it: y^2 inside y^3 is an
     # intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y itself is read, y must be computed anyway. All powers of y then share the division in y =
-    # 1/sqrt(x).
+    # If y = 1/sqrt(x) itself is read, it must be computed anyway, and all its powers share its division.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -118,7 +117,7 @@ class _Gathering:
         # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # Each node is expanded once: all readers of a shared node use the same combination.
+                # Each node is expanded only once, and all nodes that contain it use the same combination.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
@@ -167,7 +166,8 @@ class _Gathering:
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
-            # (c x)(d y) = (c d)(x y): both numbers leave the product and join the number in front of it.
+            # (c x)(d y) = (c d)(x y): both numbers are taken out of the product and multiplied into its
+            # coefficient.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}
@@ -199,10 +199,11 @@ class _Gathering:
         return {atom.id: (c, atom)}
 
     def _content(self, node: Expr) -> tuple[Number, Expr]:
-        """Return c and x with the node equal to c x; c is 1 unless the node is a multiple of one
+        """Return (c, x) such that the node equals c x; c is 1 unless the node is a multiple of one
         expression."""
         total = self.sums[node.id]
-        if len(total) != 1:  # numbers stay inside a sum, which may have other readers
+        # A number is not taken out of a sum, because other expressions may also contain the sum.
+        if len(total) != 1:
             return Number.rational(1), self._spell(node)
         ((c, atom),) = total.values()
         return self._inverse(c, atom)

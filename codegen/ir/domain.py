@@ -24,7 +24,8 @@ class NotConverged(ArithmeticError):
     number that is not finite."""
 
 
-# The scalars are float, mpf, series and Expr: they share operators but no base class.
+# The type is Any, because scalars are float, mpf, series or Expr, which have the same operators but no common
+# base class.
 Scalar: TypeAlias = Any
 """A number of one domain; its type depends on the domain and is known only at run time."""
 
@@ -146,11 +147,12 @@ class FloatDomain:
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
-        # Comparisons with a NaN are false, so without this test the iteration would go on to its limit.
+        # Comparisons with a NaN are false, so without this test the iteration would continue up to its limit
+        # of sweeps.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # The test is relative to the largest unknown: small unknowns are no more accurate than the sums that
-        # contain them.
+        # The change is compared with the largest unknown, because rounding errors in sums with large terms
+        # also affect the small unknowns.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         # With the rate change/before, the remaining error is about change^2/before, which must be below half
@@ -253,7 +255,7 @@ class SeriesDomain:
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # Coefficients are exact, so a local error that vanishes to some order does so provably.
+        # The coefficients are exact, so a local error that is zero up to some order proves the order.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 

@@ -1,4 +1,5 @@
-"""The interpreter: it evaluates a step program over any domain; emitted code is tested against it."""
+"""The interpreter: it evaluates a step program over any domain. Tests compare emitted code with its
+results."""
 
 from __future__ import annotations
 
@@ -254,13 +255,13 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # Partial pivoting is needed: the matrix is near the identity only for small h.
+        # Partial pivoting is needed, because for large h the matrix is not close to the identity.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
             raise NotConverged("Newton's matrix is singular")
         for i in range(k + 1, n):
-            # Entries below the pivot are not read again, so they need not become zero exactly.
+            # The entries below the pivot are not read after this step, so they need not be set to zero.
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
     solution: list[Scalar] = []

@@ -18,7 +18,8 @@ from codegen.ir.number import Number
 from codegen.ir.program import Substep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the last flow of a step; the dot prevents a clash with names of users."""
+"""The symbol for the duration of the last flow of a step. Its name contains a dot, so it differs from every
+name in a scene."""
 
 ELAPSED = "elapsed.h"
 """The symbol for the total duration of the steps whose flows are deferred."""
@@ -64,10 +65,10 @@ class Newton:
     matrix is expanded to leading order in h, and it is computed and inverted in each step. If ``inverted`` is
     true, ``matrix`` contains the entries of the inverse matrix.
 
-    If ``residuals`` is true, the loop's images are residuals that vanish at the solution. The matrix is then
-    minus their derivative to first order in h, and its inverse is used for ``period`` steps. ``changes``
-    contains the names of the last changes of the unknowns. Values of the body that are read after the loop
-    may be corrected by these changes.
+    If ``residuals`` is true, the images of the loop are residuals, which are zero at the solution. The matrix
+    is then minus their derivative to first order in h, and its inverse is used for ``period`` steps.
+    ``changes`` contains the names of the last changes of the unknowns. Values of the body that are read after
+    the loop may be corrected by these changes.
     """
 
     body: tuple[Let, ...]
@@ -246,7 +247,7 @@ class Function:
     """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
     from ``inputs`` alone.
 
-    Its k-th result is the expression that calls ``NAME.k``. ``about`` describes the function by operations of
+    In expressions, a call of ``NAME.k`` is its k-th result. ``about`` describes the function by operations of
     a program.
     """
 

@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in h, for simplified Newton iterations.
 
-Every expression is expanded as v_0 + v_1 h, together with its derivatives by the unknowns. Higher powers of h
-are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is evaluated at h = 0. An
-iteration with this Jacobian gains two powers of h a sweep.
+Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns.
+Higher powers of h are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is
+evaluated at h = 0. In an iteration with this Jacobian, each sweep multiplies the error by O(h^2).
 """
 
 from __future__ import annotations
@@ -157,7 +157,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
-        # The derivatives of a root are infinite at 0.
+        # The derivatives of sqrt(x) are infinite at x = 0.
         if low.is_zero:
             raise NotLinearised("a root at its branch point")
         at = space.call("sqrt", low)

@@ -137,7 +137,7 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
-        # Each call removes a factor from a term, so the recursion ends.
+        # The recursion ends, because each call removes a factor from a term.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
@@ -162,7 +162,8 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This test limits only the work. The result may still be short, because like terms are added.
+        # This test limits only the work in one product. The result may have fewer terms than the limit,
+        # because like terms are added.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}

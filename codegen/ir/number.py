@@ -43,7 +43,8 @@ class Number:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """The key that decides equality: equal numbers have equal keys."""
-        # Keys make equality decidable for balls, too: equal names in a file give equal keys.
+        # Keys make equality decidable also for balls: coefficients with the same name in a file have equal
+        # keys.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -136,7 +137,7 @@ class Number:
     def __mul__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element * other.element)
-        # A product by 1 would widen a ball and change its key without need.
+        # Multiplying by 1 would make a ball wider and change its key, so the other factor is returned.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)

@@ -124,7 +124,7 @@ class Bivector(OfGroup):
     """omega_y(alpha, .), the bivector at y applied to a covector alpha. If alpha is the differential of H at
     y, the result is f(y)."""
 
-    # Passes may move numbers out of the covector alpha, because the result is linear in alpha.
+    # The result is linear in the covector alpha, so passes may move a factor of alpha out of the operation.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A

@@ -38,7 +38,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # the number of seeds.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # Terms may cancel. A zero is not entered in the table, so that the users of the node skip it, too.
+        # Terms may cancel. A zero is not entered in the table, so that nodes that contain this node treat it
+        # as constant.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

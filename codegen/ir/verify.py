@@ -1,4 +1,5 @@
-"""The program verifier: types, single assignment, definition before use; run after every pass."""
+"""The program verifier. It runs after every pass and checks types, single assignment, and definition before
+use."""
 
 from __future__ import annotations
 
@@ -67,7 +68,7 @@ class _Verifier:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
-        """Check one block; its body may read the unknowns."""
+        """Check one block. Its body may read the unknowns of the block."""
         # The shape is checked first, because the k-th start and the k-th image belong to the k-th unknown.
         _shape(self.program.name, block)
         for start in block.starts:

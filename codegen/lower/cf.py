@@ -33,7 +33,8 @@ class CommutatorFreeLowering(FieldLowering):
 
 
 def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: Stage | None) -> Program:
-    """Return the program of products of exponentials; ``lower`` is the update of an embedded row."""
+    """Return the program of a method of products of exponentials; ``lower`` is the update of the embedded
+    method, if any."""
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
     build = stages.builder
@@ -60,8 +61,8 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of a stage is the time of its starting stage plus the sum of the stage's own
-            # coefficients.
+            # The time of a stage is the time of the stage from which it starts, plus h times the sum of the
+            # coefficients in its exponents.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))

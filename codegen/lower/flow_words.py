@@ -80,7 +80,8 @@ class FlowLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene with the exact flows that the method composes, by name."""
         word = self.read(scene, method).word
-        # Only flows that the word names are included: others would be emitted as unused functions.
+        # Only flows that occur in the word are included, because other flows would be emitted as unused
+        # functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
         # The flows are sorted by name, because the order of emitted functions must not depend on the word.
         return replace(scene, flows=dict(sorted(flows.items())))
@@ -133,8 +134,8 @@ class FlowLowering(Lowering):
             # The flows of one summand commute, so they may be applied in any order.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The time advances after the flow. The carrier does not depend on t, so its own flow does not
-            # read the time.
+            # The time advances after the flow of the carrier. The carrier does not depend on t, so its flow
+            # does not need the time.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))

@@ -12,7 +12,7 @@ _registered: dict[str, Lowering] = {}
 
 
 def _built_in() -> tuple[type[Lowering], ...]:
-    """Return the lowerings of this package, in the order of listings."""
+    """Return the lowerings of this package, in the order in which commands list them."""
     from codegen.lower.ambient import Ambient
     from codegen.lower.cf import CommutatorFreeLowering
     from codegen.lower.cg import CrouchGrossman
@@ -54,7 +54,8 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
     """
     if not lowering.family:
         raise MethodError(f"{lowering.__name__} names no family", expected='family = "NAME" in the class')
-    # A second class is refused: the meaning of a method must not depend on the order of registration.
+    # A second class for a family is refused, because the meaning of a method must not depend on the order of
+    # registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(

@@ -118,7 +118,7 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # Which part comes first does not matter: Phi and Phi* may exchange their roles.
+    # The word may begin with either part, because Phi and Phi* may be exchanged.
     durations = [x for _, x in joined]
     # The number of flows must be odd, so that the word ends with the part with which it began. A flow of
     # duration zero is added if necessary.

@@ -70,8 +70,8 @@ def brackets(method: Method) -> int:
     """Return the cut-off of dexp^{-1}; raise MethodError without a cut-off, because a program has finitely
     many brackets."""
     if method.cutoff is None:
-        # The program also expands the dual of dexp^{-1} and its derivative. The search for the fewest
-        # brackets does not cover these.
+        # The program also expands the dual and the derivative of dexp^{-1}, for which there is no search for
+        # the fewest brackets.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} without a cut-off", expected=f"a number of brackets, as {family}(2):{name}"

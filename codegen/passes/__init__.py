@@ -162,11 +162,11 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The transform introduces inverses of maps. Such an inverse may act directly on the result of its
-        # map.
+        # The Legendre transform introduces inverses of maps. An inverse that is applied directly to the
+        # result of its map is removed.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass follows the transform. Before the transform the force of a stage depends on the momentum
-        # of the stage, which closes a cycle.
+        # This pass follows the Legendre transform. Before the transform the force of a stage depends on the
+        # momentum of the stage, and this dependence is part of a cycle.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
         # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -174,8 +174,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # This pass precedes functions of ad, which need an exp(x) with one reader: it can remove a second
-        # reader.
+        # This pass precedes the pass for functions of ad, which requires that exp(x) has only one reader,
+        # because this pass can remove a second reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass follows functions of ad, because only now is it known in which frame momenta need fewer

@@ -27,7 +27,7 @@ def run(program: Program) -> Program:
             # Later blocks and outputs may read a removed unknown, so ``same`` covers the whole program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # The body reads removed unknowns, too. After renaming, value numbering can merge equal stages.
+            # Removed unknowns are also renamed in the body. Value numbering can then merge equal stages.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner

@@ -91,7 +91,8 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """A domain of many digits in which diverging iterations raise an error early."""
+    """Arithmetic with many digits, in which an iteration that diverges raises an error before its limit of
+    sweeps."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function; OverflowError for an argument with few correct digits."""
@@ -154,7 +155,8 @@ class Reference:
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # A state where the field is not finite is skipped; the other state may be usable.
+        # A state at which the field is not finite is skipped, because the programs may still be compared at
+        # the other state.
         if not math.isfinite(speed):
             return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # 2**excess is the next power of two

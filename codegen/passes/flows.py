@@ -38,7 +38,7 @@ def run(program: Program, scene: Problem) -> Program:
     # This is computed only if the program is a composition of flows, because sampling the scene takes time.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # Each flow moves to an earlier place if it commutes with all flows that it passes.
+    # Each flow is joined to an earlier flow of the same part if it commutes with all flows between them.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
@@ -48,7 +48,8 @@ def run(program: Program, scene: Problem) -> Program:
         # The flow of duration zero is the identity; a duration counts as zero only if that is proven.
         if not letter.duration.is_zero:
             kept.append(letter)
-    # Unless flows were joined, the old program is returned: equal programs are not compared after the pass.
+    # If no flows were joined, the old program is returned, because the optimiser then skips the comparison of
+    # programs.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
@@ -56,10 +57,11 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
     """Return the index of the last flow of the same part and time, if all flows after it commute with the new
     flow."""
     for at in reversed(range(len(kept))):
-        # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
+        # The flow of a part that depends on time uses the part at its stage time, so two stage times give two
+        # different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # The new flow cannot reach an earlier place, because it does not commute with this flow.
+        # The new flow cannot be moved before this flow, because the two flows do not commute.
         if not commute(kept[at].part, letter.part):
             return None
     return None

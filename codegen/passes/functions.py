@@ -141,7 +141,8 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
     """Return the rational number s with x = s y, or None if no such s follows from the terms of x and y."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional combinations have the same terms; both dicts are sorted.
+    # Proportional combinations contain the same variables. Both dictionaries are sorted, so that their items
+    # can be compared in order.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}

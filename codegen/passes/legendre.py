@@ -58,8 +58,8 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found in the old block, because rewriting one path keeps the statements of the other
-        # paths.
+        # All paths are found before the first one is rewritten; rewriting one path does not change the
+        # statements of other paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -97,7 +97,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second search leads from P back to the momentum of the equations from which P is computed.
+    # The second search goes from P back to the momentum of the equations from which P is computed by
+    # invertible maps.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 

@@ -97,7 +97,8 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
-            # Starts, images and residuals of unknowns are readers, too: the values they read must be kept.
+            # Starts, images and residuals of a block also count as readers, because their values must be
+            # kept.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

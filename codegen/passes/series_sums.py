@@ -113,7 +113,8 @@ class SeriesSums:
         """Return a sum with its terms expanded, unless the expanded sum is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # Expanded sums read values that are ready earlier, which shortens the critical path.
+            # Expanded sums contain values that are computed earlier, so the chain of dependent operations is
+            # shorter.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:

@@ -37,7 +37,7 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
-                # The first of several equal sums is recorded, so that definitions stay before uses.
+                # Among equal sums the first is recorded, so that the sum is defined before it is used.
                 known.setdefault(frozenset(assign.terms), assign.targets[0])
         result.append(assign)
     return tuple(result)

@@ -102,7 +102,8 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
         # combination.
         if len({v for v, _ in terms}) < len(terms):
             continue
-        # Divided by the coefficient of their first term, proportional combinations are equal.
+        # Each combination is divided by the coefficient of its first term, so that proportional combinations
+        # become equal.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)

@@ -28,11 +28,11 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Momenta and forces are tried first, so that velocities remain, which are extrapolated best between
-        # steps.
+        # Momenta and forces are tried first. The remaining unknowns are then velocities, whose extrapolation
+        # from earlier steps is the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # The search is greedy and has a fixed order: to find the smallest set (a minimum feedback vertex
-            # set) is NP-hard.
+            # The search is greedy and has a fixed order, because finding the smallest set of unknowns (a
+            # minimum feedback vertex set) is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -45,7 +45,8 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image; None if that closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # The last unknown is in a cycle: the pass for blocks has already removed blocks without one.
+    # A single unknown is never replaced, because it is in a cycle: an earlier pass has replaced blocks
+    # without cycles by plain assignments.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 

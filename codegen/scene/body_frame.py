@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 DIGITS, TOLERANCE = 40, Fraction(1, 10**30)
 POINTS = 6
-"""A splitting of H is compared with H at POINTS random points, with DIGITS digits, up to the relative error
-TOLERANCE."""
+"""The formula V(q) + T(P) is compared with H at POINTS random points, with DIGITS digits, up to the relative
+error TOLERANCE."""
 
 
 @dataclass(frozen=True)

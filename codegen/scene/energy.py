@@ -46,7 +46,7 @@ class Conservative(Protocol):
 
     @property
     def hamiltonian(self) -> Expr | None:
-        """H; None for a field scene."""
+        """The Hamiltonian H; None for a field scene."""
 
     @property
     def invariants(self) -> Mapping[str, Expr]:

@@ -26,7 +26,8 @@ RESERVED = {
 
 
 class Reader:
-    """Reads the formulas of one scene into one space and records the parameters and signals in them."""
+    """Converts the formulas of one scene to expressions of one space, and records their parameters and
+    signals."""
 
     def __init__(self, name: str, coordinates: Sequence[sympy.Symbol]) -> None:
         self.name = name

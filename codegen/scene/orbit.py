@@ -31,7 +31,7 @@ TOLERANCE = Fraction(1, 10**20)
 roundoff, because the terms may contain cancellation."""
 
 FLOOR = Fraction(1, 10**28)
-"""Allowed absolute error, for sums whose terms are themselves small by cancellation."""
+"""The allowed absolute error, for sums whose terms are small because of cancellation in the terms."""
 
 POINTS = 4
 """The number of sample points: the initial state and three random points of its orbit."""

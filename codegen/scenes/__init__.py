@@ -116,7 +116,7 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    # raises SceneError for a very large file
+    # a very large file raises SceneError
     read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.
