@@ -138,7 +138,8 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # If the compiler is killed, its temporary files are removed together with this folder.
+    # The compiler writes its temporary files into this folder, so they are removed with it even if the
+    # compiler is killed.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = subprocess.run(

@@ -1,4 +1,4 @@
-"""The cache: files that are computed once, each beside a digest of its content.
+"""The cache: files that are computed once, and for each file a digest of its content.
 
 An entry is used only if it is a regular file of the user and its content has the digest. Otherwise it is
 computed again. The folder has mode 0700 and belongs to the user, because compiled code in it is executed. If

@@ -42,10 +42,11 @@ class CertifiedOrder:
     def text(self) -> str:
         """Return the order and its certificate for a header."""
         how = {
-            "exact": "every order condition up to it is zero in exact arithmetic",
-            "ball": "interval arithmetic proves that such a method exists within the last printed digit",
+            "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
+            "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
+            "differ from the decimals of the tableau by at most one unit in the last digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
-            "none": f"the coefficients are known to {self.radius} only, which is less than double precision",
+            "none": f"the uncertainty of the coefficients, {self.radius}, exceeds the rounding error of a double",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""

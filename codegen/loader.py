@@ -236,7 +236,7 @@ class Integrator(ABC):
         return [float(values[name]) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Add the counts of emitted code to the caller's statistics."""
+        """Add the counts that emitted code has returned to the caller's statistics."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -416,7 +416,7 @@ class InterpretedIntegrator(Integrator):
 
 
 def reason(status: int, block: str, h: float) -> str:
-    """Return the reason for a failed step, for an error message."""
+    """Return the reason why a step has failed, for an error message."""
     match status:
         case Status.BAD_STEP:
             return f"the step size h = {h} is not finite"

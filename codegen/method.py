@@ -153,7 +153,8 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families for which an embedded row can estimate the error: those with fixed stages."""
+    """Return the families for which an embedded row can estimate the error, because their stages do not
+    depend on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 

@@ -44,7 +44,7 @@ def command(
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    Deviations are relative to the size of the quantity. The column "law" contains "lost" if the deviation
+    The deviation of a quantity is relative to its size. The column "law" contains "lost" if the deviation
     reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if it grows
     but the confidence interval of the slope contains zero. For quantities that a method conserves exactly,
     the growth of rounding errors is measured: their root mean square over several initial states, and its

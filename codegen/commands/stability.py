@@ -39,7 +39,7 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
         raise click.UsageError("name one SCENE, or give --all")
     names = scenes.GALLERY if scene is None else (scene,)
     for name in names:
-        methods_for(scenes.load(name), methods)  # raises InputError before the work begins
+        methods_for(scenes.load(name), methods)  # This call raises InputError before the work begins.
     all_results: list[Stability] = []
     with counting("stability") as done:
         work = _alone if len(names) > 1 else partial(_run, progress=done)

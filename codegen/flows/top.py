@@ -87,7 +87,7 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Add w.P to the turn whose axis is parallel to w, or add a separate turn for it."""
+    """Add w.P to the turn whose axis is parallel to w; if there is none, add a separate turn for w.P."""
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

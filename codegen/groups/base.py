@@ -1,7 +1,7 @@
 """The base class of Lie groups: the operations that every group has.
 
 An element of the group is a flat tuple of ``size`` scalars, an element of the Lie algebra or of its dual is a
-flat tuple of ``dim`` scalars. The class docstring of a group says which coordinates these are. Conventions:
+flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. Conventions:
 left action, right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
 
 The first argument of each operation is a domain d (:mod:`codegen.ir.domain`). An operation uses ``+ - * /``

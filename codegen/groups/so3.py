@@ -103,7 +103,7 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
 
         As ad_x^3 = -z ad_x with z = x.x, each function is 1 + b ad_x + c ad_x^2, and products and inverses
-        have this form, too.
+        also have this form.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)

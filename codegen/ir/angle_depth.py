@@ -46,7 +46,7 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
     for node in walk([root]):
         # walk yields the arguments of a node before the node.
         below = max((by_node[a.id] for a in node.args), default=0)
-        # Inputs have depth 0: the state is taken to be exact.
+        # Inputs have depth 0, because the state is assumed to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
         # The signed Stumpff functions also count. The slope functions do not count, because they occur only

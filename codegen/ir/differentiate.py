@@ -72,7 +72,7 @@ def _derivatives(node: Expr) -> list[Expr]:
     half = space.const(Number.rational(1, 2))
     match node.payload:
         case "sqrt":
-            # The derivative 1/(2 sqrt x) uses the root that is computed already.
+            # The derivative 1/(2 sqrt x) contains the root, which is already computed.
             return [half * (space.one / node)]
         case "sin":
             return [space.call("cos", x)]

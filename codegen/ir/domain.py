@@ -68,8 +68,8 @@ def stumpff(k: int, z: float) -> float:
     """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
-    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, and its full turns use up half of
-    the digits.
+    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, so its number of full
+    turns takes up half of the digits.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -82,7 +82,7 @@ def stumpff(k: int, z: float) -> float:
         return math.cos(math.sqrt(z))
     # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule from the smallest term; for z < 4 the first omitted term is below 1e-27.
+        # Horner's rule begins with the smallest term. For z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -155,9 +155,9 @@ class FloatDomain:
         # also affect the small unknowns.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # With the rate change/before, the remaining error is about change^2/before, which must be below half
-        # a unit in the last place. The first condition is needed, because a rate that was measured only once
-        # is not reliable.
+        # With the rate of convergence change/before, the remaining error is about change^2/before, which must
+        # be below half a unit in the last place. The rate is measured only once and may be wrong, so the
+        # change itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Changes that no longer decrease are rounding errors if they are small, and a sign of divergence if
@@ -184,7 +184,8 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # Newton's method replaces a fixed-point iteration that gains less than a third of a digit a sweep.
+        # Newton's method replaces a fixed-point iteration in which a sweep gives less than a third of a
+        # correct digit.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -354,7 +355,7 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return symbols for run-time inputs at a time; equal times get equal symbols."""
+        """Return symbols for run-time inputs at a time; the symbols are the same for equal times."""
         # Stages at the same time must read the same sample, or the inputs would be evaluated twice at that
         # time.
         if t.id not in self.samples:

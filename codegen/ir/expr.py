@@ -143,7 +143,8 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
-        # -(a - b) = b - a holds in floating point up to the sign of zero, and saves the negation.
+        # -(a - b) is replaced by b - a, which saves the negation. In floating point both are equal up to the
+        # sign of zero.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
         return self._make("neg", (a,))
@@ -266,7 +267,8 @@ class Space:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Whether two constants can be folded into one constant: they need a common ring."""
+    """Whether the sum or product of two constants can be computed as one constant, which requires a common
+    ring."""
     # A rational number is an element of every ring. For elements of two different other rings, no common ring
     # is known.
     x, y = a.payload, b.payload

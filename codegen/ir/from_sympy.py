@@ -46,8 +46,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # sympy's trees share subexpressions. Without the table a nested formula could be read exponentially
-        # often.
+        # Sympy expressions share subexpressions. The table stores the result for each of them; without it the
+        # time could grow exponentially with the depth of the formula.
         if e not in self.known:
             self.known[e] = self._read(e)
         return self.known[e]
@@ -88,7 +88,8 @@ class _Reader:
                 below.append(self._power(self.node(a.base), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # Numerator and divisor are separate products: x/(y z) has one division, but x y^-1 z^-1 has two.
+        # Numerator and divisor are formed as separate products, because x/(y z) has one division and x y^-1
+        # z^-1 has two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -112,7 +113,8 @@ def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
-    # The sum starts at the first node and not at 0 or 1, so no node is created that simplification removes.
+    # The loop starts with the first node and not with 0 or 1, so that no node is created only to be
+    # simplified.
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

@@ -25,7 +25,8 @@ ELAPSED = "elapsed.h"
 """The symbol for the total duration of the steps whose flows are deferred."""
 
 LONGEST = 256
-"""The largest number of steps for which a flow is deferred; the bound keeps the flow's angles moderate."""
+"""The largest number of steps for which a flow is deferred. The bound limits the angles of the deferred flow,
+and so their rounding errors."""
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
 """The names of the methods that solve implicit blocks."""
@@ -45,7 +46,7 @@ VARIATION = "variation"
 """The name of the state field that holds a variation."""
 
 VARIED = "the variation of "
-"""The prefix of the labels of equations for variations."""
+"""The labels of loops that solve the equations for variations begin with this prefix."""
 
 
 @dataclass(frozen=True)
@@ -291,7 +292,8 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """The common start of all loops; None if each loop has its own starts."""
+        """The Start of the kernel, which computes the first values of all unknowns; None if each loop has its
+        own starts."""
         # A kernel has at most one Start, because warm starts extrapolate the unknowns of all loops as one
         # vector.
         return next((s for s in self.body if isinstance(s, Start)), None)

@@ -170,8 +170,8 @@ class NormalForms:
         for m, x in a.items():
             for n, y in b.items():
                 total = _add(total, _product(m, n), x * y)
-        # This stops an expansion before it fills the memory: the length of nested products of sums grows
-        # exponentially.
+        # Without this limit an expansion could fill the memory, because the length of nested products of sums
+        # grows exponentially.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total

@@ -151,7 +151,7 @@ class Linear(Operation):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # Dictionaries keep the order of first use, so the sum is the same in each build.
+            # Dictionaries keep the order of insertion, so each build forms the sum in the same order.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))

@@ -97,7 +97,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     # The bit lengths give two candidates for the exponent; this comparison decides.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
-    # Subnormal numbers have fewer bits: the last place has a fixed exponent there.
+    # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
@@ -112,7 +112,7 @@ PRECISIONS = {p.name: p for p in (DOUBLE, SINGLE)}
 
 
 def precision(name: str) -> Precision:
-    """Return the format of that name; UnknownName for an unknown name."""
+    """Return the format called name; raise UnknownName for an unknown name."""
     if name not in PRECISIONS:
         raise UnknownName(f"unknown precision {name}", expected=" or ".join(PRECISIONS))
     return PRECISIONS[name]

@@ -27,7 +27,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 known[node.id] = seeds[node.payload]
             continue
         moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
-        # A node that depends on no seeded symbol is not in the table: its tangent is exactly zero.
+        # If a node depends on no symbol with a seed, its tangent is exactly zero, and the table has no entry
+        # for it.
         if not moving:
             continue
         # Derivatives are formed only after this test, because a function without a derivative is allowed if

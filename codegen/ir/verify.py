@@ -27,7 +27,7 @@ class _Verifier:
         self.names: set[str] = set()
 
     def run(self) -> None:
-        """Raise :class:`IllFormed` for the first rule that is broken."""
+        """Check the whole program; raise :class:`IllFormed` for the first rule that it breaks."""
         # Inputs, body and outputs are read in this order, which is the order of execution.
         for var in self.program.inputs:
             self.define(var, "the inputs")

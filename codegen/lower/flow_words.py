@@ -189,7 +189,8 @@ def is_kick(summand: Summand) -> bool:
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first: kicks at the ends of neighbouring steps join into one flow."""
+    """Return the summands with kicks first, because kicks at the ends of neighbouring steps can be joined
+    into one flow."""
     # The sort is stable, so the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
@@ -232,7 +233,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand without t. Any other summand without t would be correct, too,
+        # The carrier is the first summand without t. Any other summand without t would also be correct,
         # because the order conditions are those of the extended system.
         if not summand.timed:
             return summand

@@ -73,13 +73,15 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
     """Return the tableau of equal groups and the lengths of their steps, for as many groups as possible."""
-    # Numbers are used and not ring elements: they are compared by key, which is decidable for balls.
+    # The entries are Numbers and not ring elements, because Numbers are compared by keys, which is possible
+    # also for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
     # The cuts are all k at which the tableau separates into two tableaux, for the stages before k and from k
     # on. Each group consists of neighbouring parts between cuts.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # A group has from one part to half of the parts. The narrowest repeated method gives the most substeps.
+    # A group consists of at least one part and at most half of the parts. Small groups are tried first,
+    # because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         # wide divides the number of parts, so the last end is the last cut.
         ends = cuts[::wide]

@@ -22,7 +22,8 @@ class VariationalLowering(Lowering):
     Hamiltonian."""
 
     hamiltonian = True
-    preference = 1  # a Hamiltonian scene is usually integrated for long times, which needs symplectic steps
+    # Hamiltonian scenes are usually integrated over long times, for which symplectic methods are preferred.
+    preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
@@ -67,8 +68,8 @@ def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
 
 
 def brackets(method: Method) -> int:
-    """Return the cut-off of dexp^{-1}; raise MethodError without a cut-off, because a program has finitely
-    many brackets."""
+    """Return the cut-off of dexp^{-1}. MethodError is raised for a method without a cut-off, because a
+    program can contain only finitely many brackets."""
     if method.cutoff is None:
         # The program also expands the dual and the derivative of dexp^{-1}, for which there is no search for
         # the fewest brackets.

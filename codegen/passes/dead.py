@@ -40,7 +40,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # zip is not strict, because a block has one residual for each unknown, or no residuals.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # This is a list in program order, because the iteration order of a set would change from run to run.
+    # This is a list in program order and not a set, because the order of a set would change from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # A live unknown needs its image, and every value that the image is computed from.

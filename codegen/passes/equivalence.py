@@ -36,7 +36,7 @@ The exact value is not important, because :data:`AGREE` is 2^15 times as large a
 occur."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""Errors of an interpretation; a root of a negative number raises ValueError."""
+"""The errors that interpreting a program may raise; ValueError is raised by a root of a negative number."""
 
 SWEEPS = 24
 """The largest number of sweeps over a block: a step that needs more is too long for a comparison up to
@@ -69,8 +69,8 @@ AGREE = 2.0**-36
 """Results count as equal up to this relative difference, which is far above rounding and the tolerance of a
 block.
 
-In 170 comparisons of eight methods of the gallery the passes moved results by 2^-51 at most. A coefficient
-that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
+In 170 comparisons of eight methods on scenes of the gallery the passes changed results by at most 2^-51. A
+coefficient that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,8 @@ class _Bounded(PreciseDomain):
     sweeps."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function; OverflowError for an argument with few correct digits."""
+        """Return the value of a function; raise OverflowError for an argument so large that few digits of the
+        result would be correct."""
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)
         return super().call(function, *args)

@@ -35,7 +35,8 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # This is computed only if the program is a composition of flows, because sampling the scene takes time.
+    # The predicate is formed only if the program is a composition of flows, because sampling the scene takes
+    # time.
     commute = commuting(scene)
     kept: list[Letter] = []
     # Each flow is joined to an earlier flow of the same part if it commutes with all flows between them.
@@ -83,7 +84,8 @@ def word(program: Program) -> list[Letter] | None:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
-    # The outputs must be the state after the last flow, else the program computes more than the flows.
+    # The outputs must be the state after the last flow; otherwise the program is not a composition of flows
+    # only.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
@@ -124,7 +126,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
             try:
                 ends = moved(point, (first, second)), moved(point, (second, first))
             except (ArithmeticError, ValueError):
-                # A flow that fails at a sample point proves nothing: the flows count as not commuting.
+                # If a flow cannot be evaluated at a sample point, the flows are treated as not commuting.
                 return False
             if not all(orbit.sized(x - y, (x, y)) for x, y in zip(*ends, strict=True)):
                 return False

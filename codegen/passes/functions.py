@@ -49,7 +49,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # A product that is also the new state needs all rows, and then exp(x) is formed anyway.
+        # If the product is also the new state, all its rows are needed, and exp(x) is formed anyway.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -81,7 +81,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
-    # If other operations use the group element, its exponential is computed anyway.
+    # If other operations also use exp(x), it is computed anyway, so nothing is saved.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)

@@ -105,7 +105,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The totals come after the sums that read them; sorting puts definitions before uses again.
+    # The totals are appended after the sums that contain them, so the assignments are sorted: definitions
+    # must precede uses.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # A total reads only values that the old sums read, so no cycle can arise.
 

@@ -23,7 +23,7 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Maps that have an inverse; functions of ad_x are invertible if x is small."""
+"""Operations that are invertible linear maps. A function of ad_x is invertible if x is small."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum that P is computed from."""
+        """The momentum from which P is computed."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -129,7 +129,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The coefficient is not zero: an earlier pass has removed every term with the coefficient zero.
+    # The coefficient can be inverted, because an earlier pass has removed all terms with coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
@@ -152,7 +152,8 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append the difference of the two momenta, in the frame with fewer operations."""
+    """Append the difference of the two momenta, in the one of the frames in which it needs fewer
+    operations."""
     replaced, computed = _values(build, route)
     # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base

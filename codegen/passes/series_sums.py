@@ -87,7 +87,7 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # A single function needs two brackets in either form.
+        # A single function needs two brackets with and without nesting, so at least two functions are needed.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
@@ -128,7 +128,8 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return a coefficient with its sign in front, to share products with it and its negative."""
+    """Return a coefficient as plus or minus a number, so that products with the coefficient and with its
+    negative are shared."""
     # c x and (-c) x then share one product, and an addition or subtraction includes the sign at no cost.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)

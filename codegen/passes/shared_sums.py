@@ -34,7 +34,7 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # Default arguments bind the sets of this round; a closure would read the sets of the next round.
+            # The sets are default arguments, because a closure would use the sets of a later round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,

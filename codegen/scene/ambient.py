@@ -34,7 +34,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        # A scene without run-time inputs may have no open roots.
+        # ``open_roots`` may be empty for a scene without run-time inputs.
         open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

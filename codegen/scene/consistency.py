@@ -102,7 +102,7 @@ def check_flow(
 
 
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
-    """Raise :class:`SceneError` for a declared invariant that changes along the field.
+    """Raise :class:`SceneError` if a declared invariant is not constant along the solutions.
 
     The time derivative dI.(f.y) + dI/dt of an invariant I is formed exactly and must vanish at every point.
     """

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Column = Sequence[sympy.Expr]
 
 TAU = "tau"
-"""The symbol of the elapsed time in formulas of a stated flow."""
+"""The symbol of the elapsed time in the formulas that a scene gives for a flow."""
 
 
 def HamiltonianScene(
@@ -166,7 +166,7 @@ class _CanonicalSystem:
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)
 
     def flows(self, flows: Mapping[str, tuple[Column, Column]]) -> dict[str, tuple[Expr, ...]]:
-        """Return the formulas of the flows that the scene states for its parts, by the name of the part."""
+        """Return the formulas that the scene gives for the flows of its parts, by the name of the part."""
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():
             if key not in self.summands:

@@ -40,7 +40,7 @@ GALLERY = (
 )
 
 EXTENDED = "+u"
-"""The suffix of a name that requests the extended scene."""
+"""A scene name with this suffix means the scene extended by the time and its momentum."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
 """Scenes defined elsewhere, by name, and their descriptions."""
