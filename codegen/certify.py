@@ -39,6 +39,7 @@ class CertifiedOrder:
     def text(self) -> str:
         """Return the order and its certificate for a header."""
         how = {
+            "construction": "a step is the Taylor polynomial of this degree",
             "exact": "every order condition up to it is zero in exact arithmetic",
             "ball": "interval arithmetic proves a method of this order within the last digit of the decimals",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
@@ -82,6 +83,6 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    radius = uncertainty(method.tableau, DOUBLE_BITS)
+    radius = "" if method.coefficients is None else uncertainty(method.coefficients, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate
     return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

@@ -213,8 +213,8 @@ def emit_compiled(
         "scene": scene.name,
         "method": method.label,
         "family": method.family_label,
-        "tableau": method.tableau.name,
-        "source": method.tableau.source,
+        "tableau": method.name,
+        "source": method.source,
         "order": order.order,
         "certificate": order.certificate,
         "initial": list(recipe.initial),
@@ -245,8 +245,8 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, single: b
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
-            ("method", f"family {method.family_label}, tableau {method.tableau.name}"),
-            ("source", method.tableau.source),
+            ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
+            ("source", method.source),
             ("order", order.text()),
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
@@ -366,9 +366,10 @@ def default_prefix(scene: Problem, method: Method) -> str:
     A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
     """
     family = method.family + ("" if method.cutoff is None else str(method.cutoff))
-    tableau = method.tableau.name
-    parts = [scene.name, *([] if tableau.startswith(method.family) else [family]), tableau]
-    name = re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII)
+    tableau = method.name
+    named = bool(tableau) and tableau.startswith(method.family)
+    parts = [scene.name, *([] if named else [family]), tableau]
+    name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
     return prefix_of(name, "the scene's file gave it: rename that, or choose another with --prefix NAME")
 
 

@@ -265,7 +265,8 @@ class Projection(LieGroup):
     @abstractmethod
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g moved towards the group: an element stays fixed, and a defect of size eps becomes
-        O(eps^2)."""
+        O(eps^2).
+        """
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:

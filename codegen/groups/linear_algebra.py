@@ -47,6 +47,11 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
     return total
 
 
+def near_inverse_root(d: Domain, e: S) -> S:
+    """Return 1 + e/2 + 3 e^2/8, which is 1/sqrt(1 - e) up to O(e^3)."""
+    return d.rational(1) + e * (d.rational(1, 2) + d.rational(3, 8) * e)
+
+
 def cross(a: Vector[S], b: Vector[S]) -> Vector[S]:
     """Return the cross product of two 3-vectors."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

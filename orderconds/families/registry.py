@@ -35,6 +35,7 @@ BUILT_IN = {
     "cf_magnus": "orderconds.families.cf_magnus",
     "fer": "orderconds.families.fer",
     "cayley": "orderconds.families.cayley",
+    "taylor": "orderconds.families.taylor",
 }
 """The module of each built-in family, in the order of ``orderconds list families``."""
 
@@ -72,7 +73,7 @@ def register(family: FamilyClass) -> FamilyClass:
     for attribute, value in (
         ("name", family.name),
         ("description", family.description),
-        ("formats", family.formats),
+        ("formats", family.formats or not family.has_tableau),
     ):
         if not value:
             raise InputError(f"no {attribute}", where=f"family {family.__name__}", expected=f"a {attribute}")
