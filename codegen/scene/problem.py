@@ -135,7 +135,7 @@ class Problem:
         if name in energy.OPERATIONS:
             return (energy.apply(self, domain, name, args),)
         match name:
-            case "taylor":
+            case "taylor_polynomial":
                 return (taylor.step(self, domain, order or 0, *args),)
             case "to_orbit":
                 return (self.to_orbit(domain, *args),)
