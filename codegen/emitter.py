@@ -23,9 +23,10 @@ from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, operations
 from codegen.kernel.schedule import arrange
+from codegen.kernel.taylor_expansion import with_expansion
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
-from codegen.lower import families_for, lower, lower_composed, problem_for
+from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
 from codegen.method import Method, parse
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import target as printer_of
@@ -133,6 +134,9 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
+    degree = lowering(method.family).expands(method)
+    if degree:
+        return replace(best, kernel=with_expansion(best.kernel, problem, degree))
     embedded, estimate = method.embedded(), best.kernel.estimate
     if embedded is None or estimate is None:
         return best
@@ -296,6 +300,9 @@ def emit_kernel(
 
 def steps_of(kernel: Kernel) -> str:
     """Describe the step control of a run."""
+    if kernel.expansion is not None:
+        last = kernel.expansion.degree
+        return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
     assert kernel.estimate is not None
     return (
         f"constant, or chosen by a proportional-integral controller with an error estimate "

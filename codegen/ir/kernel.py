@@ -235,6 +235,20 @@ class Estimate:
 
 
 @dataclass(frozen=True)
+class Expansion:
+    """The Taylor polynomial of the solution at a state, for a run that chooses each step from it.
+
+    The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
+    other. ``correction`` moves a state back to the manifold: it reads the old state and then the new one. It
+    is None where there is nothing to correct.
+    """
+
+    degree: int
+    coefficients: Kernel
+    correction: Kernel | None
+
+
+@dataclass(frozen=True)
 class Function:
     """A function that a kernel calls in several places: ``outputs`` over ``body``, of ``inputs`` alone.
 
@@ -258,7 +272,7 @@ class Kernel:
     by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats this
     kernel for each of its parts, and h and t are those of the part. ``outlined`` are functions that the
     expressions of the kernel call. With ``carried`` the kernel reads and returns the momentum m of
-    :class:`Carried` in place of mu.
+    :class:`Carried` in place of mu. With ``expansion`` or ``estimate`` there is a run with step control.
     """
 
     name: str
@@ -274,6 +288,12 @@ class Kernel:
     substeps: tuple[Substep, ...] = ()
     outlined: tuple[Function, ...] = ()
     carried: Carried | None = None
+    expansion: Expansion | None = None
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether there is a run that chooses its step sizes."""
+        return self.estimate is not None or self.expansion is not None
 
     @property
     def loops(self) -> tuple[Loop, ...]:

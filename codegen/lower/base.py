@@ -88,6 +88,13 @@ class Lowering(ABC):
         # symplectic.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
+    def expands(self, method: Method) -> int:
+        """Return the degree of the Taylor polynomial from which adaptive steps are chosen, 0 without one.
+
+        :class:`codegen.errors.MethodError` is raised for a degree that is too low.
+        """
+        return 0
+
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the family whose order conditions hold for the program; they may depend on the scene."""
         from orderconds import families

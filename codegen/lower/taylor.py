@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from codegen.errors import MethodError
 from codegen.ir.collect_constants import gathered
 from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import TaylorStep, ToOrbit
@@ -14,6 +15,9 @@ from codegen.lower.base import Lowering, Objection
 from codegen.method import Method
 from codegen.scene.ambient import ambient
 from codegen.scene.problem import Problem
+
+LEAST = 2
+"""The least degree for which two coefficients beyond the state are known."""
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
@@ -58,6 +62,16 @@ class Taylor(Lowering):
     def symplectic(self, scene: Problem, method: Method) -> bool:
         """Return false: a Taylor polynomial is not a symplectic map."""
         return False
+
+    def expands(self, method: Method) -> int:
+        """Return the degree of an adaptive method."""
+        degree = self.conditions(method).degree_of_step()
+        if method.adaptive and degree < LEAST:
+            raise MethodError(
+                f"step control for {method.label}, which compares two coefficients",
+                expected=f"a degree of at least {LEAST}",
+            )
+        return degree if method.adaptive else 0
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the degree."""

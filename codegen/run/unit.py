@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.run import deferred_flows, jacobian, step_control
+from codegen.run import deferred_flows, jacobian, step_control, taylor_control
 from codegen.run.arithmetic import outlined
 from codegen.run.continuation import continued
 from codegen.run.language import Function, Record, Table, Unit
@@ -21,7 +21,7 @@ def unit_of(plan: Plan) -> Unit:
         functions += deferred_flows.functions(plan)
     else:
         functions += _steps(plan)
-    functions += (*step_control.functions(plan), *jacobian.functions(plan))
+    functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     return Unit(scalars, _records(plan), _tables(plan), tuple(functions))
 

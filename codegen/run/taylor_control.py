@@ -1,0 +1,209 @@
+"""Step control by Taylor coefficients: no step is rejected, because its size follows from its polynomial.
+
+Let c_k be coefficient k of the solution at the state y, and p the degree. With the maximum norm and
+epsilon = atol + rtol |y|, the step size is the smaller one of (epsilon/|c_k|)^(1/k) for k = p - 1 and k = p,
+times exp(-0.7/(p - 1)). So the last terms of the polynomial are about as large as the tolerance (A. Jorba and
+M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1, where the tolerance determines the degree, too).
+"""
+
+from __future__ import annotations
+
+import math
+
+from codegen.ir.kernel import Expansion
+from codegen.run.arithmetic import computed, filling, loaded, stored
+from codegen.run.language import RAISES_NAN, Array, Assign, Call, For, Function, If, Return, Statement, While
+from codegen.run.plan import STEP, TIME, Plan
+from codegen.run.terms import (
+    BAD_STEP,
+    LIMIT,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    all_finite,
+    both,
+    call,
+    code,
+    count,
+    either,
+    flag,
+    given,
+    is_finite,
+    largest,
+    negated,
+    number,
+    real,
+    select,
+    size,
+    value,
+    whole,
+)
+
+EXPAND, EVALUATE, PROJECT, ADVISE = "expand", "evaluate", "project", "advise"
+"""The names of the functions that a run calls."""
+
+LEAST = 1e-30
+"""The least size of a coefficient: smaller coefficients permit steps beyond every span."""
+
+RTOL, ATOL = real("rtol"), real("atol")
+
+
+def functions(plan: Plan) -> tuple[Function, ...]:
+    """Return the adaptive run and the functions that it calls; none without an expansion."""
+    expansion = plan.kernel.expansion
+    if expansion is None:
+        return ()
+    return _Controlled(plan, expansion).functions()
+
+
+class _Controlled:
+    """The run and its variables."""
+
+    t, h = real("t", 1, cell=True), real("h", 1, cell=True)
+    end, limit = real("end"), count("limit")
+    accepted, rejected = (count(name, 1, optional=True, cell=True) for name in ("accepted", "rejected"))
+    steps, last, finite = count("accepted_steps"), flag("last"), flag("finite")
+    now, length, left, taken = real("now"), real("size"), real("left"), real("taken")
+    following, advised = real("then"), real("advised")
+
+    def __init__(self, plan: Plan, expansion: Expansion) -> None:
+        self.plan, self.degree, self.correction = plan, expansion.degree, expansion.correction
+        self.own = Plan(expansion.coefficients, plan.format)
+        self.state, self.trial = plan.state(), plan.state("trial")
+        self.series = real("series", self.degree * plan.size)
+
+    def functions(self) -> tuple[Function, ...]:
+        """Return all functions, callees first."""
+        corrected = []
+        if self.correction is not None:
+            about = "Move the second half of the array, a new state, back to the manifold of the first half."
+            own = Plan(self.correction, self.plan.format)
+            corrected.append(filling(own, PROJECT, about, self.trial))
+        return self.expand(), self.evaluate(), *corrected, self.advise(), self.run()
+
+    @property
+    def moment(self) -> tuple[Term, ...]:
+        """The arguments of the coefficients besides the state."""
+        return (*((TIME,) if self.own.time else ()), *self.own.parameters)
+
+    def expand(self) -> Function:
+        """Return the function that computes the Taylor coefficients."""
+        own = self.own
+        body = [
+            *loaded(own.symbols, self.state, own.arrangement.symbols()),
+            *computed(own),
+            *stored(self.series, [value(x) for x in own.arrangement.outputs]),
+        ]
+        about = f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other."
+        parameters = (self.state, *self.moment, self.series)
+        return Function(EXPAND, about, parameters, tuple(body), guard=RAISES_NAN)
+
+    def evaluate(self) -> Function:
+        """Return the function that evaluates the polynomial by Horner's rule."""
+        n, i, total = self.plan.size, count("i"), real("total")
+        entries = [self.series[i + k * n] for k in range(self.degree)]
+        horner = [Assign(total, total * STEP + x) for x in reversed(entries[:-1])]
+        inner = (Assign(total, entries[-1]), *horner, Assign(self.trial[i], self.state[i] + STEP * total))
+        about = "The polynomial at the time h."
+        parameters = (self.state, self.series, STEP, self.trial)
+        return Function(EVALUATE, about, parameters, (For(i, whole(n), inner),), guard=RAISES_NAN)
+
+    def advise(self) -> Function:
+        """Return the function that computes the step size."""
+        n, p = self.plan.size, self.degree
+        epsilon, found, reached = real("epsilon"), real("found"), real("reached")
+        body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.state))]
+        for k, result in ((p - 1, found), (p, reached)):
+            norm = real(f"norm_{k}")
+            body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
+            ratio = epsilon / select(norm > LEAST, norm, number(LEAST))
+            body.append(Assign(result, call("power", ratio, self.rounded(1 / k))))
+        least = select(found < reached, found, reached)
+        body.append(Return(self.rounded(math.exp(-0.7 / (p - 1))) * least))
+        about = "The step size at which the last two terms of the polynomial are as large as the tolerance."
+        parameters = (self.state, self.series, RTOL, ATOL)
+        return Function(ADVISE, about, parameters, tuple(body), Kind.REAL, RAISES_NAN)
+
+    def rounded(self, x: float) -> Term:
+        """Return a constant in the format of the module."""
+        return number(self.plan.format.round(x))
+
+    def run(self) -> Function:
+        """Return the run."""
+        plan = self.plan
+        chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
+        parameters = (self.state, *chosen, *plan.parameters, self.accepted, self.rejected)
+        moving = either(self.now < self.end, self.now > self.end)
+        numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
+        tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
+        body: tuple[Statement, ...] = (
+            Assign(STATUS, code(OK)),
+            Assign(self.steps, whole(0)),
+            Assign(self.now, self.t[0]),
+            # A size that the caller gives bounds the first step.
+            Assign(self.length, size(self.h[0])),
+            Assign(self.advised, self.length),
+            If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
+            Array(self.trial),
+            Array(self.series),
+            While(both(STATUS.equals(code(OK)), moving), self.step()),
+            Assign(self.t[0], self.now),
+            Assign(self.h[0], self.advised),
+            If(given(self.accepted), (Assign(self.accepted[0], self.steps),)),
+            If(given(self.rejected), (Assign(self.rejected[0], whole(0)),)),
+            Return(STATUS),
+        )
+        return Function("run_adaptive", "", parameters, body, Kind.STATUS, public=True)
+
+    def step(self) -> tuple[Statement, ...]:
+        """Return the statements of one step."""
+        n, p = self.plan.size, self.degree
+        moment = tuple(self.now if x is TIME else x for x in self.moment)
+        bounded = both(self.length > 0.0, self.advised > self.length)
+        stuck = negated(either(self.following > self.now, self.following < self.now))
+        return (
+            Call(EXPAND, (self.state, *moment, self.series)),
+            # An infinity or NaN in a coefficient reaches the later ones, and no shorter step removes it.
+            Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
+            Call(ADVISE, (self.state, self.series, RTOL, ATOL), (self.advised,)),
+            If(bounded, (Assign(self.advised, self.length),)),
+            Assign(self.length, number(0.0)),
+            Assign(self.left, self.end - self.now),
+            Assign(self.last, self.advised >= size(self.left)),
+            Assign(self.taken, select(self.last, self.left, call("copysign", self.advised, self.left))),
+            # The last step sets the time to the end itself, without rounding errors of a sum.
+            Assign(self.following, select(self.last, self.end, self.now + self.taken)),
+            If(
+                negated(self.finite),
+                (Assign(STATUS, code(NOT_FINITE)),),
+                (If(either(self.steps >= self.limit, stuck), (Assign(STATUS, code(LIMIT)),), self.move()),),
+            ),
+        )
+
+    def move(self) -> tuple[Statement, ...]:
+        """Return the statements that change the state and the time."""
+        n = self.plan.size
+        corrected: tuple[Statement, ...] = ()
+        if self.correction is not None:
+            pair = real("pair", 2 * n)
+            corrected = (
+                Array(pair),
+                Assign(pair.part(0, n), self.state),
+                Assign(pair.part(n, n), self.trial),
+                Call(PROJECT, (pair, self.trial)),
+            )
+        return (
+            Call(EVALUATE, (self.state, self.series, self.taken, self.trial)),
+            *corrected,
+            If(
+                all_finite(self.trial),
+                (
+                    Assign(self.state, self.trial),
+                    Assign(self.now, self.following),
+                    Assign(self.steps, self.steps + 1),
+                ),
+                (Assign(STATUS, code(NOT_FINITE)),),
+            ),
+        )
