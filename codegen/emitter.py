@@ -23,7 +23,7 @@ from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, operations
 from codegen.kernel.schedule import arrange
-from codegen.kernel.taylor_expansion import with_expansion
+from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
 from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
@@ -123,9 +123,10 @@ def compile_method(
     problem = problem_for(scene, method)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
-    candidates = []
+    candidates, degree = [], lowering(method.family).degree(method)
     for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
-        kernel = fastest(program, problem)
+        looped = looped_kernel(program, problem, degree) if degree else None
+        kernel = looped or fastest(program, problem)
         candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel))
     best = min(candidates, key=lambda c: work(c.kernel))
     if known_solver(solver) and best.kernel.loops:
@@ -134,9 +135,8 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
-    degree = lowering(method.family).expands(method)
-    if degree:
-        return replace(best, kernel=with_expansion(best.kernel, problem, degree))
+    if degree and method.adaptive:
+        return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     embedded, estimate = method.embedded(), best.kernel.estimate
     if embedded is None or estimate is None:
         return best

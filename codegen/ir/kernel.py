@@ -236,16 +236,24 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial of the solution at a state, for a run that chooses each step from it.
+    """The Taylor polynomial of the solution at a state: a step evaluates it, and a run may choose h from it.
 
     The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
     other. ``correction`` moves a state back to the manifold: it reads the old state and then the new one. It
     is None where there is nothing to correct.
+
+    With ``following`` the coefficients are computed in a loop over their order n
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values for
+    all orders, and the coefficients 1. The outputs of ``following`` are the left and the right operands of
+    ``sums`` inner sums, and the coefficients n + 1. ``controlled`` asks for a run that chooses its steps.
     """
 
     degree: int
     coefficients: Kernel
     correction: Kernel | None
+    following: Kernel | None = None
+    sums: int = 0
+    controlled: bool = True
 
 
 @dataclass(frozen=True)
@@ -273,6 +281,7 @@ class Kernel:
     kernel for each of its parts, and h and t are those of the part. ``outlined`` are functions that the
     expressions of the kernel call. With ``carried`` the kernel reads and returns the momentum m of
     :class:`Carried` in place of mu. With ``expansion`` or ``estimate`` there is a run with step control.
+    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
     """
 
     name: str
@@ -293,7 +302,7 @@ class Kernel:
     @property
     def adaptive(self) -> bool:
         """Whether there is a run that chooses its step sizes."""
-        return self.estimate is not None or self.expansion is not None
+        return self.estimate is not None or (self.expansion is not None and self.expansion.controlled)
 
     @property
     def loops(self) -> tuple[Loop, ...]:
@@ -346,4 +355,6 @@ class Kernel:
         if self.deferred is not None:
             # A parameter that only a deferred flow reads is still an argument of the step.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
+        if self.expansion is not None:
+            read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

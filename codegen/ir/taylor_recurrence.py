@@ -141,6 +141,7 @@ class Power(Series):
     def __init__(self, domain: Domain, a: Series, exponent: Fraction) -> None:
         super().__init__(domain)
         self.a, self.exponent = a, exponent
+        self.slope = Slope(domain, a)
         self.inverse: Scalar = None
 
     def following(self, n: int) -> Coefficient:
@@ -459,34 +460,45 @@ class _Builder:
         return self.shared[key]
 
 
-def taylor_coefficients(
-    roots: Sequence[Expr],
-    domain: Domain,
-    symbols: Sequence[str],
-    state: Sequence[Scalar],
-    values: Mapping[str, Scalar],
-    degree: int,
-    scale: Scalar,
-) -> list[list[Coefficient]]:
-    """Return, for each coordinate, the coefficients 0, ..., degree of y(t + s scale) in powers of s.
+class Recurrence:
+    """The series of the coordinates of y(t + s scale), in powers of s, and of their derivatives.
 
     ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are those of the other
-    symbols, the time ``t`` among them. A coefficient that is zero for all states is None.
+    symbols, the time ``t`` among them. A numeric factor of a derivative is kept apart from its series.
     """
-    coordinates = [Given(domain, x, closed=False) for x in state]
-    series: dict[str, Series] = dict(zip(symbols, coordinates, strict=True))
-    builder = _Builder(domain, series | {TIME: Given(domain, values[TIME], scale)}, values)
-    slopes = [builder.of(root) for root in roots]
-    for n in range(degree):
-        factors: dict[object, Scalar] = {}
-        new = []
-        for slope in slopes:
-            # A numeric factor of the derivative joins the factor scale/(n + 1).
-            number, own = (slope.number, slope.a) if isinstance(slope, Multiple) else (Number.rational(1), slope)
-            number = number * Number.rational(1, n + 1)
-            if number.key not in factors:
-                factors[number.key] = domain.number(number) * scale
-            new.append(_multiply(factors[number.key], own.term(n)))
-        for coordinate, x in zip(coordinates, new, strict=True):
-            coordinate.terms.append(x)
-    return [coordinate.terms for coordinate in coordinates]
+
+    def __init__(
+        self,
+        roots: Sequence[Expr],
+        domain: Domain,
+        symbols: Sequence[str],
+        state: Sequence[Scalar],
+        values: Mapping[str, Scalar],
+        scale: Scalar,
+    ) -> None:
+        self.domain, self.scale = domain, scale
+        self.coordinates = [Given(domain, x, closed=False) for x in state]
+        self.time = Given(domain, values[TIME], scale)
+        series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
+        builder = _Builder(domain, series | {TIME: self.time}, values)
+        self.slopes = [_apart(builder.of(root)) for root in roots]
+
+    def extend(self, degree: int) -> list[list[Coefficient]]:
+        """Return, for each coordinate, the coefficients 0, ..., degree; None if zero for all states."""
+        for n in range(len(self.coordinates[0].terms) - 1, degree):
+            factors: dict[object, Scalar] = {}
+            new = []
+            for number, slope in self.slopes:
+                # The numeric factor of the derivative joins the factor scale/(n + 1).
+                number = number * Number.rational(1, n + 1)
+                if number.key not in factors:
+                    factors[number.key] = self.domain.number(number) * self.scale
+                new.append(_multiply(factors[number.key], slope.term(n)))
+            for coordinate, x in zip(self.coordinates, new, strict=True):
+                coordinate.terms.append(x)
+        return [coordinate.terms for coordinate in self.coordinates]
+
+
+def _apart(series: Series) -> tuple[Number, Series]:
+    """Return the numeric factor of a series and the rest."""
+    return (series.number, series.a) if isinstance(series, Multiple) else (Number.rational(1), series)

@@ -88,10 +88,10 @@ class Lowering(ABC):
         # symplectic.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
-    def expands(self, method: Method) -> int:
-        """Return the degree of the Taylor polynomial from which adaptive steps are chosen, 0 without one.
+    def degree(self, method: Method) -> int:
+        """Return the degree of the Taylor polynomial that a step evaluates, 0 for other steps.
 
-        :class:`codegen.errors.MethodError` is raised for a degree that is too low.
+        :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
         """
         return 0
 

@@ -63,15 +63,15 @@ class Taylor(Lowering):
         """Return false: a Taylor polynomial is not a symplectic map."""
         return False
 
-    def expands(self, method: Method) -> int:
-        """Return the degree of an adaptive method."""
+    def degree(self, method: Method) -> int:
+        """Return the degree; step control needs two coefficients beyond the state."""
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
             raise MethodError(
                 f"step control for {method.label}, which compares two coefficients",
                 expected=f"a degree of at least {LEAST}",
             )
-        return degree if method.adaptive else 0
+        return degree
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
         """Return the degree."""

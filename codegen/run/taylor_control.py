@@ -11,9 +11,23 @@ from __future__ import annotations
 import math
 
 from codegen.ir.kernel import Expansion
+from codegen.ir.taylor_loop import INVERSE, LINEAR, NEXT, ORDER, coordinate_names
 from codegen.run.arithmetic import computed, filling, loaded, stored
-from codegen.run.language import RAISES_NAN, Array, Assign, Call, For, Function, If, Return, Statement, While
+from codegen.run.language import (
+    RAISES_NAN,
+    RAISES_STATUS,
+    Array,
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    While,
+)
 from codegen.run.plan import STEP, TIME, Plan
+from codegen.run.step import ADVANCE
 from codegen.run.terms import (
     BAD_STEP,
     LIMIT,
@@ -34,6 +48,7 @@ from codegen.run.terms import (
     largest,
     negated,
     number,
+    own,
     real,
     select,
     size,
@@ -49,13 +64,35 @@ LEAST = 1e-30
 
 RTOL, ATOL = real("rtol"), real("atol")
 
+ORDER_TERM = own(ORDER)
+
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the adaptive run and the functions that it calls; none without an expansion."""
+    """Return the adaptive run and those of its functions that are not in :func:`polynomial_step`."""
     expansion = plan.kernel.expansion
-    if expansion is None:
+    if expansion is None or not expansion.controlled:
         return ()
-    return _Controlled(plan, expansion).functions()
+    own = _Controlled(plan, expansion)
+    return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
+
+
+def polynomial_step(plan: Plan) -> tuple[Function, ...]:
+    """Return the step of a kernel that evaluates the polynomial, and the functions that it calls."""
+    expansion = plan.kernel.expansion
+    assert expansion is not None
+    own = _Controlled(plan, expansion)
+    return *own.polynomial(), own.advance()
+
+
+def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
+    """Return the statements that compute all inner sums of order k + 1."""
+    j, c = count("j"), count("c")
+    product = left[j * width + c] * right[(k - j - 1) * width + c]
+    # All sums advance together, so that no addition waits for the previous one of the same sum.
+    return [
+        For(c, whole(width), (Assign(sums[c], number(0.0)),)),
+        For(j, k, (For(c, whole(width), (Assign(sums[c], sums[c] + product),)),)),
+    ]
 
 
 class _Controlled:
@@ -69,19 +106,101 @@ class _Controlled:
     following, advised = real("then"), real("advised")
 
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
-        self.plan, self.degree, self.correction = plan, expansion.degree, expansion.correction
+        self.plan, self.expansion = plan, expansion
+        self.degree, self.correction = expansion.degree, expansion.correction
         self.own = Plan(expansion.coefficients, plan.format)
         self.state, self.trial = plan.state(), plan.state("trial")
         self.series = real("series", self.degree * plan.size)
 
-    def functions(self) -> tuple[Function, ...]:
-        """Return all functions, callees first."""
+    def polynomial(self) -> tuple[Function, ...]:
+        """Return the functions that compute, evaluate and correct the polynomial."""
         corrected = []
         if self.correction is not None:
             about = "Move the second half of the array, a new state, back to the manifold of the first half."
             own = Plan(self.correction, self.plan.format)
             corrected.append(filling(own, PROJECT, about, self.trial))
-        return self.expand(), self.evaluate(), *corrected, self.advise(), self.run()
+        expanded = self.expand() if self.expansion.following is None else self.expand_in_loop()
+        return expanded, self.evaluate(), *corrected
+
+    def advance(self) -> Function:
+        """Return the function for a step of size h."""
+        plan = self.plan
+        body: list[Statement] = [
+            If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
+            Array(self.series),
+            Array(self.trial),
+            Call(EXPAND, (self.state, *self.moment, self.series)),
+            Call(EVALUATE, (self.state, self.series, STEP, self.trial)),
+            *self.projected(),
+            If(negated(all_finite(self.trial)), (Return(code(NOT_FINITE)),)),
+            Assign(self.state, self.trial),
+            Return(code(OK)),
+        ]
+        parameters = (self.state, *plan.moment(), *plan.parameters)
+        return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
+
+    def projected(self) -> tuple[Statement, ...]:
+        """Return the statements that move the trial state back to the manifold."""
+        if self.correction is None:
+            return ()
+        n = self.plan.size
+        pair = real("pair", 2 * n)
+        return (
+            Array(pair),
+            Assign(pair.part(0, n), self.state),
+            Assign(pair.part(n, n), self.trial),
+            Call(PROJECT, (pair, self.trial)),
+        )
+
+    def expand_in_loop(self) -> Function:
+        """Return the function that computes the coefficients in a loop over their order."""
+        first, n, following = self.own, self.plan.size, self.expansion.following
+        assert following is not None
+        every = Plan(following, self.plan.format)
+        ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
+        m, k = self.expansion.sums, count("k")
+        # An even number of sums suits vector instructions; the last one may be unused.
+        width = m + m % 2
+        left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
+        sums, values = own("sum", width), len(ends) - n
+        operands = [value(x) for x in every.arrangement.outputs]
+        padding = [number(0.0)] * (width - m)
+        inner = (
+            Assign(ORDER_TERM, ORDER_TERM + 1.0),
+            *self.numbers(symbols),
+            *inner_sums(k, width, left, right, sums),
+            *(
+                Assign(own(s), self.series[k * n + i])
+                for i, s in enumerate(coordinate_names(n))
+                if s in symbols
+            ),
+            *computed(every),
+            *(Assign(left[k * width + c], x) for c, x in enumerate([*operands[:m], *padding])),
+            *(Assign(right[k * width + c], x) for c, x in enumerate([*operands[m : 2 * m], *padding])),
+            *(Assign(self.series[k * n + (n + i)], x) for i, x in enumerate(operands[2 * m :])),
+        )
+        body = (
+            *loaded(first.symbols, self.state, first.arrangement.symbols()),
+            *computed(first),
+            Array(own("first", values), tuple(map(value, ends[:values]))),
+            *stored(self.series, [value(x) for x in ends[values:]]),
+            Array(left),
+            Array(right),
+            Array(sums),
+            Assign(ORDER_TERM, number(0.0)),
+            For(k, whole(self.degree - 1), inner),
+        )
+        about = (
+            f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other. "
+            "left and right are the coefficients of the operands of all products."
+        )
+        return Function(EXPAND, about, (self.state, *self.moment, self.series), body, guard=RAISES_NAN)
+
+    def numbers(self, symbols: frozenset[str]) -> list[Statement]:
+        """Return the statements that compute the numbers of one order which its code reads."""
+        one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
+        known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
+        return [Assign(own(name), x) for name, x in known.items() if name in symbols]
 
     @property
     def moment(self) -> tuple[Term, ...]:
@@ -184,19 +303,9 @@ class _Controlled:
 
     def move(self) -> tuple[Statement, ...]:
         """Return the statements that change the state and the time."""
-        n = self.plan.size
-        corrected: tuple[Statement, ...] = ()
-        if self.correction is not None:
-            pair = real("pair", 2 * n)
-            corrected = (
-                Array(pair),
-                Assign(pair.part(0, n), self.state),
-                Assign(pair.part(n, n), self.trial),
-                Call(PROJECT, (pair, self.trial)),
-            )
         return (
             Call(EVALUATE, (self.state, self.series, self.taken, self.trial)),
-            *corrected,
+            *self.projected(),
             If(
                 all_finite(self.trial),
                 (

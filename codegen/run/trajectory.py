@@ -51,7 +51,7 @@ def is_looped(plan: Plan) -> bool:
     kernel = plan.kernel
     # A function call in each step would force the state to memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
-    return alone and not (plan.counting or plan.time or kernel.estimate is not None)
+    return alone and not (plan.counting or plan.time or kernel.estimate is not None or not kernel.outputs)
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,8 @@ def _steps(plan: Plan) -> list[Function]:
     # call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), run(plan), step(plan)]
+    if not plan.kernel.outputs:
+        return [*listed, *taylor_control.polynomial_step(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
         listed.append(continued(plan, core(plan)))

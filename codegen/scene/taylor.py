@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
-from codegen.ir.taylor_recurrence import Coefficient, taylor_coefficients
+from codegen.ir.taylor_recurrence import Coefficient, Recurrence
 
 if TYPE_CHECKING:
     from codegen.scene.problem import Problem
@@ -35,5 +35,9 @@ def coefficients(
 
     A coefficient that is zero for all states is None.
     """
-    values = problem.values(domain, y, t)
-    return taylor_coefficients(problem.roots, domain, problem.symbols, y, values, degree, scale)
+    return recurrence(problem, domain, y, t, scale).extend(degree)
+
+
+def recurrence(problem: Problem, domain: Domain, y: Sequence[S], t: S | None, scale: S) -> Recurrence:
+    """Return the recurrence of the coefficients, for :func:`coefficients`."""
+    return Recurrence(problem.roots, domain, problem.symbols, y, problem.values(domain, y, t), scale)
