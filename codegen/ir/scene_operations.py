@@ -132,7 +132,7 @@ class TaylorStep(Operation):
     degree: int
     timed: bool = False
     evaluates_scene = True
-    name = "taylor"
+    name = "taylor_polynomial"
     noun = "Taylor polynomial{s}"
 
     def text(self) -> str:
