@@ -52,6 +52,7 @@ from codegen.run.terms import (
     real,
     select,
     size,
+    total,
     value,
     whole,
 )
@@ -61,6 +62,9 @@ EXPAND, EVALUATE, PROJECT, ADVISE = "expand", "evaluate", "project", "advise"
 
 LEAST = 1e-30
 """The least size of a coefficient: smaller coefficients permit steps beyond every span."""
+
+ROWS = 4
+"""Products of a sum that are added at once."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -86,13 +90,37 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
     """Return the statements that compute all inner sums of order k + 1."""
-    j, c = count("j"), count("c")
-    product = left[j * width + c] * right[(k - j - 1) * width + c]
-    # All sums advance together, so that no addition waits for the previous one of the same sum.
-    return [
-        For(c, whole(width), (Assign(sums[c], number(0.0)),)),
-        For(j, k, (For(c, whole(width), (Assign(sums[c], sums[c] + product),)),)),
-    ]
+    j, c, first, last = count("j"), count("c"), count("first_row"), count("last_row")
+
+    def products(i: int) -> Term:
+        """Return the product of the rows i after the first and i before the last."""
+        return left[(first + i) * width + c] * right[(last - i) * width + c]
+
+    def together(rows: int) -> Term:
+        pairs = [products(i) for i in range(rows)]
+        return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
+
+    # All sums advance together, so that no addition waits for the previous one of the same sum. Several rows
+    # share a load and a store of each sum.
+    many = For(
+        j,
+        k // ROWS,
+        (
+            Assign(first, j * ROWS),
+            Assign(last, k - first - 1),
+            For(c, whole(width), (Assign(sums[c], sums[c] + together(ROWS)),)),
+        ),
+    )
+    single = For(
+        j,
+        k % ROWS,
+        (
+            Assign(first, k - j - 1),
+            Assign(last, j),
+            For(c, whole(width), (Assign(sums[c], sums[c] + products(0)),)),
+        ),
+    )
+    return [For(c, whole(width), (Assign(sums[c], number(0.0)),)), many, single]
 
 
 class _Controlled:
@@ -221,10 +249,10 @@ class _Controlled:
 
     def evaluate(self) -> Function:
         """Return the function that evaluates the polynomial by Horner's rule."""
-        n, i, total = self.plan.size, count("i"), real("total")
+        n, i, result = self.plan.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
-        horner = [Assign(total, total * STEP + x) for x in reversed(entries[:-1])]
-        inner = (Assign(total, entries[-1]), *horner, Assign(self.trial[i], self.state[i] + STEP * total))
+        horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
+        inner = (Assign(result, entries[-1]), *horner, Assign(self.trial[i], self.state[i] + STEP * result))
         about = "The polynomial at the time h."
         parameters = (self.state, self.series, STEP, self.trial)
         return Function(EVALUATE, about, parameters, (For(i, whole(n), inner),), guard=RAISES_NAN)
