@@ -1,8 +1,9 @@
 """Time ``orderconds check FILE`` on every tableau of the library, each in fresh processes.
 
-Prints wall and CPU seconds, start of the interpreter included, the least of a few runs (other processes only
-add), the slowest first, and below them how many files took longer than the limit. Byte code is compiled
-beforehand, as an installation does.
+The script prints wall and CPU seconds of each file, the slowest file first, and the number of files that took
+longer than the limit. Times include the start of the interpreter. Each time is the least of a few runs,
+because other processes can only increase it. Byte code is compiled before the first run, as in an
+installation.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ LIMIT = 0.3
 
 
 def main() -> None:
-    """Print the table."""
+    """Time all tableaux and print the table."""
     compileall.compile_dir(str(Path(orderconds.__file__).parent), quiet=1)
     rows = sorted(((*least(name), name) for name in available()), reverse=True)
     print(f"{'tableau':<22}{'CPU':>8}{'wall':>8}")

@@ -2,10 +2,10 @@
 
     python benchmarks/emitted.py [--pairs N] [--only WORD ...]
 
-Both sides are built by the same compiler with the same flags and make the same steps from the same state in
-fresh processes, in pairs, the first of a pair changing; CPU time is taken inside the process. The figure is
-the median ratio of the pairs with its distribution-free 95 % interval. Instructions a step are counted by
-callgrind where valgrind is there. Both sides must end in the same state. Nothing is written when only some
+Both programs are built by the same compiler with the same flags and make the same steps from the same state.
+They run in pairs of fresh processes, in alternating order, and measure their own CPU time. The result is the
+median ratio of the pairs with its distribution-free 95 % interval. If valgrind is installed, callgrind counts
+the instructions of a step. Both programs must compute the same final state. README.md is only written if all
 cases are run.
 """
 
@@ -34,8 +34,9 @@ from codegen.lab.peers import installed
 HERE = Path(__file__).parent
 FLAGS = ("-std=c11", "-O2", "-ffp-contract=off")
 PAIRS = 41
-ASKED, HIGHEST = 1.05, 1.15
-"""The largest median ratio to hand-written code, and what its interval stays below."""
+LARGEST_RATIO, LARGEST_END = 1.05, 1.15
+"""Requirement: the median ratio to hand-written code is at most LARGEST_RATIO, and its 95 % interval ends
+below LARGEST_END."""
 MARK, END = "<!-- emitted.py writes what follows -->", "<!-- up to here -->"
 DRIVER = """
 #include <stdio.h>
@@ -61,7 +62,7 @@ int main(int argc, char **argv)
 
 @dataclass(frozen=True)
 class Case:
-    """One row: scene, method, step size; ``hand`` names the file in handwritten/."""
+    """One row: scene, method, step size, number of steps. ``hand`` names the file in handwritten/."""
 
     scene: str
     method: str
@@ -93,7 +94,7 @@ RACES = {
     "dipole": ("vcg:midpoint", "vrkmk(2):gauss2", "vcf:cf4", "cf4"),
     "fast_heavy_top": ("rkmk:rk4", "cf4", "splitting:blanes_moan_rkn4", "splitting:blanes_moan_rkn6a"),
 }
-"""Scene -> methods that race against the peers."""
+"""The methods of each scene that are compared with the peers."""
 
 PEERS = ("scipy-dop853", "heyoka", "diffrax", "c-dop853")
 DECADES = (4, 6, 8, 10, 12)
@@ -101,7 +102,7 @@ DECADES = (4, 6, 8, 10, 12)
 
 @dataclass(frozen=True)
 class Run:
-    """What one process says: CPU seconds, sweeps over equations, and the final state."""
+    """The output of one process: CPU seconds, number of sweeps over the equations, and the final state."""
 
     seconds: float
     sweeps: int
@@ -109,7 +110,7 @@ class Run:
 
 
 def main() -> int:
-    """Run the cases, print the table and write it; return 1 where the two sides part."""
+    """Run the cases, print the tables, and write them to README.md; return the exit status 0."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--pairs", type=int, default=PAIRS)
     parser.add_argument("--only", nargs="*", choices=CASES, default=list(CASES), metavar="CASE")
@@ -132,7 +133,7 @@ def main() -> int:
 
 
 def row(case: Case, pairs: int) -> list[str]:
-    """Build both sides of a case, time them in pairs, and return the cells of its row."""
+    """Build the programs of a case, time them in pairs, and return the cells of the row."""
     with tempfile.TemporaryDirectory() as folder:
         emission = emit(case.scene, case.method)
         sides = [
@@ -167,21 +168,23 @@ def row(case: Case, pairs: int) -> list[str]:
 
 
 def verdict(rows: list[list[str]]) -> str:
-    """Say in words which cases keep to what is asked, and where CasADi's code beats the hand-written one.
+    """Return which cases satisfy the requirement, and for which cases the code of CasADi is the fastest.
 
     >>> row = ["a", "1", "1", "1.040", "1.030 to 1.100", "0.90"]
     >>> verdict([row, ["b", "1", "1", "1.200", "1.190 to 1.210", "-"]]).partition("; ")[2]
-    'by hand it is faster than that in: b. CasADi beats the hand in: a.'
+    'not satisfied: b. The code of CasADi is faster than the hand-written code in: a.'
     """
-    slow = [r[0] for r in rows if float(r[3]) > ASKED or float(r[4].split()[-1]) >= HIGHEST]
-    text = f"What is asked holds in {len(rows) - len(slow)} of {len(rows)} cases"
-    text += f"; by hand it is faster than that in: {', '.join(slow)}." if slow else "."
+    slow = [r[0] for r in rows if float(r[3]) > LARGEST_RATIO or float(r[4].split()[-1]) >= LARGEST_END]
+    text = f"The requirement is satisfied in {len(rows) - len(slow)} of {len(rows)} cases"
+    text += f"; not satisfied: {', '.join(slow)}." if slow else "."
     beaten = [r[0] for r in rows if r[5] != "-" and float(r[5]) < 1]
-    return text + (f" CasADi beats the hand in: {', '.join(beaten)}." if beaten else "")
+    if not beaten:
+        return text
+    return f"{text} The code of CasADi is faster than the hand-written code in: {', '.join(beaten)}."
 
 
 def race(scene: str) -> str:
-    """Return a table of CPU times to accuracies, of emitted methods and of the peers that are installed."""
+    """Return a table of the CPU times that emitted methods and installed peers need for each accuracy."""
     peers = [name for name in PEERS if installed(name)]
     print(f"race on {scene} ...", file=sys.stderr, flush=True)
     match = bench(scene, RACES[scene], ["c"], peers, 0.5, None, str)
@@ -198,12 +201,12 @@ def race(scene: str) -> str:
         last = next((r for r in reversed(rows) if r.error is not None), rows[-1])
         counts = [last.evaluations, last.exponentials, last.iterations]
         cells = ["-" if n is None or not last.steps else f"{n / last.steps:.3g}" for n in counts]
-        lines.append([label, *(spelled(s, s == b) for s, b in zip(times, best, strict=True)), *cells])
+        lines.append([label, *(microseconds(s, s == b) for s, b in zip(times, best, strict=True)), *cells])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines) + "\n"
 
 
-def spelled(seconds: float | None, best: bool) -> str:
-    """Spell a time in microseconds, the best of a column in bold."""
+def microseconds(seconds: float | None, best: bool) -> str:
+    """Return a time in microseconds as text, in bold if it is the best of its column."""
     text = "-" if seconds is None else f"{1e6 * seconds:.3g}"
     return f"**{text}**" if best and seconds is not None else text
 
@@ -242,7 +245,7 @@ def build_hand(case: Case, emission: Artifact, folder: Path) -> Path:
 
 
 def build_casadi(case: Case, emission: Artifact, folder: Path) -> Path:
-    """Return the program that runs the same method's step as CasADi writes it."""
+    """Return the program that runs the step of the same method generated by CasADi."""
     sys.path.insert(0, str(HERE))
     from casadi_step import casadi_files
 
@@ -265,20 +268,23 @@ def built(files: dict[str, str], folder: Path) -> Path:
 
 
 def run(program: Path, steps: int) -> Run:
-    """Run a program once."""
+    """Run a program once with a number of steps and return its output."""
     answer = subprocess.run([program, str(steps)], check=True, capture_output=True, text=True).stdout.split()
     return Run(float(answer[0]), int(answer[1]), tuple(map(float, answer[2:])))
 
 
 def check_same(x: tuple[float, ...], y: tuple[float, ...], tolerance: float = 1e-11) -> None:
-    """Refuse to time two programs that compute different things; ``tolerance`` is relative to the state."""
+    """Exit with a message if two final states differ; ``tolerance`` is relative to the size of the state."""
     gap = max(abs(a - b) for a, b in zip(x, y, strict=True)) / max(1.0, *map(abs, x))
     if not gap <= tolerance:
-        raise SystemExit(f"the hand-written and the emitted state differ by {gap:.3g}")
+        raise SystemExit(f"the final states of hand-written and emitted code differ by {gap:.3g}")
 
 
 def instructions(program: Path, steps: int = 1000) -> float:
-    """Return the instructions of one step, 0 without valgrind: start and end of the process drop out."""
+    """Return the number of instructions of one step, 0 without valgrind.
+
+    It is computed from two runs, so that the start and the end of the process are not counted.
+    """
     if shutil.which("valgrind") is None:
         return 0.0
     counts = []
@@ -292,7 +298,7 @@ def instructions(program: Path, steps: int = 1000) -> float:
 
 
 def exponentials(emission: Artifact) -> str:
-    """Say how often a step and each sweep evaluate functions of a rotation angle."""
+    """Return the numbers of functions of a rotation angle in a step and in each sweep of its blocks."""
     cells = []
     for counts in emission.manifest["operations"].values():
         cells.append(str(sum(n for name, n in counts.items() if name.startswith("stumpff"))))
@@ -300,7 +306,7 @@ def exponentials(emission: Artifact) -> str:
 
 
 def interval(values: list[float], confidence: float = 0.95) -> tuple[float, float]:
-    """Return order statistics that hold the median with at least that confidence, whatever the distribution.
+    """Return order statistics that enclose the median with a confidence, for any distribution.
 
     >>> interval([float(k) for k in range(1, 32)])
     (10.0, 22.0)
@@ -318,44 +324,44 @@ HEAD = """
 ## Emitted code beside hand-written code
 
 `emitted.py` times emitted C beside the C of `handwritten/`: the same method, scene, step, compiler and flags,
-CPU time of fresh processes run in pairs. The hand-written steps are portable C, as fast as we could make
-them: chains shortened by hand, functions of an angle by polynomials of least error, solutions of sixteen
-steps continued, Jacobians to first order, body momenta kept from step to step. They do without the checks of
-emitted code: finite state and step, at the end of each step.
+CPU time of fresh processes that run in pairs. The hand-written steps are portable C and optimised by hand:
+short dependency chains, minimax polynomials for functions of an angle, extrapolation of the solutions of
+sixteen steps, Jacobians to first order, body momenta stored from step to step. They omit the checks of
+emitted code that the state and the step size are finite.
 
-- *ns a step*, *by hand*: medians of CPU time a step of the emitted and of the hand-written code.
-- *ratio*: the median over the pairs of emitted/hand-written, *interval* the 95 % interval of that median;
-  asked are at most 1.05 and an interval below 1.15.
-- *CasADi*: the time of the step that CasADi generates from the same explicit method over that of the
-  hand-written one: below 1 it would beat it.
-- *instructions*, *by hand*: of a step, counted by callgrind; they do not vary from run to run.
-- *sweeps*, *by hand*: evaluations of an implicit step's equations.
-- *exponentials*: the functions of a rotation angle in an emitted step, + in each sweep.
+- *ns per step*, *by hand*: median CPU times of a step of the emitted code and of the hand-written code.
+- *ratio*, *interval*: the median of the ratio emitted/hand-written over the pairs, and its 95 % interval.
+  Required: the ratio is at most 1.05, and the interval ends below 1.15.
+- *CasADi*: the same ratio for the step that CasADi generates from the explicit method. Below 1, the code of
+  CasADi is faster than the hand-written code.
+- *instructions*, *by hand*: instructions of a step, counted by callgrind; they are equal in every run.
+- *sweeps*, *by hand*: evaluations of the equations of an implicit step.
+- *exponentials*: functions of a rotation angle in an emitted step, + those in each sweep.
 """
 
 
 RACE = """
 ## Time to an accuracy, beside peers
 
-CPU microseconds until the error at the end of the scene's span is as small as the head of the column says,
-interpolated between runs over step sizes or tolerances; fresh measurements of the same run as the table
-above. Peers integrate the ambient equations; what they compile before the first step is not counted, nor is
-ours; the fastest of a column is bold. Counts are those of one step at the finest run (of iterations: sweeps
-over all equations of the step).
+CPU time in microseconds that is needed for the error in the head of the column, at the end of the span of the
+scene. Times are interpolated between runs with different step sizes or tolerances. They were measured
+together with the table above. Peers integrate the ambient equations. Compilation before the first step is not
+counted, neither for peers nor for emitted code. The fastest time of a column is bold. Evaluations,
+exponentials and iterations are averages over the steps of the finest run.
 """
 
 
 def environment(pairs: int) -> str:
-    """Say with what was measured."""
+    """Return the conditions of the measurement: pairs, cores, compiler and flags."""
     compiler = find_compiler()
-    return f"{pairs} pairs a figure; {os.cpu_count()} cores; {compiler.version}; {' '.join(FLAGS)}."
+    return f"{pairs} pairs per case; {os.cpu_count()} cores; {compiler.version}; {' '.join(FLAGS)}."
 
 
 def table(rows: list[list[str]]) -> str:
     """Return the rows as a Markdown table."""
     head = [
         "case",
-        "ns a step",
+        "ns per step",
         "by hand",
         "ratio",
         "interval",

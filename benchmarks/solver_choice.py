@@ -1,13 +1,13 @@
-"""Time emitted C with each solver and compare predictions and choices; write a table of README.md.
+"""Time emitted C with each solver, and compare the predicted times and the chosen solver with the results.
 
     python benchmarks/solver_choice.py [--rounds N] [--only SCENE ...] [--fit]
 
-For each scene of the gallery and each implicit method that applies, C is emitted with a fixed point, Newton's
-method and simplified Newton (and as ``--solver auto`` makes it, where it mixes them). The programs make the
-same steps, those of the usage example, from the initial state; they run in turn, in rounds of changing order,
-and CPU time is taken inside the process. Figures are medians over the rounds. ``--fit`` prints the weights of
-``codegen/run/step_cost.py`` that fit these figures best; it needs scipy. Nothing is written when only some
-scenes are run.
+For each scene of the gallery and each implicit method that can integrate it, C is emitted with fixed-point
+iteration, Newton's method and simplified Newton. If ``--solver auto`` chooses different solvers for the
+blocks of a step, this program is added. All programs make the steps of the usage example from the initial
+state. They run in rounds of alternating order and measure their own CPU time. Results are medians over the
+rounds. ``--fit`` prints the weights of ``codegen/run/step_cost.py`` that fit these medians best; it needs
+scipy. The table in README.md is only written if all scenes are run.
 """
 
 from __future__ import annotations
@@ -45,11 +45,12 @@ METHODS = (
 )
 SOLVERS = {FIXED_POINT: "fixed point", NEWTON: "Newton", SIMPLIFIED_NEWTON: "simplified Newton"}
 ROUNDS, STEPS, SECONDS = 7, 1000, 0.01
-"""Rounds, steps of a run, and how long the runs of a round take together at least."""
-ASKED = 1.1
-"""How much longer than with the fastest solver a step may take with the chosen one."""
+"""Number of rounds, steps of a run, and least CPU seconds of all runs of a program in a round."""
+LARGEST_RATIO = 1.1
+"""Requirement: largest ratio of the time with the chosen solver to the time with the fastest solver."""
 MOST = 30
-"""The most sweeps a step of measurements that weights are fitted to: more are made by continuation in h."""
+"""Weights are fitted to programs with at most this number of sweeps per step. Programs with more sweeps use
+continuation in h."""
 MARK, END = "<!-- solver_choice.py writes what follows -->", "<!-- up to here -->"
 DRIVER = """
 #include <stdio.h>
@@ -79,7 +80,7 @@ int main(int argc, char **argv)
 
 @dataclass
 class Side:
-    """One program: what was predicted (None where trials do not converge), and its times in ns a step."""
+    """One program: predicted time (None without convergence of the trial), measured times, in ns per step."""
 
     compiled: Compiled
     program: Path
@@ -94,7 +95,7 @@ class Side:
 
     @property
     def measured(self) -> float | None:
-        """The median time, None where a step fails."""
+        """The median of the measured times; None if a step fails."""
         return statistics.median(self.times) if self.times else None
 
 
@@ -109,25 +110,25 @@ class Row:
 
     @property
     def ratio(self) -> float | None:
-        """The time with the chosen solver over the least; None where one or both are not known."""
+        """The time with the chosen solver divided by the least time; None if a time is not known."""
         times = {s: side.measured for s, side in self.sides.items()}
         known, mine = [t for t in times.values() if t is not None], times[self.chosen]
         return None if mine is None else mine / min(known)
 
     @property
     def fastest(self) -> str:
-        """The fastest solver, empty where none makes all steps."""
+        """The name of the fastest solver; empty if no solver completes all steps."""
         times = {s: side.measured for s, side in self.sides.items()}
         return min((s for s in times if times[s] is not None), key=lambda s: times[s] or 0.0, default="")
 
     @property
     def robust_preferred(self) -> bool:
-        """Whether the fastest solver was passed over because it is not robust."""
+        """Whether the chosen solver is robust and the fastest solver is not."""
         fastest = self.sides.get(self.fastest)
         return fastest is not None and self.sides[self.chosen].robust and not fastest.robust
 
     def cells(self) -> list[str]:
-        """Return the cells of the table."""
+        """Return the cells of the row in the table."""
         shown = [self.name, self.unknowns]
         for solver in SOLVERS:
             shown.append(pair(self.sides[solver]) if solver in self.sides else "-")
@@ -137,13 +138,13 @@ class Row:
 
 
 def pair(side: Side) -> str:
-    """Return predicted and measured nanoseconds."""
+    """Return the predicted and the measured nanoseconds per step as text."""
     texts = ["-" if t is None else f"{t:.0f}" for t in (side.predicted, side.measured)]
     return " / ".join(texts)
 
 
 def main() -> int:
-    """Run the cases, print the table and write it."""
+    """Run the cases, print the table, and write it to README.md."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=ROUNDS)
     parser.add_argument("--only", nargs="*", choices=scenes.names(), default=None, metavar="SCENE")
@@ -166,7 +167,7 @@ def main() -> int:
 
 
 def measured_row(scene: str, method: str, rounds: int) -> Row | None:
-    """Return the row of a case, None where the method does not apply or is explicit."""
+    """Return the row of a case; None if the method is explicit or cannot integrate the scene."""
     try:
         auto = compile_method(scene, method)
     except InputError:
@@ -192,7 +193,7 @@ def measured_row(scene: str, method: str, rounds: int) -> Row | None:
 
 
 def built(compiled: Compiled, folder: Path) -> Side:
-    """Return the program of a compiled method, with its prediction and its counts over one run."""
+    """Build the program of a compiled method; return it with the predicted time and the counts of a run."""
     artifact = emit_compiled(compiled, "c")
     interface, blocks = artifact.manifest["interface"], len(compiled.kernel.loops)
     first, last = artifact.manifest["span"]
@@ -228,22 +229,25 @@ def built(compiled: Compiled, folder: Path) -> Side:
 
 
 def run(side: Side, repeats: int) -> float:
-    """Return the CPU seconds of some runs."""
+    """Return the CPU seconds of a number of runs."""
     return output(side.program, repeats)[0]
 
 
 def output(program: Path, repeats: int) -> list[float]:
-    """Return the numbers that a program prints: seconds, steps made, sweeps by block, matrices."""
+    """Return the output of a program: seconds, completed steps, sweeps of each block, Newton matrices."""
     answer = subprocess.run([program, str(repeats)], check=True, capture_output=True, text=True)
     return [float(word) for word in answer.stdout.split()]
 
 
 def verdict(rows: Sequence[Row]) -> str:
-    """Say in how many cases the chosen solver is about the fastest, and which case is the worst."""
+    """Return the number of cases that satisfy the requirement, and the case with the largest ratio."""
     known = [(row.ratio, row) for row in rows if row.ratio is not None]
     fair = [(ratio, row) for ratio, row in known if not row.robust_preferred]
-    near = sum(ratio <= ASKED for ratio, _ in known)
-    lines = [f"The chosen solver takes at most {ASKED} times the least time in {near} of {len(known)} cases."]
+    near = sum(ratio <= LARGEST_RATIO for ratio, _ in known)
+    lines = [
+        f"With the chosen solver, the time is at most {LARGEST_RATIO} times the least time "
+        f"in {near} of {len(known)} cases."
+    ]
     if fair:
         ratio, row = max(fair, key=lambda pair: pair[0])
         lines.append(f"The largest ratio is {ratio:.2f}: {row.name}.")
@@ -251,27 +255,29 @@ def verdict(rows: Sequence[Row]) -> str:
     if other:
         ratio, row = max(other, key=lambda pair: pair[0])
         lines.append(
-            f"In {len(other)} cases the fastest solver is not robust; there the largest ratio is "
+            f"In {len(other)} cases the fastest solver is not robust; the largest ratio of these cases is "
             f"{ratio:.2f}: {row.name}."
         )
     failing = [row.name for row in rows if row.sides[row.chosen].measured is None and row.fastest]
     none = [row.name for row in rows if not row.fastest]
     if failing:
-        lines.append(f"The chosen solver fails where another makes all steps: {', '.join(failing)}.")
+        lines.append(
+            f"The chosen solver fails, but another solver completes all steps: {', '.join(failing)}."
+        )
     if none:
-        lines.append(f"No solver makes {STEPS} steps: {', '.join(none)}.")
+        lines.append(f"No solver completes {STEPS} steps: {', '.join(none)}.")
     gaps = [
         abs(side.predicted / side.measured - 1)
         for row in rows
         for side in row.sides.values()
         if side.predicted is not None and side.measured is not None
     ]
-    lines.append(f"The median error of a prediction is {100 * statistics.median(gaps):.0f} %.")
+    lines.append(f"The median relative error of a prediction is {100 * statistics.median(gaps):.0f} %.")
     return "\n".join(lines)
 
 
 def fitted(sides: Sequence[Side]) -> str:
-    """Return the weights that fit the measurements of some programs, by their own counts of sweeps."""
+    """Return the weights of the cost model that fit the measured times best."""
     from scipy.optimize import nnls
 
     used = [(s.amounts, s.measured) for s in sides if s.measured is not None and max(s.sweeps) <= MOST]
@@ -284,7 +290,7 @@ def fitted(sides: Sequence[Side]) -> str:
 
 
 def environment(rounds: int) -> str:
-    """Say with what was measured."""
+    """Return the conditions of the measurement: rounds, compiler and flags."""
     return f"{rounds} rounds; {find_compiler().version}; {' '.join(FLAGS)}."
 
 
@@ -298,15 +304,17 @@ def table(rows: Sequence[Row]) -> str:
 HEAD = f"""
 ## The choice of a solver
 
-`solver_choice.py` times emitted C of the implicit methods on the scenes of the gallery, with each solver:
-{STEPS} steps of the usage example's size from the initial state.
+`solver_choice.py` times emitted C of the implicit methods on the scenes of the gallery, with each solver.
+Every run makes {STEPS} steps from the initial state, with the step size h of the usage example.
 
-- *fixed point*, *Newton*, *simplified Newton*: nanoseconds a step, predicted by
-  `codegen/run/step_cost.py` from a trial of 20 steps, and measured (median of CPU time). A prediction is
-  missing where the trial does not converge, a measurement where a step fails.
-- *chosen*: by `--solver auto`; *(robust)* where the fastest solver was passed over because it does not
-  converge in a step of 8 h within {SWEEPS} sweeps, and the chosen one does.
-- *ratio*: the time with the chosen solver over the time with the fastest; asked is at most {ASKED}.
+- *fixed point*, *Newton*, *simplified Newton*: nanoseconds per step, predicted / measured. The prediction is
+  made by `codegen/run/step_cost.py` from a trial of 20 steps; it is missing if the trial does not converge.
+  The measurement is a median of CPU times; it is missing if a step fails.
+- *chosen*: the solver that `--solver auto` chooses. *(robust)*: the fastest solver does not converge in a
+step
+  of size 8 h within {SWEEPS} sweeps, but the chosen solver does.
+- *ratio*: the time with the chosen solver divided by the time with the fastest solver. Required: at most
+  {LARGEST_RATIO}.
 """
 
 

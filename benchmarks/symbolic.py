@@ -1,10 +1,11 @@
-"""Time the symbolic engine beside its peers, each task in fresh processes of one run; write README.md here.
+"""Time the symbolic engine and its peers, each task in fresh processes, and write a table to README.md.
 
     python benchmarks/symbolic.py [--repeats N] [--only WORD ...]
 
-A task is timed inside its process, from after the imports to the finished list of results; medians are
-reported. Both sides of a task must give the same number of results. Peers that are not installed (``pip
-install '.[peers]'``; make bench does it) are left out. Nothing is written when only some tasks are run.
+A task is timed inside its process. The time begins after the imports and ends when the list of results is
+complete; medians over the processes are reported. Both programs of a task must return the same number of
+results. Peers that are not installed are omitted; ``pip install '.[peers]'`` or ``make bench`` installs them.
+README.md is only written if all tasks are run.
 """
 
 from __future__ import annotations
@@ -28,13 +29,13 @@ from typing import Any
 
 REPEATS = 5
 PATIENCE = 150.0
-"""Seconds after which a peer is stopped, and then not asked again."""
+"""A peer that runs longer than this number of seconds is stopped and not run again."""
 
 MARK = "<!-- emitted.py writes what follows -->"
-"""Where the part of README.md begins that another script writes."""
+"""The line of README.md before the part that another script writes."""
 
 Prepared = Callable[[], int]
-"""What is timed: everything imported, nothing computed; it returns the number of results."""
+"""The function that is timed. Its imports are complete, and it returns the number of results."""
 
 
 def rooted_trees() -> Prepared:
@@ -45,7 +46,7 @@ def rooted_trees() -> Prepared:
 
 
 def kauri_rooted_trees() -> Prepared:
-    """The same in kauri; its list begins with the empty tree."""
+    """All rooted trees to 14 vertices in kauri, without the empty tree."""
     from kauri.gentrees import trees_up_to_order
 
     return lambda: len(list(trees_up_to_order(14))) - 1
@@ -59,7 +60,7 @@ def ordered_trees() -> Prepared:
 
 
 def kauri_ordered_trees() -> Prepared:
-    """The same in kauri; its list begins with the empty tree."""
+    """All ordered trees to 12 vertices in kauri, without the empty tree."""
     from kauri.gentrees import planar_trees_up_to_order
 
     return lambda: len(list(planar_trees_up_to_order(12))) - 1
@@ -71,7 +72,7 @@ def formulas() -> Prepared:
 
 
 def nodepy_formulas() -> Prepared:
-    """The same as NodePy's strings of Butcher's elementary weights."""
+    """RK conditions to order 10 as strings of elementary weights, in NodePy."""
     from nodepy.rooted_trees import list_trees
     from nodepy.runge_kutta_method import elementary_weight_str
 
@@ -93,7 +94,7 @@ def polynomials() -> Prepared:
 
 
 def sympy_polynomials(order: int = 7, size: int = 9) -> Prepared:
-    """The same, subtree by subtree, over SymPy's ``PolyRing``."""
+    """RK conditions as polynomials in SymPy's ``PolyRing``, computed recursively over subtrees."""
     from sympy import QQ
     from sympy.polys.rings import ring
 
@@ -141,7 +142,7 @@ def sympy_polynomials(order: int = 7, size: int = 9) -> Prepared:
 
 
 def commutator_free(explicit: bool) -> Prepared:
-    """CF conditions to order 4 as polynomials, 5 stages with 5 exponentials each, as has the update."""
+    """CF conditions to order 4 as polynomials; each of 5 stages and the update have 5 exponentials."""
     from orderconds import families
     from orderconds.derivation import derive
     from orderconds.ring.polynomials import Polynomials
@@ -165,7 +166,7 @@ def commutator_free(explicit: bool) -> Prepared:
 
 
 def kauri_commutator_free() -> Prepared:
-    """Less in kauri: 5 exponentials in the update, but one in each stage."""
+    """CF conditions to order 4 in kauri. The update has 5 exponentials, but each stage only one."""
     from kauri.gentrees import planar_trees_of_order
     from kauri.manifold_ees import symbolic_cf_params, symbolic_lb_character
 
@@ -190,7 +191,7 @@ def bch() -> Prepared:
 
 
 def independent(family: str, order: int) -> Callable[[], Prepared]:
-    """Independent conditions of a family, found by rank, to an order."""
+    """The independent conditions of a family up to an order, determined by rank."""
 
     def prepare() -> Prepared:
         import numpy as np
@@ -215,7 +216,10 @@ def _texts(family: str, order: int) -> Prepared:
 
 @dataclass(frozen=True)
 class Task:
-    """One row: ours, the peer's, and what is asked: ``ratio`` times faster, or within ``limit`` seconds."""
+    """One row: the task in this project and in the peer, and the requirement.
+
+    Required is to be ``ratio`` times faster than the peer, or to finish within ``limit`` seconds.
+    """
 
     name: str
     ours: Callable[[], Prepared]
@@ -257,7 +261,7 @@ TASKS = {
 
 @dataclass(frozen=True)
 class Timing:
-    """Medians over fresh processes: seconds, number of results, largest resident size in MiB."""
+    """Median seconds over fresh processes, number of results, and largest resident memory in MiB."""
 
     seconds: float
     results: int
@@ -266,7 +270,7 @@ class Timing:
 
 
 def main() -> int:
-    """Run all tasks, print the table, write it; return 1 when what is asked is missed."""
+    """Run the tasks, print the table and write it; return 1 if a requirement is not satisfied."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeats", type=int, default=REPEATS)
     parser.add_argument("--only", nargs="*", choices=TASKS, default=list(TASKS), metavar="TASK")
@@ -290,7 +294,7 @@ def main() -> int:
 
 
 def row(key: str, repeats: int) -> list[str]:
-    """Time one task on both sides and return its cells."""
+    """Time one task in this project and in the peer, and return the cells of the row."""
     task = TASKS[key]
     print(f"{task.name} ...", file=sys.stderr, flush=True)
     ours = measure(f"{key}:ours", repeats)
@@ -302,7 +306,7 @@ def row(key: str, repeats: int) -> list[str]:
         return [*cells, "-", "-", "-", asked, ("met" if met else "missed") if task.limit else "-"]
     theirs = measure(f"{key}:theirs", repeats)
     if theirs.finished and task.comparable and theirs.results != ours.results:
-        raise SystemExit(f"{task.name}: {ours.results} results here, {theirs.results} from {task.peer}")
+        raise SystemExit(f"{task.name}: {ours.results} results here, {theirs.results} results of {task.peer}")
     bound = "" if theirs.finished else "> "
     ratio = theirs.seconds / ours.seconds
     met = met and (task.ratio is None or ratio >= task.ratio)
@@ -311,7 +315,7 @@ def row(key: str, repeats: int) -> list[str]:
 
 
 def measure(one: str, repeats: int) -> Timing:
-    """Return the medians of a side of a task over fresh processes; one that is stopped is not repeated."""
+    """Return the medians of one program of a task over fresh processes; a stopped peer is not run again."""
     command = [sys.executable, __file__, "--one", one]
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[1])}
     patience = PATIENCE if one.endswith(":theirs") else None
@@ -341,19 +345,19 @@ def _run_here(prepare: Callable[[], Prepared] | None) -> tuple[float, int, float
 HEAD = """# Benchmarks
 
 `make bench` runs the scripts of this folder and writes this page. `check.py` times `orderconds check` on the
-library. `symbolic.py` times the symbolic engine beside its peers and writes the table below: medians over
-fresh processes of one run, imports not counted; MiB is the largest resident size. *Asked* is what the engine
-has to reach: so many times faster than the peer, or so many seconds; everywhere less than 2 GiB. A peer is
+library. `symbolic.py` times the symbolic engine and its peers and writes the table below. Times are medians
+over fresh processes, without imports. MiB is the largest resident memory. *Required* is a factor by which the
+engine is faster than the peer, or a number of seconds. The memory must always be below 2 GiB. A peer is
 stopped after 150 s.
 
-Both sides have the same number of results (of polynomials: of terms), except for commutator-free methods.
-There kauri has one exponential a stage where we have five, and is given the 9 ordered trees up to order 4 in
-place of 13 Lyndon words.
+This project and the peer compute the same number of results (for polynomials: the same number of terms).
+Commutator-free methods are an exception: kauri has one exponential per stage instead of five, and computes
+the conditions of the 9 ordered trees up to order 4 instead of 13 Lyndon words.
 """
 
 
 def environment(repeats: int) -> str:
-    """Say with what was measured."""
+    """Return the conditions of the measurement: processes, cores, and versions of Python and the packages."""
     packages = ("python-flint", "numpy", "kauri", "nodepy", "sympy")
     versions = []
     for package in packages:
@@ -362,12 +366,12 @@ def environment(repeats: int) -> str:
         except metadata.PackageNotFoundError:
             versions.append(f"{package} not installed")
     python = f"{platform.python_implementation()} {platform.python_version()}"
-    return f"{repeats} processes a figure; {os.cpu_count()} cores; {python}; {', '.join(versions)}."
+    return f"{repeats} processes per task; {os.cpu_count()} cores; {python}; {', '.join(versions)}."
 
 
 def table(rows: Iterable[list[str]]) -> str:
     """Return the rows as a Markdown table."""
-    head = ["task", "results", "seconds", "MiB", "peer", "its seconds", "ratio", "asked", "verdict"]
+    head = ["task", "results", "seconds", "MiB", "peer", "peer seconds", "ratio", "required", "verdict"]
     lines = [head, ["---"] + ["---:"] * 3 + ["---", "---:", "---:", "---:", "---"], *rows]
     return "".join(f"| {' | '.join(line)} |\n" for line in lines)
 

@@ -1,4 +1,4 @@
-"""The compiler: a scene and a method become a step program, and that becomes Python or C.
+"""The compiler: it translates a scene and a method to a step program, and the step program to Python or C.
 
 >>> import codegen
 >>> integrator = codegen.load(codegen.emit("free_rigid_body", "cf4", target="python"))

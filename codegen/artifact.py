@@ -1,9 +1,9 @@
-"""An emitted module: its files and its manifest entry, and the folder they are written to and read from.
+"""An emitted module: its files, its manifest entry, and the folder that contains them.
 
 ``manifest.json`` has an entry for each module and target of the folder, with the digest of each file. Files
 are written completely before they get their final names, the manifest last. If a write is killed between two
-files, the digests show it, and repeating the write repairs the folder. One process at a time writes to a
-folder.
+files, the digests reveal the mismatch, and a repeated write repairs the folder. Only one process at a time
+writes to a folder.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ class Artifact:
     def write(self, directory: str | Path) -> list[Path]:
         """Write files and manifest into a folder, which is created if it is missing; return their paths.
 
-        Other modules of the folder are kept. InputError if the folder cannot be written to, or if files of
-        another method have the same names.
+        Other modules of the folder are kept. InputError is raised if the folder cannot be written to, or if
+        files of another method have the same names.
         """
         folder = Path(directory)
         try:
@@ -60,15 +60,18 @@ class Artifact:
             ) from None
 
     def _refuse_clash(self, entry: Mapping[str, Any], folder: Path) -> None:
-        """Raise an InputError where an entry's files would be overwritten by those of another method.
+        """Raise an InputError if this module would overwrite the files of an entry that belongs to another
+        method.
 
-        The default names of ``a.b`` and ``a-b`` are the same. A prefix that the user chose may be used again.
+        This may happen because methods such as ``a.b`` and ``a-b`` have the same default name. A prefix that
+        the user chose may be used again.
         """
         mine, theirs = (tuple(x.get(key) for key in ("scene", "method")) for x in (self.manifest, entry))
         chosen = any("--prefix" in str(x.get("command", "")).split() for x in (self.manifest, entry))
         if (entry["module"], entry["target"]) == self.key and mine != theirs and not chosen:
             raise InputError(
-                f"{theirs[1]} on {theirs[0]} and {mine[1]} on {mine[0]} have one module name, {self.key[0]}",
+                f"{theirs[1]} on {theirs[0]} and {mine[1]} on {mine[0]} "
+                f"have the same module name, {self.key[0]}",
                 where=str(folder),
                 hint="choose another name with --prefix NAME, or another folder with -o DIR",
             )
@@ -76,7 +79,7 @@ class Artifact:
 
 @contextmanager
 def writing(folder: Path) -> Iterator[None]:
-    """Be the only writer in a folder; remove temporary files of writers that were killed."""
+    """Lock a folder for writing, and remove temporary files of writers that were killed."""
     with locked(folder) as held:
         if held:  # without the lock, a temporary file may belong to another writer
             for path in folder.iterdir():
@@ -97,7 +100,7 @@ def manifest_text(entries: list[dict[str, Any]]) -> str:
 
 
 def entries_of(folder: Path) -> list[dict[str, Any]]:
-    """Return the entries of a folder's manifest, none without a manifest."""
+    """Return the entries of a folder's manifest; the list is empty if there is no manifest."""
     path = folder / MANIFEST
     try:
         entries = json.loads(content_of(path, limit=MAX_WRITTEN_BYTES))["modules"]
@@ -109,7 +112,10 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
         raise InputError(reason(problem), where=str(path), expected="the file that emit wrote") from None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         raise InputError(
-            "this is not a manifest", where=str(path), expected="the file that emit wrote", hint="remove it"
+            "this is not a manifest",
+            where=str(path),
+            expected="the file that emit wrote",
+            hint="remove the file",
         ) from None
     return list(entries)
 
@@ -124,7 +130,7 @@ def _is_entry(entry: Mapping[str, Any]) -> bool:
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     """Return a module from a folder; ``module`` and ``target`` choose if it has several.
 
-    InputError: no such module, more than one, a file that is missing or not as it was emitted.
+    InputError is raised if no module or several modules match, and if a file is missing or has changed.
     """
     folder = Path(directory)
     try:
@@ -152,10 +158,10 @@ def _read(folder: Path, entries: list[dict[str, Any]], module: str, target: str)
             what = "is missing" if missing else f"cannot be read ({reason(problem)})"
         else:
             files[name] = content.decode(errors="replace")
-            what = "" if hashlib.sha256(content).hexdigest() == sha256 else "was changed"
+            what = "" if hashlib.sha256(content).hexdigest() == sha256 else "was changed after it was emitted"
         if what:
             hint = f"type: {chosen[0].get('command', 'orderconds emit')}"
-            raise InputError(f"{name} {what} since it was emitted", where=str(folder), hint=hint)
+            raise InputError(f"{name} {what}", where=str(folder), hint=hint)
     return Artifact(files, chosen[0])
 
 

@@ -1,8 +1,8 @@
 """Compile emitted C to a shared object; results are cached by content and compiler.
 
 The compiler writes into a temporary folder inside the cache, and the finished file is renamed
-(:mod:`codegen.cache_entry`). So no incomplete file has the final name, and two processes may build the same
-module.
+(:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes may build the same
+module at once.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -47,7 +49,7 @@ class Compiler:
 def find_compiler() -> Compiler:
     """Return the C compiler: $CC if it is set, else the first of cc, gcc and clang that exists.
 
-    CompilerMissing if there is none.
+    CompilerMissing is raised if there is none.
     """
     return _find(os.environ.get("CC", ""), os.environ.get("PATH", os.defpath))
 
@@ -64,7 +66,7 @@ def _find(named: str, path: str) -> Compiler:
         if shutil.which(words[0], path=path):
             return _identify(tuple(words))
     where = "$CC" if named.strip() else "PATH"
-    message = f"{candidates[0][0]} is not there" if named.strip() else "no C compiler"
+    message = f"{candidates[0][0]} does not exist" if named.strip() else "no C compiler"
     raise CompilerMissing(
         message, where=where, expected="cc, gcc or clang", hint="install one, or set CC to its command"
     )
@@ -91,8 +93,8 @@ def build(
 ) -> Path:
     """Return the path of a shared object compiled from C files (name -> text).
 
-    A cached file is used if its content has the recorded digest; ``again`` compiles in any case. Errors:
-    CompilerMissing, CompileError, InputError if the result cannot be written.
+    A cached file is used if its content has the recorded digest; with ``again`` the files are always
+    compiled. Errors: CompilerMissing, CompileError, and InputError if the result cannot be written.
     """
     compiler = compiler or find_compiler()
     suffix = ".dylib" if sys.platform == "darwin" else ".so"
@@ -117,10 +119,19 @@ def build(
     return directory / file
 
 
+def compile_seconds(files: Mapping[str, str]) -> float:
+    """Compile the files of a module without the cache, and return the wall time in seconds."""
+    with tempfile.TemporaryDirectory() as folder:
+        start = time.perf_counter()
+        flags = (*FLAGS, "-fPIC", "-shared")
+        compile_files(files, Path(folder), Path(folder) / "out", flags, find_compiler())
+        return time.perf_counter() - start
+
+
 def compile_files(
     files: Mapping[str, str], directory: Path, output: Path, flags: tuple[str, ...], compiler: Compiler
 ) -> None:
-    """Write files into a directory and compile its C sources; a CompileError if that fails."""
+    """Write files into a directory and compile its C sources; raise CompileError if the compiler fails."""
     for name, text in files.items():
         (directory / name).write_text(text, encoding="utf-8")
     sources = [name for name in sorted(files) if name.endswith(".c")]
@@ -140,13 +151,13 @@ def compile_files(
         )
     except FileNotFoundError:
         raise CompilerMissing(
-            f"{compiler.command[0]} is no longer there", where="$CC", hint="set CC to a C compiler"
+            f"{compiler.command[0]} no longer exists", where="$CC", hint="set CC to a C compiler"
         ) from None
     if answer.returncode or not output.exists():
         words = (answer.stderr or answer.stdout).strip()
-        did = f"refused it (status {answer.returncode})" if answer.returncode else "wrote nothing"
+        did = f"rejected the source (status {answer.returncode})" if answer.returncode else "wrote no output"
         raise CompileError(
             f"{compiler.command[0]} {did}" + (f":\n{words}" if words else ""),
             where=", ".join(sources),
-            hint=f"the compiler is {compiler.version or compiler.command[0]}; CC chooses another",
+            hint=f"the compiler is {compiler.version or compiler.command[0]}; set CC to use another one",
         )

@@ -2,7 +2,7 @@
 
 An entry is used only if it is a regular file of the user and its content has the digest. Otherwise it is
 computed again. The folder has mode 0700 and belongs to the user, because compiled code in it is executed. If
-no such folder can be had, a temporary folder is used until the process ends.
+such a folder cannot be created, a temporary folder is used until the process ends.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from orderconds.input_file import MAX_WRITTEN_BYTES, content_of, reason
 from orderconds.output_file import is_temporary, write_files
 
 WORKING = "building-"
-"""How the names of working folders begin."""
+"""The prefix of the names of working folders."""
 
 SETTLED = 60.0
-"""Seconds after which a file without an owner counts as left behind."""
+"""The age in seconds from which a temporary file may be removed, unless a process has locked it."""
 
 
 def cache_directory() -> Path:
@@ -69,7 +69,7 @@ def temporary_directory(why: str) -> Path:
     """Return a folder for this process alone, removed at its end; ``why`` is logged once."""
     logging.getLogger("orderconds").warning(
         "orderconds: the cache cannot be used (%s); compiled modules are kept in a temporary folder until "
-        "the end; set XDG_CACHE_HOME to a folder of yours",
+        "the end; set XDG_CACHE_HOME to a folder that you own",
         why,
     )
     folder = Path(tempfile.mkdtemp(prefix="orderconds-"))
@@ -78,7 +78,7 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    if os.getpid() == owner:  # a forked worker process must not remove it
+    if os.getpid() == owner:  # a forked worker process must not remove the folder
         shutil.rmtree(folder, ignore_errors=True)
 
 

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
+from codegen.ir.precision import Precision
 from codegen.lower import lowering, names
 from codegen.method import Method
+from codegen.rounded_conditions import rounded_residual
 from codegen.scene.problem import Problem
 from orderconds.tableau.uncertainty import uncertainty
 
@@ -24,9 +26,10 @@ DOUBLE_BITS = 53
 class CertifiedOrder:
     """An order, its certificate, and the conditions of the next order that fail.
 
-    ``bound``: the search ended before a condition failed, so the order may be higher. ``classical`` is the
-    family of the method on an abelian group, if the order is that of the classical method. ``radius`` is the
-    uncertainty of the coefficients if it exceeds double precision; then there is no certificate.
+    If ``bound`` is true, the search ended before a condition failed, so the order may be higher. If the order
+    was computed for an abelian group, ``classical`` is the classical family to which the method reduces
+    there. ``radius`` is the uncertainty of the coefficients if it exceeds double precision; in this case
+    there is no certificate.
     """
 
     order: int
@@ -41,7 +44,7 @@ class CertifiedOrder:
         how = {
             "construction": "a step is the Taylor polynomial of this degree",
             "exact": "every order condition up to it is zero in exact arithmetic",
-            "ball": "interval arithmetic proves a method of this order within the last digit of the decimals",
+            "ball": "interval arithmetic proves that such a method exists within the last printed digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
             "none": f"the coefficients are known to {self.radius} only, which is less than double precision",
         }
@@ -61,10 +64,10 @@ def family_of(method: Method) -> Family:
 
 
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
-    """Return the order of a method in its family; a MethodError if it cannot be decided.
+    """Return the order of a method in its family; raise a MethodError if the order cannot be decided.
 
-    On a ``scene`` with an abelian group the method is one of a classical family, and the order is that of
-    this family.
+    On a ``scene`` with an abelian group the method belongs to a classical family, whose conditions determine
+    the order.
     """
     from orderconds.checking import check
 
@@ -80,6 +83,33 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
             expected="coefficients with more digits",
         )
     return _certified(method, order)
+
+
+def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
+    """Return a sentence for a header: how well the order conditions hold at the rounded coefficients."""
+    from orderconds import families
+
+    lowered = lowering(method.family)
+    family = families.get(order.classical) if order.classical else lowered.conditions(method, scene)
+    residual = rounded_residual(method, family, order.order, target)
+    rounded = f"the coefficients rounded to {target.name} precision"
+    if residual is None:
+        return f"the order conditions were not evaluated at {rounded}: they are too many"
+    how = f"to {upwards(residual)}" if residual else "exactly"
+    return f"the order conditions hold {how} at {rounded}"
+
+
+def upwards(x: float) -> str:
+    """Return a positive number with two digits, rounded up.
+
+    >>> upwards(1.01e-16), upwards(2e-5)
+    ('1.1e-16', '2.0e-05')
+    """
+    nearest = f"{x:.1e}"
+    if float(nearest) >= x:
+        return nearest
+    digits, _, exponent = nearest.partition("e")
+    return f"{float(f'{float(digits) + 0.1:.1f}e{exponent}'):.1e}"
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:

@@ -16,9 +16,11 @@ from typing import Any
 
 from codegen import scenes
 from codegen.artifact import Artifact, digest
-from codegen.certify import CertifiedOrder, certified_order
+from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.precision import DOUBLE, Precision
+from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, operations
@@ -29,11 +31,10 @@ from codegen.kernel.variations import Variations
 from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
 from codegen.method import Method, parse
 from codegen.passes import Optimiser, PassReport, optimise, summaries
-from codegen.printers import target as printer_of
+from codegen.printers import DEFAULT
+from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
-from codegen.run.precision import DOUBLE
-from codegen.run.precision import precision as known_precision
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
 from codegen.scene.momentum_frame import with_frame
@@ -44,12 +45,13 @@ from orderconds.errors import InputError
 
 SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
 
-COUNTED = "; sweeps above are those in double precision"
+COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5}
-"""The cost model for comparing two forms of a step, in additions; other functions cost twelve."""
+"""The cost model for comparing two forms of a step: costs in additions; functions that are not listed cost
+twelve."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
 """Headers and modules that emitted files or their examples include; no emitted file may have their names."""
@@ -102,11 +104,11 @@ def compile_method(
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
-    ``parameters`` stay run-time arguments, or are folded at a given value (``alpha=1/2``). All other
-    parameters are folded at the scene's values. ``inputs`` are signals that become run-time inputs. ``frame``
-    is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the solver of
-    implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an embedded
-    method, ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName,
+    ``parameters`` stay run-time arguments, or become constants with a given value (``alpha=1/2``). All other
+    parameters become constants with the scene's values. ``inputs`` are signals that become run-time inputs.
+    ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the
+    solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
+    embedded method, ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName,
     TableauError.
     """
     if isinstance(scene, str):
@@ -156,7 +158,7 @@ def work(kernel: Kernel) -> int:
 def emit(
     scene: Problem | str,
     method: Method | str,
-    target: str = "c",
+    target: str = DEFAULT,
     *,
     prefix: str = "",
     parameters: Sequence[str] = (),
@@ -174,10 +176,11 @@ def emit(
     ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
     inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
     control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,
-    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. Errors: those of
-    :func:`compile_method`, UnknownName for a target, InputError for a prefix that is no name in C.
+    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. Errors: the errors of
+    :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
+    name in C.
     """
-    printer_of(target)
+    known_target(target)
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
@@ -198,8 +201,8 @@ def emit_compiled(
 ) -> Artifact:
     """Return a compiled method as a module of a target.
 
-    ``named`` has the names of scene and method for the command; ``order`` is the result of
-    :func:`certified_order`, if the caller has it already.
+    ``named`` contains the names of scene and method that the header's command uses. ``order`` is the result
+    of :func:`certified_order`, if the caller has computed it already.
     """
     scene, method = compiled.scene, compiled.method
     named = named or {"scene": scene.name, "method": method.label}
@@ -212,7 +215,7 @@ def emit_compiled(
     options = [f"--prefix {chosen}"] if prefix else []
     words = ["orderconds emit", quoted(named["scene"]), "--method", quoted(named["method"])]
     words += ["--target", target, *options, *options_of(compiled, precision), "-o", "."]
-    recipe = recipe_of(compiled, order, " ".join(words), single)
+    recipe = recipe_of(compiled, order, " ".join(words), known_precision(precision))
     about = {
         "scene": scene.name,
         "method": method.label,
@@ -242,16 +245,18 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
 
-def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, single: bool) -> Recipe:
+def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
     """Return the content of the header of a module."""
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
+    single = target is not DOUBLE
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
             ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
             ("source", method.source),
             ("order", order.text()),
+            ("digits", rounding_of_digits(method, order, target, scene)),
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
@@ -282,7 +287,7 @@ def emit_kernel(
     The prefix starts every external C name and names the files. UnknownName for an unknown target.
     """
     interface = Interface.of(kernel, prefix, precision)
-    files = printer_of(target)(kernel, interface, recipe)
+    files = known_target(target).print_module(kernel, interface, recipe)
     manifest = {
         **(about or {}),
         "module": interface.module,
@@ -327,7 +332,7 @@ def start_of(scene: Problem) -> tuple[float, ...]:
 
 
 def left_out(compiled: Compiled) -> tuple[str, ...]:
-    """Return the simplifications that this scene and method allow."""
+    """Return a line for each simplification that this scene and method allow."""
     kernel, scene = compiled.kernel, compiled.scene
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
@@ -377,14 +382,15 @@ def default_prefix(scene: Problem, method: Method) -> str:
     named = bool(tableau) and tableau.startswith(method.family)
     parts = [scene.name, *([] if named else [family]), tableau]
     name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
-    return prefix_of(name, "the scene's file gave it: rename that, or choose another with --prefix NAME")
+    return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
 
 
 def prefix_of(name: str, hint: str = "") -> str:
-    """Return a prefix that ends in one underscore; an InputError if it is no identifier of C and Python.
+    """Return a prefix that ends in one underscore; raise an InputError if it is not an identifier of C and
+    Python.
 
-    The prefix names the files too, so it may not be a keyword, because Python cannot import such a
-    file, nor the name of a header or module that emitted code includes.
+    The files have this name, too. So it must not be a keyword, because Python cannot import such a file, and
+    it must not be the name of a header or module that emitted code includes.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(
@@ -398,6 +404,6 @@ def prefix_of(name: str, hint: str = "") -> str:
         raise InputError(
             f"the prefix {name!r}",
             where="--prefix",
-            expected="a name for the files that is no keyword of Python and no standard header",
+            expected="a name that is neither a keyword of Python nor a standard header",
         )
     return module + "_"

@@ -6,7 +6,8 @@ from orderconds.errors import InputError
 
 
 class SceneError(InputError):
-    """A scene that cannot be read: it raises, has wrong shapes, unknown symbols or unsupported functions."""
+    """A scene that cannot be used: its file fails, or it has wrong shapes, unknown symbols or unsupported
+    functions."""
 
 
 class MethodError(InputError):

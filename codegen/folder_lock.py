@@ -1,6 +1,6 @@
 """One writer at a time in a folder.
 
-The lock is on the folder itself and ends with the process, so no lock file is left by one that is killed.
+The lock is on the folder itself and ends with the process, so a killed process leaves no lock file.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator[bool]:
-    """Hold the lock of an existing folder; ``shared`` is for readers, which exclude writers only.
+    """Lock an existing folder; a ``shared`` lock is for readers and excludes writers only.
 
-    Yields whether the lock is held. It is not held if the file system has no locks, nor, without ``wait``,
-    if another process holds it.
+    Yields whether the lock was acquired. It is not acquired if the file system has no locks, or if ``wait``
+    is false and another process holds the lock.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as name, locked(Path(name)) as held:
@@ -25,7 +25,7 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     ...         held, again
     (True, False)
     """
-    if sys.platform == "win32":  # it has no flock; renames are atomic even without locks
+    if sys.platform == "win32":  # Windows has no flock; renames are atomic even without locks
         yield False
         return
     import fcntl

@@ -1,6 +1,6 @@
 """Emitted modules as Python objects with one interface: compiled C through cffi (ABI mode), or Python.
 
-:data:`LOADERS` has a line for each target.
+A target names the function that loads its modules (:attr:`codegen.printers.Target.loader`).
 """
 
 from __future__ import annotations
@@ -18,12 +18,13 @@ from typing import Any
 
 from codegen.artifact import Artifact, read
 from codegen.build import build
+from codegen.printers import target as known_target
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
 from orderconds.errors import InputError
 
 State = Any
-"""A sequence of floats. Results are numpy arrays if the argument is one, else lists."""
+"""A sequence of floats. Results are numpy arrays if the argument is a numpy array, else lists."""
 
 Signals = Callable[[float], Sequence[float]]
 """A function from the time to the run-time inputs."""
@@ -60,7 +61,8 @@ class Arrival:
 
 @dataclass
 class Statistics:
-    """Sweeps by block, the most sweeps of one block in one step, and 1 + the block that failed.
+    """Sweeps by block, the largest number of sweeps of a block in one step, and the number of the block that
+    failed (counted from 1; 0 if no block failed).
 
     ``matrices`` is the number of Newton matrices that were computed.
     """
@@ -101,9 +103,9 @@ class Integrator(ABC):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after one step of size h; a StepFailed if it fails.
+        """Return the state after one step of size h; raise StepFailed if the step fails.
 
-        ``inputs`` are the run-time inputs, in the interface's order, held over the step.
+        ``inputs`` are the run-time inputs, in the interface's order; they are constant during the step.
         """
         held = None if inputs is None else tuple(inputs)
         function = None if held is None else lambda t: held
@@ -119,7 +121,7 @@ class Integrator(ABC):
         inputs: Signals | None = None,
         **parameters: float,
     ) -> State:
-        """Return the state after ``steps`` steps of size h from time t; a StepFailed if one fails.
+        """Return the state after ``steps`` steps of size h from time t; raise StepFailed if a step fails.
 
         ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
         """
@@ -138,7 +140,7 @@ class Integrator(ABC):
         inputs: Signals | None = None,
         **parameters: float,
     ) -> State:
-        """Return rows: the initial state and every stride-th state after it."""
+        """Return a list of states: the initial state and every stride-th state after it."""
         if stride < 1:
             raise ValueError(f"expected a stride of at least 1, found {stride}")
         begun = self._begin(state, parameters, inputs, statistics)
@@ -159,10 +161,10 @@ class Integrator(ABC):
         inputs: Signals | None = None,
         **parameters: float,
     ) -> Arrival:
-        """Integrate from t to end with steps as large as the tolerances allow; the first has size ``h``.
+        """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
 
-        TypeError for a module without an estimate of the error (``emit --adaptive``), StepFailed as
-        :meth:`run`, and with the status ``LIMIT`` if the end is not reached.
+        TypeError is raised for a module without an error estimate (``emit --adaptive``). StepFailed is raised
+        if a step fails, and with the status ``LIMIT`` if ``limit`` steps do not reach the end.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with --adaptive")
@@ -181,7 +183,8 @@ class Integrator(ABC):
     ) -> State:
         """Return the derivative of one step; the module's header names the variations in its rows.
 
-        TypeError for a module without a Jacobian (``emit --jacobian``); StepFailed as :meth:`step`.
+        TypeError is raised for a module without a Jacobian (``emit --jacobian``), StepFailed if the step
+        fails.
         """
         if not self.interface.variations:
             raise TypeError("this module has no derivative of its step; emit it with --jacobian")
@@ -198,7 +201,8 @@ class Integrator(ABC):
         inputs: Signals | None,
         statistics: Statistics | None,
     ) -> _Begun:
-        """Return the checked arguments: TypeError for names and inputs, ValueError for the state."""
+        """Return the checked arguments; raise TypeError for wrong names or inputs, ValueError for a wrong
+        state."""
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
@@ -240,7 +244,7 @@ class Integrator(ABC):
     def _call(
         self, begun: _Begun, t: float, h: float, steps: int, stride: int
     ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
-        """Run and return the final state and the rows of the trajectory."""
+        """Run the steps, and return the final state and the rows of the trajectory."""
 
     @abstractmethod
     def _derive(self, begun: _Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
@@ -300,7 +304,8 @@ class CompiledIntegrator(Integrator):
         if status != Status.OK:
             why = reason(status, self._block(counted), span[2])
             if status == Status.BAD_STEP:
-                why = "from {} to {} by {} with rtol = {}, atol = {}".format(*span, *tolerances)
+                given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
+                why = f"expected finite numbers and no negative tolerance, found {given}"
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
@@ -316,7 +321,7 @@ class CompiledIntegrator(Integrator):
         self._count(counted[0] if counted else None, begun.statistics)
 
     def _block(self, counted: list[Any]) -> str:
-        """Return the label of the block that failed, empty if none failed."""
+        """Return the label of the block that failed; '' if no block failed."""
         failed = counted[0].failed if counted else 0
         return self.interface.blocks[failed - 1] if failed else ""
 
@@ -392,7 +397,8 @@ class InterpretedIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: _Begun) -> Iterator[dict[str, Any]]:
-        """Yield the argument for statistics; convert the module's StepFailed to this module's."""
+        """Yield the argument for statistics; convert StepFailed of the emitted module to
+        :class:`StepFailed`."""
         counts = self.module.Statistics() if self.interface.blocks else None
         try:
             yield {} if counts is None else {"statistics": counts}
@@ -412,11 +418,11 @@ def reason(status: int, block: str, h: float) -> str:
         case Status.NOT_CONVERGED:
             return f"{block} did not converge"
         case _:
-            return f"{block} met a number that is not finite" if block else "the new state is not finite"
+            return f"{block} computed a number that is not finite" if block else "the new state is not finite"
 
 
 def like(state: State, values: Sequence[Any]) -> State:
-    """Return values as a numpy array if state is one, else as a list."""
+    """Return values as a numpy array if state is a numpy array, else as a list."""
     if type(state).__module__ == "numpy":
         import numpy as np
 
@@ -425,10 +431,11 @@ def like(state: State, values: Sequence[Any]) -> State:
 
 
 def load(source: Artifact | str | Path, module: str = "", target: str = "") -> Integrator:
-    """Return the integrator of an artifact, or of a module in a folder that holds a manifest.
+    """Return the integrator of an artifact, or of a module in a folder with a manifest.
 
-    ``module`` and ``target`` choose a module if the folder has several. C is compiled, or taken from the
-    cache. Errors: CompilerMissing, CompileError, InputError for a folder without such a module.
+    ``module`` and ``target`` choose a module if the folder has several. C code is compiled, or a compiled
+    file is read from the cache. Errors: CompilerMissing, CompileError, and InputError for a folder without
+    such a module.
     """
     artifact = source if isinstance(source, Artifact) else read(Path(source), module, target)
     try:
@@ -436,15 +443,15 @@ def load(source: Artifact | str | Path, module: str = "", target: str = "") -> I
         defaults = dict(artifact.manifest["defaults"])
     except (KeyError, TypeError, ValueError, AttributeError):
         raise InputError(
-            f"the manifest's entry for {artifact.key[0]} is not as emit wrote it", hint="emit it again"
+            f"the manifest's entry for {artifact.key[0]} was changed", hint="emit the module again"
         ) from None
-    target = artifact.manifest["target"]
-    if target not in LOADERS:
-        raise InputError(f"unknown target {target}", expected=" or ".join(sorted(LOADERS)))
-    return LOADERS[target](interface, defaults, artifact.files)
+    return known_target(artifact.manifest["target"]).load(interface, defaults, artifact.files)
 
 
-def _compiled(interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]) -> Integrator:
+def load_compiled(
+    interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
+) -> Integrator:
+    """Return the integrator of a C module; the module is compiled unless the cache contains it."""
     try:
         return CompiledIntegrator(interface, defaults, build(files))
     except (OSError, AttributeError):
@@ -452,11 +459,8 @@ def _compiled(interface: Interface, defaults: Mapping[str, float], files: Mappin
         return CompiledIntegrator(interface, defaults, build(files, again=True))
 
 
-def _interpreted(interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]) -> Integrator:
+def load_interpreted(
+    interface: Interface, defaults: Mapping[str, float], files: Mapping[str, str]
+) -> Integrator:
+    """Return the integrator of a Python module."""
     return InterpretedIntegrator(interface, defaults, files[f"{interface.module}.py"])
-
-
-Loader = Callable[[Interface, Mapping[str, float], Mapping[str, str]], Integrator]
-
-LOADERS: dict[str, Loader] = {"c": _compiled, "python": _interpreted}
-"""Target name -> function that loads the files of a module as an integrator."""

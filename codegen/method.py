@@ -1,4 +1,5 @@
-"""A method: a family with a tableau, as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or ``cf4``.
+"""A method: a family with a tableau, such as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or
+``cf4``.
 
 A family without tableau is a method itself, as ``taylor(12)``.
 """
@@ -29,7 +30,7 @@ PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 
 @dataclass(frozen=True)
 class Method:
-    """A family (with ``cutoff`` where it takes one) and the tableau whose coefficients it reads.
+    """A family, its ``cutoff`` if the family has one, and the tableau with the coefficients.
 
     ``coefficients`` is None for a family without tableau; ``cutoff`` is then the number in its label.
     ``adaptive`` adds the result of the embedded method to each step, for an error estimate.
@@ -78,7 +79,8 @@ class Method:
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number; a rational one is over QQ even in a larger field."""
+        """Return a coefficient as a number; a rational coefficient becomes an element of QQ, also from a
+        larger field."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -86,7 +88,7 @@ class Method:
         return Number.rational(*Fraction(text).as_integer_ratio()) if _RATIONAL.fullmatch(text) else number
 
     def runge_kutta(self) -> RungeKutta:
-        """Return the coefficients as A and b; :class:`MethodError` for a tableau that has none."""
+        """Return the coefficients as A and b; raise :class:`MethodError` for a tableau without A and b."""
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             raise MethodError(
@@ -106,28 +108,30 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials, a Butcher tableau as Crouch-Grossman."""
+        """Return stages and update as products of exponentials; a Butcher tableau is read as a
+        Crouch-Grossman method."""
         method = self.tableau.read_as(("cf",))
         if isinstance(method, CommutatorFree):
             return method
         return self.runge_kutta().as_crouch_grossman(self.ring)
 
     def embedded(self) -> Method | None:
-        """Return the embedded method if ``adaptive`` is set; :class:`MethodError` if there is none.
+        """Return the embedded method if ``adaptive`` is set; raise :class:`MethodError` if there is none.
 
-        The embedded method shares the stages, so the stages of the family must not depend on the weights. A
-        smallest set of brackets depends on the weights, so a family that uses such sets needs a cut-off.
+        The embedded method shares the stages, so the stages of the family must not depend on the weights. The
+        fewest brackets depend on the weights, so a family that searches for them needs a cut-off.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
             raise MethodError(
-                f"an estimate of the error for {self.label}", expected=f"one of {', '.join(with_estimate())}"
+                f"an estimate of the error for {self.label}",
+                expected=f"a method of {', '.join(with_estimate())}",
             )
         if self.kind.minimal_brackets and self.cutoff is None:
             raise MethodError(
-                f"no error estimate for {self.label}, whose minimal brackets suit the main weights only",
+                f"no error estimate for {self.label}: its minimal brackets depend on the main weights",
                 expected="a fixed number of brackets",
                 hint=f"write rkmk(3):{self.tableau.name}",
             )
@@ -135,12 +139,12 @@ class Method:
             raise MethodError(
                 f"an estimate of the error for {self.label}",
                 expected="a tableau with an embedded row",
-                hint="as dormand_prince5 or cf43",
+                hint="use for example dormand_prince5 or cf43",
             )
         return replace(self, coefficients=lower, adaptive=False)
 
     def abscissae(self) -> tuple[Element, ...]:
-        """Return c_i, the sum of the coefficients of stage i of the commutator-free reading."""
+        """Return c_i, the sum of the coefficients of stage i, where the method is read as commutator-free."""
         return self.commutator_free().as_runge_kutta(self.ring).c
 
 
@@ -153,7 +157,7 @@ def _file(name: str) -> Path:
 def _enclosed(tableau: Tableau) -> Tableau:
     """Return a tableau with the exact solution that its proof encloses, instead of the decimals of its file.
 
-    The certificate holds for this solution, so emitted code must use it and not the decimals.
+    The certificate is for this solution, so emitted code must use the solution and not the decimals.
     """
     if tableau.proof is None:
         return tableau
@@ -186,12 +190,13 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
 
 
 def parse(text: str, families: Sequence[str]) -> Method:
-    """Return the method that a text names; ``families`` are those the scene can take.
+    """Return the method that a text names; ``families`` are the families that accept the scene.
 
-    If the text names no family, the family with the highest claimed order is chosen, and among equal orders
-    the first in ``families``. ``rkmk`` without a cut-off is compiled with the fewest brackets if the tableau
-    is explicit and exact. Otherwise, and for ``vrkmk``, the cut-off is the least one with the highest claimed
-    order. :class:`MethodError` for a text that cannot be read, and if no claim determines the choice.
+    If the text names no family, the family with the highest claimed order is chosen; among families of equal
+    order, the first in ``families``. ``rkmk`` without a cut-off is compiled with the fewest brackets if the
+    tableau is explicit and exact. Otherwise, and for ``vrkmk``, the cut-off is the smallest one that has the
+    highest claimed order. :class:`MethodError` is raised for a text that cannot be read, and if no claim
+    determines the choice.
     """
     alone = _without_tableau(text, families)
     if alone is not None:
@@ -199,7 +204,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
     match = PATTERN.fullmatch(text.strip())
     if match is None:
         raise MethodError(
-            f"the method {text!r}", expected="TABLEAU or FAMILY:TABLEAU", hint="as vcg:triple_jump"
+            f"the method {text!r}",
+            expected="TABLEAU or FAMILY:TABLEAU",
+            hint="write for example vcg:triple_jump",
         )
     tableau = _enclosed(Tableau.load(_file(match["tableau"])))
     family, cutoff = match["family"], match["cutoff"]
@@ -216,7 +223,7 @@ def parse(text: str, families: Sequence[str]) -> Method:
         raise MethodError(
             f"a cut-off for family {family}",
             where=text,
-            expected=f"one for {' or '.join(cutting)} only, as rkmk(2):rk4",
+            expected=f"a cut-off for {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
     # A commutator-free tableau has no A and b, even if it claims an order in rk (for its sums of exponents).
     exponentials = isinstance(tableau.method, CommutatorFree)

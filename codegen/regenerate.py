@@ -1,4 +1,4 @@
-"""The folder ``generated/``: it holds exactly the modules that ``regenerate.toml`` lists."""
+"""The folder ``generated/``: it contains exactly the modules that ``regenerate.toml`` lists."""
 
 from __future__ import annotations
 
@@ -124,12 +124,13 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Return whether a file is a by-product: of running an emitted module, or of a write that was killed."""
+    """Return whether a file may be ignored: it is left by a run of an emitted module, or by a write that was
+    killed."""
     return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Write the files, remove stale ones, and return the differences that there were before."""
+    """Write the files, remove stale files, and return the differences that existed before."""
     changed = compare(directory, files)
     # Manifests are written last, because they identify emitted files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))

@@ -1,4 +1,4 @@
-"""No module decides by the name of a family, a group, a scene or a tableau, except the file that defines it.
+"""No module decides by the name of a family, group, scene, tableau or target, except where it is defined.
 
 The test reads the syntax trees of both packages. It looks for strings that equal a name, also
 ``name(2)``, ``family:tableau`` and ``scene+u``, at each place that can decide something: comparisons,
@@ -20,6 +20,7 @@ from jinja2 import Environment, nodes
 
 import codegen.groups
 import codegen.lower
+import codegen.printers
 import codegen.scenes
 from orderconds import families
 from orderconds.tableau import library
@@ -54,6 +55,14 @@ EXCEPTIONS = {
     ("codegen/lab/peers/solve_ivp.py", ""): "SciPy's own names of its solvers",
 }
 """Path and variable of a table that may hold names, and why; '' is a table without variable."""
+
+TARGET_EXCEPTIONS = {
+    "codegen/printers/registry.py": "the target of commands if the user names none",
+    "codegen/lab/peers/__init__.py": "a group of peers",
+    "codegen/lab/peers/compiled.py": "the nodes c of a tableau",
+    "codegen/groups/se2.py": "the cosine among the coordinates",
+}
+"""Path of a file of the compiler that contains a string that equals a target's name, and its meaning."""
 
 EXPORTS = ("__all__", "__slots__")
 
@@ -215,6 +224,17 @@ def all_offences() -> list[Offence]:
     return [offence for path, tree in sources() for offence in offences(path, tree, known)]
 
 
+def target_names(path: str, tree: ast.Module, known: Collection[str]) -> list[Offence]:
+    """Return the strings that equal a target's name, also in arguments and defaults, outside its package."""
+    parts = {id(part) for node in ast.walk(tree) if isinstance(node, ast.JoinedStr) for part in node.values}
+    return [
+        Offence(path, node.lineno, node.value, "string")
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and node.value in known
+        if id(node) not in parts and not path.startswith(f"codegen/printers/{node.value}/")
+    ]
+
+
 def type_tests(path: str, tree: ast.Module, classes: Collection[str]) -> list[Offence]:
     """Return the places that ask whether an object is of one of the group classes."""
     result = []
@@ -252,6 +272,33 @@ def test_no_module_outside_the_groups_asks_for_the_class_of_a_group() -> None:
     compiler = [(path, tree) for path, tree in sources() if path.startswith("codegen/")]
     found = [offence for path, tree in compiler for offence in type_tests(path, tree, groups())]
     assert [str(offence) for offence in found if not offence.path.startswith("codegen/groups/")] == []
+
+
+def test_the_compiler_has_no_name_of_a_target_outside_the_package_of_the_target() -> None:
+    known = codegen.printers.names()
+    compiler = [(path, tree) for path, tree in sources() if path.startswith("codegen/")]
+    found = [offence for path, tree in compiler for offence in target_names(path, tree, known)]
+    assert [str(offence) for offence in found if offence.path not in TARGET_EXCEPTIONS] == []
+    assert {offence.path for offence in found} == set(TARGET_EXCEPTIONS)
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "def f(x): return x.target == 'c'",
+        "def f(x): return x in ('c', 'other')",
+        "def f(x):\n match x:\n  case 'python': pass",
+        "def f(target='c'): pass",
+        "f(x, 'python')",
+        "class A:\n    target: str = 'c'",
+        "TABLE = {'python': 1}",
+    ],
+)
+def test_a_name_of_a_target_is_found(source: str) -> None:
+    known = codegen.printers.names()
+    assert target_names("codegen/lab/example.py", ast.parse(source), known) != []
+    own = [target_names(f"codegen/printers/{name}/example.py", ast.parse(source), known) for name in known]
+    assert [] in own
 
 
 def test_no_template_decides_by_a_name() -> None:

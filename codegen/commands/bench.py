@@ -15,15 +15,33 @@ if TYPE_CHECKING:
     from codegen.lab.efficiency.bench import Result
 
 
-@click.command("bench", cls=Variadic, short_help="Measure error against run time, beside peers.")
+@click.command("bench", cls=Variadic, short_help="Measure error against run time, also of other integrators.")
 @click.argument("scene")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
-@click.option("--adaptive", multiple=True, help="Methods to run with step-size control, over tolerances.")
-@click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
-@click.option("--against", "-a", "peers", multiple=True, help="Peers by name, or the groups scipy, c, all.")
+@click.option(
+    "--adaptive", multiple=True, help="Methods to run with step-size control, at several tolerances."
+)
+@click.option(
+    "--target",
+    "-t",
+    "targets",
+    multiple=True,
+    help="A target (see orderconds list targets), by default c; may be repeated.",
+)
+@click.option(
+    "--against",
+    "-a",
+    "peers",
+    multiple=True,
+    help="Other integrators (peers) by name, or the groups scipy, c, all.",
+)
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
 @click.option(
-    "--output", "-o", type=FOLDER, metavar="DIR", help="Write SCENE.csv, SCENE.json and SCENE.svg there."
+    "--output",
+    "-o",
+    type=FOLDER,
+    metavar="DIR",
+    help="The folder to write SCENE.csv, SCENE.json and SCENE.svg to.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the rows as JSON.")
 def command(
@@ -38,18 +56,19 @@ def command(
 ) -> int:
     """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and time them.
 
-    --adaptive takes methods with an embedded row, as ambient:dop853, rkmk(3):dormand_prince5 or
+    --adaptive accepts methods with an embedded row, such as ambient:dop853, rkmk(3):dormand_prince5 or
     ambient:radau2a3, and runs them with step-size control. Peers: scipy-dop853, scipy-radau, scipy-lsoda,
-    heyoka, diffrax, c-dop853, c-rk4-projected; a group contains only the installed ones. With -o an
-    interrupted measurement continues when the command is repeated. A method or peer that fails is a row with
-    the reason. The exit status is 1 if a method or peer has no successful run.
+    heyoka, diffrax, c-dop853, c-rk4-projected; a group contains only installed peers. With -o an interrupted
+    measurement continues when the command is repeated. A method or peer that fails has a row with the reason.
+    The exit status is 1 if a method or peer has no successful run.
     """
     from codegen.lab.efficiency.bench import bench
+    from codegen.printers import DEFAULT
 
     if not 0 < budget < 1e5:
         raise InputError(f"the budget {budget:g}", where="--budget", expected="CPU seconds above 0")
     with working("reading scene and methods") as progress:
-        candidates = bench(scene, methods, targets or ("c",), peers, budget, output, progress, adaptive)
+        candidates = bench(scene, methods, targets or (DEFAULT,), peers, budget, output, progress, adaptive)
     with counting(f"{candidates.scene.name}: first runs") as done:
         result = candidates.run(lambda row: done(f"{row.method} ({row.target})"))
     if as_json:
@@ -60,7 +79,7 @@ def command(
 
 
 def show(result: Result) -> None:
-    """Print all rows, the fastest for each decade of accuracy, and set-up times."""
+    """Print all rows, the fastest method for each decade of accuracy, and the set-up times."""
     from codegen.lab.page.formatting import duration
 
     rows = []

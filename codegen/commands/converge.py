@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
-@click.option("--target", help="c (the default), python or interpreter.")
+@click.option("--target", help="A target (see orderconds list targets) or interpreter; by default c.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     type=click.Choice(["strict"]),
     help="strict: compare orders on built-in scenes, in 50 digits, with the claims; give no SCENE.",
 )
-@click.option("--stated", type=click.IntRange(1, 20), help="The order to compare with.")
+@click.option(
+    "--stated", type=click.IntRange(1, 20), help="The order that the observed order is compared with."
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str | None,
@@ -39,7 +41,8 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    The exit status is 0 if every observed order is the stated one, 1 if some order differs or is undecided.
+    The exit status is 0 if every observed order equals the stated order, 1 if an order differs or is
+    undecided.
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
@@ -50,7 +53,7 @@ def command(
     results = (
         _by_protocol(methods, stated, as_json)
         if scene is None
-        else _on_scene(scene, methods, target or "c", steps, digits or 16, stated, as_json)
+        else _on_scene(scene, methods, target, steps, digits or 16, stated, as_json)
     )
     if as_json:
         print_json([result.as_json() for result in results])
@@ -60,7 +63,7 @@ def command(
 def _on_scene(
     scene: str,
     methods: tuple[str, ...],
-    target: str,
+    target: str | None,
     steps: tuple[str, ...],
     digits: int,
     stated: int | None,
@@ -72,6 +75,7 @@ def _on_scene(
     from codegen.lab.runner import runner
     from codegen.lower import families_for
     from codegen.method import parse
+    from codegen.printers import DEFAULT
     from codegen.scenes import load
 
     prescribed = read_steps(steps)
@@ -81,7 +85,9 @@ def _on_scene(
         held = None if stated is None else CertifiedOrder(stated, "stated")
         pairs = [(method, held or certified_order(method, problem)) for method in chosen]
         progress("compiling")
-        runners = [(runner(problem, method, target, digits, order), order) for method, order in pairs]
+        runners = [
+            (runner(problem, method, target or DEFAULT, digits, order), order) for method, order in pairs
+        ]
         progress("reference solution")
         exact = cached_reference(problem)
     results: list[Convergence] = []
@@ -109,7 +115,7 @@ def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) ->
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
-    """Return the numbers of steps in comma lists, sorted; :class:`InputError` for anything else.
+    """Return the numbers of steps in comma lists, sorted; raise :class:`InputError` for any other text.
 
     >>> read_steps(("40,20", "80"))
     [20, 40, 80]

@@ -16,9 +16,18 @@ if TYPE_CHECKING:
 @click.command(name="emit", short_help="Write a specialised integrator for a scene.")
 @click.argument("scene", metavar="SCENE")
 @click.option(
-    "--method", "-m", required=True, help="TABLEAU or FAMILY:TABLEAU, as cf4, vcg:triple_jump, 'rkmk(2):rk4'."
+    "--method",
+    "-m",
+    required=True,
+    help="TABLEAU or FAMILY:TABLEAU, such as cf4, vcg:triple_jump, 'rkmk(2):rk4'.",
 )
-@click.option("--target", "-t", "targets", multiple=True, help="c (the default) or python; may be repeated.")
+@click.option(
+    "--target",
+    "-t",
+    "targets",
+    multiple=True,
+    help="A target (orderconds list targets), by default c; may be repeated.",
+)
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
 @click.option("--prefix", default="", help="Prefix of every external name; by default scene and method.")
 @click.option(
@@ -26,7 +35,7 @@ if TYPE_CHECKING:
     "-p",
     "parameters",
     multiple=True,
-    help="NAME: keep a parameter as a run-time argument; NAME=VALUE: fold a value.",
+    help="NAME: keep a parameter as a run-time argument; NAME=VALUE: make it a constant.",
 )
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
@@ -43,7 +52,9 @@ if TYPE_CHECKING:
     help="newton, simplified-newton, fixed-point or auto (the default: the cheapest).",
 )
 @click.option(
-    "--explain", is_flag=True, help="Print the program after each pass, and the parts that were left out."
+    "--explain",
+    is_flag=True,
+    help="Print the program after each pass, and the operations that were left out.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -64,11 +75,13 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
-    Without -o nothing is written; --explain or --json then describe the module.
+    Without -o no file is written; --explain or --json is then required and prints a description of the
+    module.
     """
     from codegen.emitter import bare, compile_method, emit_compiled
+    from codegen.ir.precision import precision as known_precision
+    from codegen.printers import DEFAULT
     from codegen.printers import target as known_target
-    from codegen.run.precision import precision as known_precision
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing: the folder to write to (or give --explain or --json)")
@@ -82,7 +95,7 @@ def command(
     records: list[dict[str, object]] = []
     if explain and not as_json:
         click.echo(explanation(compiled))
-    for name in targets or ("c",):
+    for name in targets or (DEFAULT,):
         artifact = emit_compiled(compiled, name, prefix, named, precision=precision)
         paths = [str(path) for path in artifact.write(output)] if output is not None else []
         records.append({**artifact.manifest, "paths": paths})
@@ -103,7 +116,7 @@ def command(
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return the program as lowered and after each pass, with operation counts, and the parts left out."""
+    """Return the program as lowered and after each pass, with operation counts, and the simplifications."""
     from codegen.emitter import left_out
     from codegen.kernel.operations import operations, sentences
     from codegen.kernel.schedule import arrange

@@ -31,7 +31,7 @@ FEWEST = 200
     help="The number of steps.",
 )
 @click.option("--one-way", is_flag=True, help="Omit the run back to the initial state.")
-@click.option("--no-rounding", is_flag=True, help="Omit the growth of rounding errors.")
+@click.option("--no-rounding", is_flag=True, help="Do not measure the growth of rounding errors.")
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str,
@@ -44,11 +44,12 @@ def command(
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    Deviations are relative to the size of the quantity. The law is "lost" if the deviation reaches that
-    size, "rounding" if rounding explains it, and "too short to tell" if it grows but the interval of the
-    slope contains zero. Quantities that a method conserves exactly show the growth of rounding errors: the
-    root mean square over several starts and its exponent, with and without compensated summation. The exit
-    status is 1 if a run ends early or a method fails.
+    Deviations are relative to the size of the quantity. The column "law" contains "lost" if the deviation
+    reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if it grows
+    but the interval of the slope contains zero. For quantities that a method conserves exactly, the growth of
+    rounding errors is measured: their root mean square over several initial states, and its exponent in the
+    number of steps, with and without compensated summation. The exit status is 1 if a run ends early or a
+    method fails.
     """
     from codegen import scenes
     from codegen.emitter import compile_method
@@ -59,7 +60,7 @@ def command(
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
     if not 1e-300 <= abs(h) <= 1e300:  # also true for NaN
         raise InputError(
-            f"the step size {h:g}", where="--h", expected="a number between 1e-300 and 1e300 in size"
+            f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
         )
     runs: list[LongRun] = []
     with counting(f"{problem.name}: {steps} steps") as done:

@@ -15,15 +15,19 @@ from orderconds.commands.place import FOLDER
     "--check", "check_only", is_flag=True, help="Change nothing; the exit status is 1 if a file differs."
 )
 @click.option(
-    "--output", "-o", type=FOLDER, metavar="DIR", help="The folder; by default generated/ of the source tree."
+    "--output",
+    "-o",
+    type=FOLDER,
+    metavar="DIR",
+    help="The folder to rewrite or compare; by default generated/ in the source tree.",
 )
 @click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record.")
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists; with --check report the files that differ.
 
-    An emitted file that no listed module produces is stale: it is removed, or reported. A file that was never
-    emitted is unknown: it is reported and not changed.
+    An emitted file that no listed module produces is stale: it is removed, or with --check reported. A file
+    that was never emitted is unknown: it is reported and not changed.
     """
     from codegen.regenerate import LIST, compare, contents, entries, write
 
@@ -51,7 +55,8 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
 
 
 def source_folder() -> Path:
-    """Return ``generated/`` beside the pyproject.toml of the source tree; a usage error elsewhere."""
+    """Return ``generated/`` beside the pyproject.toml of the source tree; raise a usage error without a
+    source tree."""
     root = Path(__file__).resolve().parents[2]
     pyproject = root / "pyproject.toml"
     if pyproject.is_file() and 'name = "orderconds"' in pyproject.read_text(encoding="utf-8").splitlines():

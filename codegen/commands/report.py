@@ -45,11 +45,11 @@ def command(
 ) -> int:
     """Measure SCENEs (names of the gallery or Python files; dipole and free_rigid_body by default).
 
-    Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. A
-    Hamiltonian scene takes one to two minutes, a field some ten seconds. An interrupted report continues
-    when the command is repeated. A method that fails is a row with the reason. The pages need no network.
-    The exit status is 1 if an observed order is not the computed one, if the result of an extreme step is
-    wrong, or if a method fails; the pages are written in any case.
+    Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. The
+    measurements take one to two minutes for a Hamiltonian scene, about ten seconds for a field. An
+    interrupted report continues when the command is repeated. A method that fails has a row with the reason.
+    The pages need no network. The exit status is 1 if an observed order differs from the computed order, if
+    the result of an extreme step is wrong, or if a method fails; the pages are written in any case.
     """
     from codegen.lab.report import Request, read_scenes, report
 

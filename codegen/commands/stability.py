@@ -26,10 +26,11 @@ Job: TypeAlias = tuple[str, tuple[str, ...], bool]
 @click.option("--quick", is_flag=True, help="Omit the runs of ten million steps.")
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick: bool, as_json: bool) -> int:
-    """Compare single steps of emitted C on extreme input with 60 digits; find the largest usable step.
+    """Compare single steps of emitted C on extreme inputs with 60-digit results; find the largest usable
+    step.
 
-    Each case must be accurate, or end with a status of the emitted code. The exit status is 1 if a case is
-    neither.
+    Each case must be accurate, or the emitted code must return an error status. The exit status is 1 if a
+    case fails this test.
     """
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
@@ -38,7 +39,7 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
         raise click.UsageError("name one SCENE, or give --all")
     names = scenes.GALLERY if scene is None else (scene,)
     for name in names:
-        methods_for(scenes.load(name), methods)  # InputError before the work begins
+        methods_for(scenes.load(name), methods)  # raises InputError before the work begins
     all_results: list[Stability] = []
     with counting("stability") as done:
         work = _alone if len(names) > 1 else partial(_run, progress=done)
@@ -67,7 +68,7 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability]:
 
 
 def _alone(job: Job) -> list[Stability]:
-    """Do the job in a separate process, without a progress display."""
+    """Return the results of a job; it runs in a separate process, without a progress display."""
     return _run(job, str)
 
 

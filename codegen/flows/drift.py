@@ -15,7 +15,7 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Drift(Flow):
-    """H = T(mu) on an abelian group: mu is constant and q moves by tau xi(mu), xi = D_2 T."""
+    """H = T(mu) on an abelian group: mu is constant, and q moves by tau xi(mu), where xi = D_2 T."""
 
     velocity: tuple[Expr, ...]
 
@@ -38,7 +38,7 @@ class Drift(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return a drift for a part on an abelian group that depends on mu alone, else None."""
+    """Return a drift if the group is abelian and the part depends on mu alone, else None."""
     if formula.timed or not formula.problem.group.abelian or not formula.orbit.vanish(formula.by_q):
         return None
     return formula.whole(Drift(tuple(formula.by_mu)))

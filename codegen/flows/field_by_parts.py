@@ -1,8 +1,8 @@
-"""The field of a Hamiltonian as the sum of the fields of its parts, if that takes fewer operations.
+"""The field of a Hamiltonian as the sum of the fields of its parts, if the sum needs fewer operations.
 
 The sum is exact on the group. The field by differentiation contains the entries of q. A recognised part has a
 shorter formula for its field, which is equal because q is an element of the group. For the symmetric top the
-formula is mu/I_1 + s (mu.d) d; the only entries of q in it are those of the axis d.
+formula is mu/I_1 + s (mu.d) d; it reads only those entries of q that form the axis d.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from codegen.scene.problem import TIME, Problem
 
 
 def with_field_by_parts(problem: Problem) -> Problem:
-    """Return the problem with the field by parts if it has fewer operations; both are equal on the group."""
+    """Return the problem with the field by parts if this field has fewer operations, else the problem
+    itself."""
     if problem.hamiltonian is None or not problem.parts:
         return problem
     if problem.stated or problem.inputs or problem.forced:

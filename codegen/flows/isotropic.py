@@ -14,7 +14,7 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Isotropic(Flow):
-    """H = rate mu.mu/2 for an inner product invariant under Ad: mu is constant, q rotates about it."""
+    """H = rate mu.mu/2 for an inner product invariant under Ad: mu is constant, and q rotates about mu."""
 
     rate: Fraction
 

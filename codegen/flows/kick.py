@@ -16,7 +16,7 @@ from codegen.scene.flow import Flow
 
 @dataclass(frozen=True)
 class Kick(Flow):
-    """H = V(q): q is constant and mu moves by tau n(q), n = -(D_1 V).q^-1."""
+    """H = V(q): q is constant, and mu increases by tau n(q), where n = -(D_1 V).q^-1."""
 
     force: tuple[Expr, ...]
     timed: bool = False

@@ -29,7 +29,7 @@ class Linear(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return the moved (q, mu)."""
+        """Return (q, mu) after the time tau."""
         z = (*q, *mu)
         new: list[S] = []
         for i, square in enumerate(self.squares):
@@ -77,7 +77,7 @@ def recognise(formula: Formula) -> Part | None:
             [s - _affine(s, r, b, names) for s, r, b in zip(slopes, L, c, strict=True)]
         )
     ):
-        return formula.refused("it is no quadratic function of q and mu with constant coefficients")
+        return formula.refused("it is not a quadratic function of q and mu with constant coefficients")
     n = range(len(L))
     square = [[sum((L[i][k] * L[k][j] for k in n), Fraction(0)) for j in n] for i in n]
     if any(square[i][j] for i in n for j in n if i != j) or any(square[i][i] > 0 for i in n):

@@ -26,8 +26,7 @@ CONSTANTS = SeriesDomain(QQ, 0)
 
 @dataclass(frozen=True)
 class Summand:
-    """Flows by name that commute; their composition is the exact flow of a part, or of a summand of a
-    part."""
+    """Named flows that commute; their composition is the exact flow of a part, or of a summand of a part."""
 
     flows: tuple[tuple[str, Flow], ...]
 
@@ -41,7 +40,7 @@ class Summand:
 class Part:
     """A part of a Hamiltonian as the sum of summands with exact flows.
 
-    Without summands no closed form is known, and ``reason`` says why.
+    If there are no summands, no closed form is known, and ``reason`` says why.
     """
 
     name: str

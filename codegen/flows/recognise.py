@@ -1,10 +1,10 @@
 """Recognition: the exact flows of a Hamiltonian's parts, from their formulas alone.
 
-Each kind of flow examines a part. The result is a part with its flows, a part with the reason why it has
-none, or None for a part of another kind. V(q) is a kick. On T*R^n a function of the momentum alone is a
-drift, and a
-quadratic function of both is a linear flow if its matrix squares to a diagonal. On other groups a quadratic
-function of the momentum in the body or in space is a sum of rotations (:mod:`codegen.flows.top`).
+Each kind of flow examines a part. The result is a part with its flows, a part with the reason why it has no
+flows, or None if another kind of flow may apply. V(q) is a kick. On T*R^n a function of the momentum alone is
+a drift, and a quadratic function of both is a linear flow if the square of its matrix is diagonal. On other
+groups a quadratic function of the momentum in the body or in space is a sum of rotations
+(:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from codegen.scene.problem import Problem
 
 def _timed(formula: Formula) -> Part | None:
     """Refuse a part that depends on the time; only kicks, and flows that the scene states, may depend on
-    it."""
+    time."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 

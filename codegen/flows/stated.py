@@ -30,7 +30,7 @@ class Stated(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Raise ArithmeticError: the formulas give the flow and not its field."""
+        """Raise ArithmeticError, because the formulas describe the flow and not its field."""
         raise ArithmeticError("a stated flow has no field of its own")
 
     def text(self) -> str:
@@ -39,6 +39,6 @@ class Stated(Flow):
 
 
 def recognise(formula: Formula) -> Part | None:
-    """Return the part with the flow that its scene states, None if the scene states none."""
+    """Return the part with the flow that its scene states; None if the scene states no flow."""
     formulas = formula.problem.stated.get(formula.name)
     return None if formulas is None else formula.whole(Stated(formulas))

@@ -34,7 +34,7 @@ def recognise(formula: Formula) -> Part | None:
     for body in (True, False):
         if _is_form(formula, B, w, body):
             return Part(formula.name, tuple(_summands(formula, B, w, body)))
-    return formula.refused("it is no quadratic function of the momentum in the body or in space")
+    return formula.refused("it is not a quadratic function of the momentum in the body or in space")
 
 
 def _is_form(formula: Formula, B: Matrix, w: list[Fraction], body: bool) -> bool:

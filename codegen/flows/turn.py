@@ -29,7 +29,8 @@ class Turn(Flow):
     def advance(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], tau: S, q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (q exp(angle e), mu) in the body, (g q, Ad*_{g^-1} mu) with g = exp(angle e) in space."""
+        """Return (q exp(angle e), mu) for an axis in the body, else (g q, Ad*_{g^-1} mu) with g = exp(angle
+        e)."""
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         angle = tau * self._speed(d, self._axis(d, group, q), mu)
         g = group.exp(d, tuple(angle * x for x in axis))
@@ -40,7 +41,7 @@ class Turn(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (speed e, 0) in space; in the body (speed Ad_q e, n), where n keeps mu constant."""
+        """Return (speed e, 0) for an axis in space, else (speed Ad_q e, n), where n keeps mu constant."""
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
         zero: Vector[S] = (d.rational(0),) * group.dim

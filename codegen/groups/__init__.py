@@ -1,4 +1,4 @@
-"""Lie groups and their actions, each written once over any domain (:mod:`codegen.ir.domain`).
+"""Lie groups and their actions, each implemented once for all domains (:mod:`codegen.ir.domain`).
 
 One file defines one group, one file in ``actions`` one action. You can define a group or an action elsewhere:
 inherit :class:`LieGroup` (see :mod:`codegen.groups.base`) or :class:`Action`, use the class in a scene, and
@@ -75,8 +75,8 @@ def register(cls: Registered) -> Registered:
     decorator.
 
     A scene may use a class that is not registered. A second class of the same name replaces the first.
-    :class:`SceneError` is raised for a class of another kind, for a class with abstract methods, and for the
-    name of a class of this package.
+    :class:`SceneError` is raised for a class that is no group or action, for a class with missing methods,
+    and for a class with the name of a class of this package.
     """
     from codegen.groups.actions import ACTIONS, Action
     from codegen.groups.base import LieGroup
@@ -107,5 +107,6 @@ def listing() -> list[dict[str, str]]:
 
 
 def get(name: str) -> type[LieGroup]:
-    """Return the group class of that name; :class:`orderconds.errors.UnknownName` for an unknown name."""
+    """Return the group class called name; raise :class:`orderconds.errors.UnknownName` for an unknown
+    name."""
     return GROUPS.get(name)

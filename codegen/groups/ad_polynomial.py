@@ -1,4 +1,4 @@
-"""Functions of one ad as quadratic polynomials, on an algebra with ad_x^3 = -z ad_x.
+"""Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
 On such an algebra each function of ad_x, each product of functions and each inverse is 1 + b ad_x + c ad_x^2,
 where b and c are functions of z. On so(3), z = x.x. The Stumpff functions c_k of z give the coefficients of
@@ -76,7 +76,7 @@ def _single(d: Domain, factor: Factor, z: S) -> tuple[S, S]:
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
     """Return b and c of the inverse of 1 + b t + c t^2.
 
-    On the plane orthogonal to x, t^2 = -z, so the function is the complex number 1 - c z + i b sqrt(z).
+    On the plane orthogonal to x, t^2 = -z, so the function acts as the complex number 1 - c z + i b sqrt(z).
     """
     one: S = d.rational(1)
     p = one - c * z

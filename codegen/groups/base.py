@@ -6,12 +6,13 @@ left action, right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
 
 The first argument of each operation is a domain d (:mod:`codegen.ir.domain`). An operation uses ``+ - * /``
 on the scalars, constants from ``d.rational(p, q)`` and functions from ``d.call``. One implementation is then
-valid for floats, 40-digit numbers, power series in h, and expressions, whose evaluation is code generation.
+valid for floats, 40-digit numbers, power series in h, and expressions, from which code is emitted.
 
-To define a group, inherit :class:`LieGroup` and write the five abstract methods. They are enough for fields:
-all families of field methods, emission, convergence. A Hamiltonian needs the coadjoint action as well
-(:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted code shorter or permit
-further measurements. :func:`codegen.groups.register` adds the class to the list of groups.
+To define a group, inherit :class:`LieGroup` and write the five abstract methods. They are enough for field
+scenes, with all families of field methods, emitted code and convergence tests. A Hamiltonian needs the
+coadjoint action as well (:class:`codegen.groups.capabilities.Coadjoint`). The other capabilities make emitted
+code shorter or permit further measurements. :func:`codegen.groups.register` adds the class to the list of
+groups.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ class LieGroup(ABC):
 
     ``name`` is printed in messages and headers, ``dim`` is the dimension of the algebra, ``size`` is the
     number of coordinates of an element. ``abelian`` promises that all brackets vanish. ``layout`` describes
-    the order of the coordinates, as ``, row by row``. It is printed after the name in the description of the
-    state.
+    the order of the coordinates, for example ``, row by row``. It is printed after the name in the
+    description of the state.
     """
 
     name: str
@@ -46,8 +47,8 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     provides: ClassVar[str] = "group operations"
-    """What a capability adds to a group; it is printed in the message about a group without the
-    capability."""
+    """A noun for the operations that a capability adds; the message about a group without the capability
+    contains it."""
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:
@@ -98,12 +99,13 @@ class LieGroup(ABC):
         return (self,)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group as a group with a capability, None if it does not declare the capability."""
+        """Return this group as a group with a capability; None if the group does not declare the
+        capability."""
         return self if isinstance(self, capability) else None
 
     def require(self, capability: type[C], where: str = "") -> C:
-        """Return this group as a group with a capability; :class:`SceneError` if it does not declare the
-        capability."""
+        """Return this group as a group with a capability; raise :class:`SceneError` if it does not declare
+        the capability."""
         offered = self.offers(capability)
         if offered is None:
             raise SceneError(

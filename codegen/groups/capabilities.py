@@ -1,9 +1,9 @@
 """Capabilities: operations that some groups offer beyond the operations of every group.
 
-A group declares a capability by inheriting its class. Code that needs a capability asks
-``group.offers(Capability)``, which is None for a group without it, or ``group.require(Capability)``, which
-raises an error that names it. A product has a capability if all its factors have it, so use these methods and
-not ``isinstance``.
+A group declares a capability by inheriting its class. Code that needs a capability calls
+``group.offers(Capability)``, which returns None for a group without the capability, or
+``group.require(Capability)``, which raises an error that names the capability. Do not use ``isinstance``: the
+class of products declares capabilities that a product has only if all its factors have them.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ class Coadjoint(LieGroup):
 
 
 class RightTrivialisation(LieGroup):
-    """Tangent vectors as elements of the algebra, which the Jacobian of a step needs."""
+    """The conversion of tangent vectors to elements of the Lie algebra; the Jacobian of a step needs it."""
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
 
@@ -99,7 +99,7 @@ class RightTrivialisation(LieGroup):
 
 
 class BodyFrame(Coadjoint):
-    """Left translations and the equations of the group, which the body frame of a Hamiltonian needs."""
+    """Left translations and the equations of the group; a Hamiltonian in the body frame needs both."""
 
     provides: ClassVar[str] = "body frame"
 
@@ -121,7 +121,8 @@ class BodyFrame(Coadjoint):
 
 
 class ClosedFormSeries(Coadjoint):
-    """Functions of one ad as combinations of a few brackets: products of dexp, exp and dexp^{-1} merge."""
+    """Functions of ad_x in closed form: a product of dexp, exp and dexp^{-1} is a combination of a few
+    brackets."""
 
     provides: ClassVar[str] = "closed form of functions of ad"
 
@@ -141,8 +142,8 @@ class ClosedFormSeries(Coadjoint):
         """Return the sum of f W(ad_x) v over ``terms`` (f, W, v), in fewer brackets than by calls of
         :meth:`series`.
 
-        ``total`` returns the sum of f v over the terms whose numbers it is given. A caller passes it if it
-        has a shorter formula for the sum.
+        ``total(numbers)`` returns the sum of f v over the terms with these numbers. A caller that has a
+        shorter formula for such sums may pass it.
         """
 
 
@@ -160,7 +161,8 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, the inverse of :meth:`matrix`; linear in the matrix."""
+        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`, and a linear
+        map."""
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -193,7 +195,7 @@ class MatrixElements(MatrixRepresentation):
         return isqrt(self.size)
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the symbols of the entries: ``name``, row and column digits."""
+        """Return the symbols of the entries: ``name`` followed by the digits of row and column."""
         from sympy import Symbol
 
         rows = range(self.order)
@@ -207,7 +209,7 @@ class MatrixElements(MatrixRepresentation):
 
 
 class Rotations(MatrixElements):
-    """Elements are rotations: they keep the length of a column."""
+    """Elements are rotations: they preserve the length of a column."""
 
     provides: ClassVar[str] = "rotation of vectors"
 
@@ -217,7 +219,7 @@ class Rotations(MatrixElements):
 
 
 class PointMotions(LieGroup):
-    """Elements move the points of a vector space, and not only by linear maps."""
+    """Elements act on the points of a vector space by maps that need not be linear."""
 
     provides: ClassVar[str] = "motion of points"
 
@@ -243,8 +245,8 @@ class DirectProduct(LieGroup):
 
 
 class CotangentBundle(LieGroup):
-    """The group is T*G for a group G, its ``base``; the coordinates are those of G, then those of the
-    momentum."""
+    """The group is T*G for a group G, its ``base``; the coordinates of G come first, then the coordinates of
+    the momentum."""
 
     provides: ClassVar[str] = "momenta of a base group"
     base: Coadjoint
@@ -270,7 +272,7 @@ class Projection(LieGroup):
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:
-    """Return the sum of c x over terms (c, x), the empty tuple if there are none."""
+    """Return the sum of c x over terms (c, x); the empty tuple if there are no terms."""
     total: Vector[S] = ()
     for c, x in terms:
         factor: S = d.rational(c.numerator, c.denominator)

@@ -11,11 +11,11 @@ from codegen.ir.domain import Domain
 
 
 class Cotangent(CotangentBundle, Projection):
-    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu), elements and algebra in that order.
+    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu), where momenta follow the elements of G.
 
     With f(q, mu) = (xi, n) the flow is q' = xi.q, mu' = n - ad*_xi mu, that is z' = f(z).z (Arnold and Khesin
-    I.10.B; eq. 2.27 of H. Marthinsen's thesis). Hence exp(xi, n) = (exp xi, dexp*_{-xi} n) and
-    [(x, m), (y, n)] = ([x, y], ad*_y m - ad*_x n). :class:`SceneError` if G has no coadjoint action.
+    I.10.B; eq. 2.27 of H. Marthinsen's thesis). Hence exp(xi, n) = (exp xi, dexp*_{-xi} n) and [(x, m), (y,
+    n)] = ([x, y], ad*_y m - ad*_x n). :class:`SceneError` is raised if G has no coadjoint action.
     """
 
     def __init__(self, base: LieGroup) -> None:
@@ -65,7 +65,8 @@ class Cotangent(CotangentBundle, Projection):
         return self.base.ad(d, a, b) + tuple(p - q for p, q in pairs)
 
     def canonical(self, d: Domain, z: Vector[S], covector: Vector[S]) -> Vector[S]:
-        """Return (b, ad*_b mu - a) for a covector (a, b): the bivector of (2.26), right-trivialised.
+        """Return (b, ad*_b mu - a) for a covector (a, b): the right-trivialised canonical bivector (eq. 2.26
+        of Marthinsen's thesis).
 
         If the covector is the differential (ad*_xi mu - n, xi) of a Hamiltonian, the result is f = (xi, n).
         """

@@ -6,7 +6,7 @@ from codegen.groups.matrix import MatrixGroup
 
 
 class GL(MatrixGroup):
-    """Invertible n x n matrices, the algebra with the elementary matrices E_ij as basis, row by row."""
+    """Invertible n x n matrices; the algebra has the elementary matrices E_ij as its basis, row by row."""
 
     def __init__(self, n: int) -> None:
         r = range(n)

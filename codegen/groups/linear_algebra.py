@@ -77,7 +77,8 @@ def matvec(a: Vector[S], v: Vector[S]) -> Vector[S]:
 def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
     """Return the inverse of an n x n matrix by the Faddeev-LeVerrier recursion.
 
-    The recursion needs no pivots: over power series or expressions it is not known which pivot is not zero.
+    The recursion needs no pivots: over power series or expressions, it is not known which pivots are
+    non-zero.
     """
     identity: Vector[S] = tuple(d.rational(int(i == j)) for i in range(n) for j in range(n))
     ones: Vector[S] = (d.rational(1),) * n
@@ -92,7 +93,7 @@ def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
 
 
 def rational_inverse(a: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | None:
-    """Return the inverse of a rational matrix by Gauss-Jordan elimination, None for a singular one.
+    """Return the inverse of a rational matrix by Gauss-Jordan elimination; None for a singular matrix.
 
     >>> rational_inverse([[Fraction(2)]]), rational_inverse([[Fraction(0)]])
     ([[Fraction(1, 2)]], None)

@@ -1,7 +1,7 @@
 """Matrix groups given by a basis of their Lie algebra, without closed forms.
 
 Exponentials are summed as series. This is possible over numbers and over power series in h. Over expressions
-the sum ends only for a nilpotent algebra. So code can be emitted only for nilpotent groups, and for
+the sum ends only for a nilpotent algebra. Code can therefore be emitted only for nilpotent groups, and for
 subclasses with a closed form.
 """
 
@@ -55,14 +55,15 @@ class MatrixGroup(MatrixElements, Coadjoint):
         return tuple(x - y for x, y in pairs)
 
     def _coordinates(self, matrix: Vector[Fraction]) -> Vector[Fraction]:
-        """Return the coordinates of a rational matrix of the algebra; SceneError outside it."""
+        """Return the coordinates of a rational matrix; raise SceneError if the matrix is not in the
+        algebra."""
         products = tuple(dot(b, matrix) for b in self.basis)
         x = tuple(dot(tuple(row), products) for row in self._gram_inverse)
         if tuple(dot(x, tuple(b[k] for b in self.basis)) for k in range(self.size)) != matrix:
             raise SceneError(
                 "a basis that is not closed under [A, B] = AB - BA",
                 where=self.name,
-                expected="all brackets of basis matrices to be combinations of them",
+                expected="brackets of basis matrices that are combinations of basis matrices",
             )
         return x
 
@@ -71,7 +72,7 @@ class MatrixGroup(MatrixElements, Coadjoint):
         return tuple(_weighted(d, [b[k] for b in self.basis], x) for k in range(self.size))
 
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
-        """Invert :meth:`hat` on the algebra."""
+        """Return the coordinates of a matrix in the algebra: the inverse of :meth:`hat`."""
         products = [_weighted(d, b, matrix) for b in self.basis]
         return tuple(_weighted(d, row, products) for row in self._gram_inverse)
 
@@ -84,7 +85,8 @@ class MatrixGroup(MatrixElements, Coadjoint):
         return matmul(g, k, self.n)
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the matrix exponential: exact over power series in h, else to the last digit."""
+        """Return the matrix exponential: exact over power series in h, and accurate to rounding over
+        numbers."""
         a = self.hat(d, x)
         return _entire(d, self.identity(d), lambda term: matmul(a, term, self.n), 0)
 

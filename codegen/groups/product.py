@@ -17,11 +17,12 @@ if TYPE_CHECKING:
 
 
 class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
-    """G1 x G2 x ...: coordinates of the factors one after the other, every operation factor by factor.
+    """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
+    factor.
 
-    SO(3) x R^3 holds a rigid body's attitude and momentum, G x R a configuration and the time. SO(3) x R^3 is
-    not the group of rigid motions, whose rotations turn the translations. The product has a capability if all
-    its factors have it.
+    For example, SO(3) x R^3 describes the attitude and the momentum of a rigid body, and G x R a
+    configuration and the time. SO(3) x R^3 is not the group of rigid motions, in which rotations also act on
+    translations. The product has a capability if all its factors have it.
     """
 
     def __init__(self, *factors: LieGroup) -> None:
@@ -36,7 +37,7 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Return the factors' coordinates of an element of the group, of the algebra, or of its dual.
 
-        The length distinguishes group and algebra. Where the lengths are equal, they are equal in every
+        The length of x distinguishes group and algebra. If both have the same length, so have those of every
         factor.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
@@ -44,9 +45,9 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
         return tuple(tuple(x[end - n : end]) for end, n in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this product as a group with a capability, None if a factor lacks it."""
+        """Return this product as a group with a capability; None if a factor lacks the capability."""
         own = super().offers(capability)
-        if issubclass(DirectProduct, capability):  # to be a product needs nothing of the factors
+        if issubclass(DirectProduct, capability):  # this capability depends on no factor
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 

@@ -1,5 +1,5 @@
-"""The classes of one kind by name: the classes of this package, imported on first use, and registered
-ones."""
+"""Registries of classes by name: classes of this package, which are imported on first use, and registered
+classes."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ T = TypeVar("T")
 
 
 class Registry(Generic[T]):
-    """The classes of one kind. ``home`` is the package that has the built-in ones as attributes."""
+    """A registry of groups or of actions by name. ``home`` is the package that has the built-in classes as
+    attributes."""
 
     def __init__(self, kind: str, home: str, built_in: Sequence[str]) -> None:
         self.kind, self.home, self.built_in = kind, home, tuple(built_in)
@@ -22,20 +23,20 @@ class Registry(Generic[T]):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """All names: the built-in ones first."""
+        """All names; the names of built-in classes come first."""
         return (*self.built_in, *self._added)
 
     def add(self, cls: type[T]) -> None:
         """Add a class under its own name.
 
         A second class of the same name replaces the first, because a scene file may be read twice.
-        :class:`SceneError` for the name of a built-in class and for a class with abstract methods.
+        :class:`SceneError` is raised for the name of a built-in class and for a class with abstract methods.
         """
         name, missing = cls.__name__, sorted(getattr(cls, "__abstractmethods__", ()))
         if missing:
             raise SceneError(
                 f"the {self.kind} {name} without {', '.join(missing)}",
-                expected="a class with all abstract methods of its bases",
+                expected="a class that implements all abstract methods of its bases",
             )
         if name in self.built_in:
             raise SceneError(f"a second {self.kind} called {name}", expected="another name for the class")
@@ -47,7 +48,7 @@ class Registry(Generic[T]):
             del self._added[cls.__name__]
 
     def get(self, name: str) -> type[T]:
-        """Return the class of that name; :class:`orderconds.errors.UnknownName` for an unknown name."""
+        """Return the class called name; raise :class:`orderconds.errors.UnknownName` for an unknown name."""
         if name in self._added:
             return self._added[name]
         if name not in self.built_in:

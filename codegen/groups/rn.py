@@ -10,8 +10,8 @@ from codegen.ir.domain import Domain
 class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation, Projection):
     """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
 
-    On R^n RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic partitioned
-    ones.
+    On R^n, RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic
+    partitioned Runge-Kutta methods.
     """
 
     abelian = True

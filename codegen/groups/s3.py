@@ -10,10 +10,10 @@ from codegen.ir.domain import Domain
 class S3(Coadjoint, RightTrivialisation, Projection):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
-    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x =
-    2 x cross y, and exp(x) turns vectors about x by the angle 2|x|. Ad_g x = g x g^c is that rotation,
-    Ad*_g mu = g^c mu g, ad*_x mu = -2 x cross mu. With z = x.x and the Stumpff functions c_k:
-    exp(x) = (c_0(z), c_1(z) x), dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
+    The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x = 2 x
+    cross y, and exp(x) rotates vectors about x by the angle 2|x|. With the conjugate g^c, Ad_g x = g x g^c is
+    the rotation by g, Ad*_g mu = g^c mu g, ad*_x mu = -2 x cross mu. With z = x.x and the Stumpff functions
+    c_k: exp(x) = (c_0(z), c_1(z) x), dexp_x = 1 + c_2(4z) ad_x + c_3(4z) ad_x^2.
     """
 
     name, layout = "S^3", ", real part first"
@@ -61,7 +61,7 @@ class S3(Coadjoint, RightTrivialisation, Projection):
         return tuple(a + real * b + c for a, b, c in zip(x, first, second, strict=True))
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp_{-x} mu, by c_2 and c_3 of the squared angle 4 |x|^2."""
+        """Return dexp*_x mu = dexp_{-x} mu, with c_2 and c_3 at the squared angle 4 |x|^2."""
         twice = tuple(d.rational(2) * a for a in x)
         z = dot(twice, twice)
         c2, c3 = d.call("stumpff2", z), d.call("stumpff3", z)

@@ -13,11 +13,11 @@ if TYPE_CHECKING:
 
 
 class SE2(Coadjoint, PointMotions, Projection):
-    """Motions z -> R z + a of the plane as (c, s, a0, a1): R turns by the angle with cosine c and sine s.
+    """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
-    The algebra holds (w, u0, u1): the angular velocity w and the velocity u at the origin. With J(a, b) =
-    (-b, a): [(w, u), (w', u')] = (0, w J u' - w' J u). Since ad_x^3 = -w^2 ad_x, dexp_x = 1 + c_2(w^2) ad_x +
-    c_3(w^2) ad_x^2, and exp(w, u) turns by w and translates by (c_1(w^2) + c_2(w^2) w J) u.
+    An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. With
+    J(a, b) = (-b, a): [(w, u), (w', u')] = (0, w J u' - w' J u). Since ad_x^3 = -w^2 ad_x, dexp_x = 1 +
+    c_2(w^2) ad_x + c_3(w^2) ad_x^2, and exp(w, u) rotates by w and translates by (c_1(w^2) + c_2(w^2) w J) u.
     """
 
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"

@@ -21,14 +21,15 @@ from codegen.ir.number import Number
 
 
 class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projection):
-    """Rotations of R^3: a matrix row by row; so(3) and so(3)* are R^3 by the hat map and the dot product.
+    """Rotations of R^3: a matrix row by row; the hat map and the dot product identify so(3) and so(3)* with
+    R^3.
 
     [x, y] = x cross y, Ad_g x = g x, Ad*_g mu = g^T mu, ad*_x mu = -x cross mu, dexp*_x = dexp_{-x}. With
     z = x.x and the Stumpff functions c_k: exp(x) = 1 + c_1 hat(x) + c_2 hat(x)^2 (Rodrigues), dexp_x =
     1 + c_2 ad_x + c_3 ad_x^2.
 
-    expmul(x, g) is the matrix product exp(x) g. If a column is ``dependent`` (its number), only the two
-    others are rotated, and the dependent column is their cross product.
+    expmul(x, g) is the matrix product exp(x) g. If ``dependent`` is the number of a column, only the two
+    other columns are rotated, and this column is their cross product.
     """
 
     name, layout = "SO(3)", ", row by row"
@@ -38,7 +39,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         self.dependent = dependent
 
     def variants(self) -> Sequence[SO3]:
-        """Return the group without a dependent column, then with each of the three."""
+        """Return the group without a dependent column, then the group with each of the three columns
+        dependent."""
         return (self, *(SO3(column) for column in range(3)))
 
     def identity(self, d: Domain) -> Vector[S]:
@@ -100,8 +102,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
 
-        As ad_x^3 = -z ad_x with z = x.x, each function is 1 + b ad_x + c ad_x^2, and so are products and
-        inverses.
+        As ad_x^3 = -z ad_x with z = x.x, each function is 1 + b ad_x + c ad_x^2, and products and inverses
+        have this form, too.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -120,9 +122,9 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     ) -> Vector[S]:
         """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
 
-        Terms with the same coefficient of ad_x, or of ad_x^2, are added before the sum is multiplied by it.
-        ``total`` returns the sum of f v over the terms with given numbers, where the caller has a shorter
-        formula.
+        Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
+        once. ``total(numbers)`` returns the sum of f v over the terms with these numbers; a caller that has a
+        shorter formula may pass it.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:

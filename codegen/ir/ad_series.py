@@ -1,4 +1,4 @@
-"""Words: products of the functions dexp, dexp^{-1} and exp of one ad, applied one after the other.
+"""Words: products of the functions dexp, dexp^{-1} and exp of the same operator ad_x.
 
 The factors of a word are functions phi(s t) of one variable t. The variable t is ad_x, or ad*_x on the dual.
 The factors commute, so a word is their product in any order.
@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# Factors are ordered, because simplified words are sorted: equal products must become equal tuples.
+# Factors have an order, because a simplified word is sorted: equal products must become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
-    """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv cut off after t^order."""
+    """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv: the series of 1/dexp truncated
+    after t^order."""
 
     function: str
     scale: Fraction
@@ -21,13 +22,13 @@ class Factor:
     power: int = 1
 
     def text(self) -> str:
-        """Return the text ``exp(-t)``, ``1/dexpinv2(t)``."""
+        """Return the factor as text, for example ``exp(-t)`` or ``1/dexpinv2(t)``."""
         scale = {"1": "", "-1": "-"}.get(str(self.scale), str(self.scale))
         order = str(self.order) if self.function == "dexpinv" else ""
         return f"{'1/' if self.power < 0 else ''}{self.function}{order}({scale}t)"
 
     def scaled(self, by: Fraction) -> Factor:
-        """Return the function of t/by: phi(scale by t)^power."""
+        """Return phi(by scale t)^power: the factor with ``by`` t in place of t."""
         # phi(s t) with t = by t' is phi(s by t'): only the scale changes.
         return Factor(self.function, self.scale * by, self.order, self.power)
 
@@ -59,8 +60,8 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # The loop runs over a copy, because the rule adds keys. The rule applies at most once: no exponential is
-    # left then.
+    # The loop runs over a copy, because the rule adds keys. The rule applies at most once, because it uses up
+    # the exponential.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
         if function == "dexp" and n > 0 and rate == -scale:

@@ -1,6 +1,7 @@
-"""The depth of angles: the length of the longest chain of angles, each computed from the one before.
+"""The depth of a kernel: the length of its longest chain of rotation angles in which each angle depends on
+the previous angle.
 
-The depth bounds how far a step may turn before no correct digit is left
+The depth limits the angle of a step, because each link of the chain multiplies rounding errors
 (:func:`codegen.snippets.stumpff.limit`).
 """
 
@@ -15,9 +16,8 @@ from codegen.ir.kernel import Kernel, Let
 def chain(kernel: Kernel) -> int:
     """Return the largest number of nested Stumpff functions, at least 1.
 
-    A kernel with equations has depth 1: their solution is as accurate as the equations. A kernel with
-    deferred
-    flows also has depth 1: the next flow does not multiply the error that one flow adds to an angle.
+    A kernel with equations has depth 1, because the solution is as accurate as the equations. A kernel with
+    deferred flows also has depth 1, because a flow does not multiply the angle errors of earlier flows.
 
     >>> from codegen.ir.expr import Space
     >>> space = Space()
@@ -34,13 +34,13 @@ def chain(kernel: Kernel) -> int:
     for statement in kernel.body:
         if isinstance(statement, Let):
             depths[statement.name] = _depth(statement.value, depths)
-    # Only outputs count: lost digits do not reach the state if no output reads the value. The bound is
-    # divided by the depth, so the depth is at least 1.
+    # Only the expressions of outputs count: a value that no output reads cannot damage the state. The depth
+    # is at least 1, because the bound on the angle is divided by the depth.
     return max([1, *(_depth(x, depths) for x in kernel.outputs)])
 
 
 def _depth(root: Expr, depths: Mapping[str, int]) -> int:
-    """Return the depth of an expression; ``depths`` holds the depths of its symbols."""
+    """Return the depth of an expression; ``depths`` contains the depths of its symbols."""
     by_node: dict[int, int] = {}
     for node in walk([root]):
         # walk yields the arguments of a node before the node.
@@ -48,7 +48,7 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
         # Inputs have depth 0: the state is taken to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # The signed functions count too. Slopes do not: they occur in derivatives only, next to functions of
-        # the same angle.
+        # The signed Stumpff functions count, too. The slope functions do not count, because they occur only
+        # in derivatives, next to Stumpff functions of the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -1,8 +1,8 @@
-"""Constants collected: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
+"""Collect constants: 1 + 3/2 (3/2 - 2 x) becomes 13/4 - 3 x, and 3/2 a - 3/2 b becomes 3/2 (a - b).
 
-The rewriting is exact. Each expression becomes a linear combination of atoms: expressions that are not
-linear combinations themselves. Numbers move out of products and powers, and into numerators:
-3/2 (1/sqrt x)^3 becomes (3/2)/(x sqrt x), which has two or three fewer products in a row. Expanded sums may
+The rewriting is exact. Each expression becomes a linear combination of atoms: expressions that are not linear
+combinations themselves. Numbers move out of products and powers, and into numerators: 3/2 (1/sqrt x)^3
+becomes (3/2)/(x sqrt x), which shortens the chain of dependent products by two or three. Expanded sums may
 share fewer subexpressions, so the result is used only if it has fewer operations.
 """
 
@@ -15,8 +15,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
-"""A linear combination: a coefficient and an expression by the expression's number; a constant has expression
-1."""
+"""A linear combination: the number of each expression maps to its coefficient and the expression. A constant
+term has the expression 1."""
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
@@ -34,14 +34,15 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # The number in front of a kept node may still join other numbers, so only the node without its number is
-    # kept.
+    # Only the node without its numeric factor is kept, because the factor may still be combined with other
+    # numbers.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
             # A kept node is entered as an atom: one times itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # Recorded before whole() adds to the sums: nodes inside kept nodes cost the same in both forms.
+    # Recorded before whole() extends the sums. Kept nodes are not counted, because they cost the same in both
+    # forms.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
     # Expanding can destroy sharing. A tie keeps the given form, which earlier passes have chosen.
@@ -64,12 +65,10 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers of an inverse root that are rewritten, where only odd powers from the third on are
-    read.
+    """Return the powers (1/sqrt x)^n to rewrite: those of roots of which only odd powers n >= 3 are read.
 
-    The result maps a power's node number to the number of the inverse root and the exponent. Numeric factors
-    do
-    not count. Parts of ``kept`` expressions are left out.
+    The result maps the node number of a power to the pair (node number of 1/sqrt x, exponent n). Numeric
+    factors are ignored. Subexpressions of ``kept`` are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
@@ -85,7 +84,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # Only powers that another operation reads count: y^2 inside y^3 is an intermediate value.
+    # Only powers that are read outside other powers of y count: y^2 inside y^3 is an intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
     # If y itself is read, y is computed in any case, and all powers of y share the division in y.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
@@ -93,7 +92,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Whether a node is a product of a number and powers ``inside`` of one inverse root."""
+    """Whether a node is a product of numbers and powers of one inverse root. ``inside`` lists the node's
+    arguments that are such powers, as pairs (root, exponent)."""
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 
@@ -120,8 +120,8 @@ class _Gathering:
         return self._spell(root)
 
     def _spell(self, node: Expr) -> Expr:
-        """Return the expression of a node's combination; the first reader of an inverse determines its
-        numerator."""
+        """Return a node's linear combination as an expression. An inverse 1/y gets the coefficient of its
+        first reader as numerator."""
         if node.id not in self.written:
             # The expression is formed at the first reading and then reused, so sharing survives.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
@@ -129,7 +129,7 @@ class _Gathering:
         return self.written[node.id]
 
     def _inverse(self, c: Number, atom: Expr) -> tuple[Number, Expr]:
-        """Return c 1/y as d (e/y), where e is |c| of the first reader."""
+        """Return c (1/y) as d (e/y), where e is |c| of the first term that reads 1/y."""
         if not _is_inverse(atom):
             return c, atom
         # A numerator other than 1 costs nothing, and it replaces the first reader's product. Later readers
@@ -139,8 +139,8 @@ class _Gathering:
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
-        # Irrational constants are atoms: constants of two fields cannot be added, and a ball is rounded only
-        # once.
+        # Irrational constants are atoms: constants of two fields cannot be added, and a ball must be rounded
+        # only once.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -152,8 +152,8 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # A term that cancels must be removed: a combination of one term is a multiple, and a product can
-            # absorb the factor of a multiple.
+            # Terms that cancel are removed, because a combination of only one term is a multiple of an
+            # expression, and its factor can move out of a product.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
@@ -179,8 +179,7 @@ class _Gathering:
         return {atom.id: (one, atom)}
 
     def _power(self, node: Expr) -> Sum:
-        """Return a power of the inverse of a root sqrt x as the inverse of a power of x, perhaps times sqrt
-        x."""
+        """Return (1/sqrt x)^n as 1/x^m for n = 2 m, or as 1/(x^m sqrt x) for n = 2 m + 1."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
         # The numeric factors inside y^n are collected, so that the power itself contains no numbers.
@@ -199,7 +198,7 @@ class _Gathering:
         """Return c and x with the node equal to c x; c is 1 unless the node is a multiple of one
         expression."""
         total = self.sums[node.id]
-        if len(total) != 1:  # sums are often read more than once
+        if len(total) != 1:  # numbers stay inside a sum, which may have other readers
             return Number.rational(1), self._spell(node)
         ((c, atom),) = total.values()
         return self._inverse(c, atom)
@@ -214,7 +213,7 @@ def _size(c: Number) -> Number:
 
 
 def _expression(total: Sequence[tuple[Number, Expr]], space: Space) -> Expr:
-    """Return a combination as an expression: terms with coefficients c or -c are added first."""
+    """Return a combination as an expression: terms whose coefficients differ only in sign are added first."""
     # Terms are grouped by |c|, so 3/2 a - 3/2 b takes one product. Dictionaries keep the order of first use,
     # so the result depends on the input alone.
     groups: dict[object, list[tuple[bool, Expr]]] = {}

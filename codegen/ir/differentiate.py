@@ -38,9 +38,8 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr) -> list[Expr]:
     """Return the derivatives of a node by its arguments, in order.
 
-    The derivatives of ``quotient`` hold where its divisor is not zero. :class:`NotDifferentiable` is raised
-    for
-    ``signed_stumpff1`` and the slopes.
+    The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
+    raised for ``signed_stumpff1`` and the slopes.
     """
     space, args = node.space, node.args
     match node.op:
@@ -87,8 +86,8 @@ def _derivatives(node: Expr) -> list[Expr]:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
-        # The rule would need c_4 and c_5, which have no evaluation of their own; the slope functions combine
-        # them.
+        # The rule contains c_4 and c_5, which are not available functions. The functions slope2 and slope3
+        # evaluate the whole derivative instead.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "quotient":

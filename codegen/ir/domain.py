@@ -1,8 +1,8 @@
-"""Domains: the scalars that a program, a group or a scene is evaluated over.
+"""Domains: the number systems in which programs, groups and scenes are evaluated.
 
 Every group operation is implemented once, for all domains: floats, mpmath numbers, truncated power series in
-h, and expressions. Evaluation over expressions is code generation. A domain supplies what the operators of
-its scalars cannot: constants, named functions, the step h, and the test whether a fixed-point iteration has
+h, and expressions. Evaluation over expressions is code generation. Scalars support the arithmetic operators.
+The domain adds constants, named functions, the step h, and the test whether a fixed-point iteration has
 converged.
 """
 
@@ -20,12 +20,12 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """A fixed-point iteration of the interpreter that reached its limit, or left the finite numbers."""
+    """An iteration of the interpreter reached its limit, or a number that is not finite."""
 
 
 # The scalars are float, mpf, series and Expr: they share operators but no base class.
 Scalar: TypeAlias = Any
-"""A number of one domain: the domain determines the type when a program runs."""
+"""A number of one domain; its type depends on the domain and is known only at run time."""
 
 Value: TypeAlias = Any
 """A value of a variable: a scalar for the kind Real, a flat tuple of scalars of one domain for all other
@@ -36,7 +36,8 @@ Values: TypeAlias = tuple[Value, ...]
 
 
 class Domain(Protocol):
-    """Scalars of one kind; ``h`` is the step size among them."""
+    """A number system: it creates scalars and evaluates functions of scalars; ``h`` is the step size as a
+    scalar."""
 
     h: Scalar
 
@@ -50,11 +51,12 @@ class Domain(Protocol):
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether an iteration has converged, and the size of its last change for the next call."""
+        """Return whether an iteration has converged, and the size of its change, which is ``previous`` in the
+        next call."""
 
 
 class Differenced(Domain, Protocol):
-    """A domain with difference quotients, with which Newton's method needs no derivatives."""
+    """A domain in which Newton's method can use difference quotients in place of derivatives."""
 
     def increment(self, x: Scalar) -> Scalar:
         """Return the step of a difference quotient at x."""
@@ -64,7 +66,8 @@ def stumpff(k: int, z: float) -> float:
     """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
-    result is not a number, as in emitted code, because half of the digits of the angle are full turns there.
+    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, and its full turns use up half of
+    the digits.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -111,7 +114,8 @@ def slope(k: int, z: float) -> float:
 class FloatDomain:
     """IEEE double precision.
 
-    A fixed-point iteration stops after ``patience`` sweeps, and Newton's method solves the block instead.
+    If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's method solves the block
+    instead.
     """
 
     patience = 40
@@ -139,7 +143,7 @@ class FloatDomain:
         return result
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return whether the changes are at rounding level, and the size of the last one."""
+        """Return whether the changes are at rounding level, and the size of the last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         # Comparisons with a NaN are false, so without this test the iteration would go on to its limit.
         if not math.isfinite(change):
@@ -149,8 +153,8 @@ class FloatDomain:
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         # With the rate change/before, the remaining error is about change^2/before, which must be below half
-        # a unit in the last place. The first condition limits how far a rate that was measured once is
-        # trusted.
+        # a unit in the last place. The first condition is needed, because a rate that was measured only once
+        # is not reliable.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Changes that no longer decrease are rounding errors if they are small, and a sign of divergence if
@@ -165,12 +169,12 @@ class FloatDomain:
 
 
 class PreciseDomain:
-    """mpmath numbers of a given number of decimal digits, in a context of their own."""
+    """mpmath numbers with a given number of decimal digits; each domain has its own mpmath context."""
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
 
-        # The precision of mpmath's global context belongs to the caller.
+        # mpmath's global context is not changed, because its precision belongs to the caller.
         self.context = mpmath.mp.clone()
         self.context.dps = digits
         self.digits = digits
@@ -193,7 +197,7 @@ class PreciseDomain:
         return self.context.mpf(p) / q
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Call mpmath; Stumpff functions by their series near zero."""
+        """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
         if function.startswith("slope"):
@@ -229,8 +233,8 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether the changes stopped decreasing within 2^12 units of the precision, and the last
-        change."""
+        """Return whether the changes are within 2^12 units of the precision and no longer decrease, and the
+        last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
         # A small change is not enough, because the next sweep may still gain digits: changes must have
@@ -243,7 +247,8 @@ class PreciseDomain:
 
 
 class SeriesDomain:
-    """Power series in h over an exact ring, truncated beyond h^order: the domain of exact local errors."""
+    """Power series in h over an exact ring, truncated beyond h^order; local errors are computed exactly in
+    this domain."""
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
@@ -263,10 +268,10 @@ class SeriesDomain:
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Evaluate an entire function exactly at a series without constant term; other functions are refused.
+        """Return an entire function of a series without constant term, exactly; raise an ArithmeticError
+        otherwise.
 
-        The last coefficients of a quotient are unknown and set to zero, as many as the valuation of the
-        divisor.
+        A quotient by a series of valuation v has v unknown coefficients at its end, which are set to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -291,7 +296,7 @@ class SeriesDomain:
         return self._sum(k, step, first, z * z if step == 2 else -z)
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
-        """Return a/b where the valuation of a is at least that of b; 0 where b vanishes."""
+        """Return a/b, or 0 if b is zero; the valuation of a must be at least the valuation of b."""
         # The quotient of two series that both vanish at h = 0 has a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
@@ -303,7 +308,7 @@ class SeriesDomain:
         return next(shifted) / next(shifted)
 
     def _sum(self, k: int, step: int, first: Scalar, z: Scalar) -> Scalar:
-        """Return the sum of first (-z)^j k!/(step j + k)!."""
+        """Return the sum over j of first (-z)^j k!/(step j + k)!."""
         total, term, j = first, first, 0
         while True:
             j += 1
@@ -317,14 +322,14 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether nothing has changed; an exact iteration needs no size."""
+        """Return whether all unknowns are unchanged, and None: an exact comparison needs no size."""
         # A contraction by O(h) fixes one more coefficient a sweep, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """Expressions of one space; ``h`` is a symbol. Blocks become loops of emitted code and are not
-    iterated."""
+    """Expressions of one space; ``h`` is a symbol. Blocks are not iterated, but become loops of the emitted
+    code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
@@ -354,5 +359,5 @@ class ExprDomain:
         return self.samples[t.id][1]
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Refuse: there is nothing to iterate."""
+        """Raise :class:`NotConverged`, because expressions have no values to compare."""
         raise NotConverged("expressions are not iterated")

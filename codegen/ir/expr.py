@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``, None for all others."""
+"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``; None for all other
+operations."""
 
 FUNCTIONS = (
     "sqrt",
@@ -45,7 +46,7 @@ FUNCTIONS = (
 
 
 class Expr:
-    """One node; only its :class:`Space` creates it."""
+    """One node of an expression; nodes are created by their :class:`Space` only."""
 
     # Neither == nor hash is defined: within one space equal expressions are the same object.
     __slots__ = ("args", "id", "op", "payload", "space")
@@ -103,7 +104,7 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # The table holds every node alive, so numbers are never reused.
+        # The table keeps every node in memory, so node numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
@@ -247,7 +248,7 @@ class Space:
         if a.op == "neg":
             power = self.pow(a.args[0], n)
             return self.neg(power) if n % 2 else power
-        # (sqrt x)^(2m) = x^m where the root is real. Where it is not, the step fails in both forms.
+        # (sqrt x)^(2m) = x^m where the root is real, and formulas are evaluated only there.
         if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
             return self.pow(a.args[0], n // 2)
         return self._make("pow", (a,), n)
@@ -262,15 +263,15 @@ class Space:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Whether two constants can be folded: balls are not folded, so that a printer rounds each only once."""
+    """Whether two constants can be folded into one constant: they need a common ring."""
     # Rational numbers embed in every ring. Two different rings have no common ring.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
-    """Yield every node below the roots once, arguments before users; nodes for which stop holds are
-    leaves."""
+    """Yield each node of the expressions once, arguments before users; skip the arguments of nodes for which
+    stop is true."""
     # An explicit stack is used, because long steps nest deeper than Python's limit of recursion.
     seen: set[int] = set()
     waiting: list[Expr | None] = []
@@ -278,7 +279,7 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
         waiting.append(root)
         while waiting:
             node = waiting.pop()
-            if node is None:  # a marker: all arguments of the node below it were yielded
+            if node is None:  # a marker: all arguments of the node below it on the stack were yielded
                 user = waiting.pop()
                 # The node lies directly below its marker on the stack.
                 assert user is not None
@@ -340,7 +341,7 @@ def power(x: Scalar, n: int) -> Scalar:
 
 
 def text(root: Expr) -> str:
-    """Return an expression as text for people."""
+    """Return an expression as readable text, fully parenthesised."""
     parts: dict[int, str] = {}
     infix = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
     for node in walk([root]):

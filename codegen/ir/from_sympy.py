@@ -1,4 +1,4 @@
-"""Reading sympy: a scene's formulas become expressions, and no other part of the compiler reads formulas.
+"""Convert the sympy formulas of a scene to expressions; the rest of the compiler uses only expressions.
 
 The arguments of a sympy formula are sorted by ``sort_key``, so that the result does not depend on hashing.
 """
@@ -21,9 +21,10 @@ CALLS = ("sin", "cos", "exp", "log")
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
-    """Return a sympy expression as a node of space; :class:`SceneError` names what cannot be read.
+    """Return a sympy expression as a node of space; a :class:`SceneError` names a part that cannot be read.
 
-    Rational numbers stay exact. Floats are refused, because orders are computed on exact scenes.
+    Rational numbers stay exact. Floats are refused, because the order of a method is computed exactly and
+    needs exact formulas.
     """
     import sympy
 

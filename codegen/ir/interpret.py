@@ -23,7 +23,8 @@ TO_SPACE = TO_BODY.opposite()
 
 
 def flatten(kind: Kind, value: Value) -> tuple[Scalar, ...]:
-    """Return the scalars of a value: every value but a Real is a flat tuple already, matrices row by row."""
+    """Return the scalars of a value: a Real is one scalar, all other values are flat tuples (matrices row by
+    row)."""
     return (value,) if kind is Kind.REAL else tuple(value)
 
 
@@ -43,13 +44,14 @@ def interpret(
     ``inputs`` has a value for each input: a scalar of the domain for a Real, else a flat tuple of scalars
     (group elements row by row). Blocks are solved by fixed-point iteration until the domain reports
     convergence. If an iteration is slow or fails, Newton's method with difference quotients solves the block,
-    provided that the domain has them and ``newton`` is true. :class:`NotConverged` names a block that takes
+    provided that the domain has them and ``newton`` is true. :class:`NotConverged` names a block that needs
     more than ``limit`` sweeps.
 
-    Iterations start at ``solutions``, and the new solutions are stored there. With ``near``, Newton's method
-    is used at once. ``near`` has a list of numbers for each block, in the order of solution; each list is
-    replaced by the block's solution. If the domain has a method ``computed``, it receives the name and the
-    value of each result and returns a new value.
+    If ``solutions`` is given, iterations start at its values and store the new solutions in it. If ``near``
+    is given, Newton's method is used from the first sweep: ``near`` contains the start of each block as a
+    list of numbers, in the order in which the blocks are solved, and each list is replaced by the solution of
+    the block. If the domain has a method ``computed``, it receives the name and the value of each result and
+    returns a new value.
     """
     if program.frame == BODY:
         # The statements are the same in both frames; only the state that they read and return is converted.
@@ -76,22 +78,38 @@ def interpret(
             # near is a queue: each block removes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
-            # Where fixed-point iteration contracts it is accurate to rounding, without difference quotients.
-            patience = getattr(domain, "patience", limit) if newton else limit
-            try:
-                _iterate(statement, env, domain, run, min(limit, patience), expected)
-            # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
-            except (ArithmeticError, ValueError):
-                if not newton or not hasattr(domain, "increment"):
-                    raise
-                _correct(statement, env, _differenced(domain), run, limit)
+            _fixed_point_first(statement, env, domain, run, limit, expected, newton)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
 
 
+def _fixed_point_first(
+    block: Solve,
+    env: Env,
+    domain: Domain,
+    run: Callable[[Assign], None],
+    limit: int,
+    expected: Env,
+    newton: bool,
+) -> None:
+    """Solve a block by fixed-point iteration and, if this fails and ``newton`` is true, by Newton's method.
+
+    Where the fixed-point iteration contracts, its result is accurate to rounding, and it needs no difference
+    quotients.
+    """
+    patience = getattr(domain, "patience", limit) if newton else limit
+    try:
+        _iterate(block, env, domain, run, min(limit, patience), expected)
+    # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
+    except (ArithmeticError, ValueError):
+        if not newton or not hasattr(domain, "increment"):
+            raise
+        _correct(block, env, _differenced(domain), run, limit)
+
+
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    # Ad*_q is the operation of programs and not a separate formula, because all groups have the operation.
+    # Every group implements the operation Ad*_q of programs, so no separate formula is needed.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -99,10 +117,11 @@ def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tupl
 def outward(
     problem: Problem, domain: Domain, state: Mapping[str, Value], *ends: Mapping[str, Value]
 ) -> tuple[Scalar, ...]:
-    """Return the momentum in space after a step whose momentum was in the body frame; ``ends`` are both ends.
+    """Return the space momentum after a step that was computed with the body momentum.
 
-    The result is mu plus the change of the momentum between the ends. If q is not quite orthogonal by
-    rounding, it then rotates only the change, and not mu.
+    ``state`` contains the space momentum mu before the step. ``ends`` are the states before and after the
+    step, with the body momentum. The result is mu plus the change of the space momentum. Rounding makes q
+    slightly non-orthogonal, and this error then affects only the change, and not mu.
     """
     # Both ends are converted by the same operation, so that the rounding errors of a q that is not quite
     # orthogonal cancel in the difference.
@@ -161,7 +180,7 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # A domain that wraps another one forwards attributes by __getattr__, which isinstance does not see.
+    # isinstance would miss a domain that wraps another domain and forwards attributes by __getattr__.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -176,8 +195,8 @@ def _correct(
 ) -> list[Scalar]:
     """Solve a block by Newton's method with difference quotients: no formula is differentiated.
 
-    It begins at ``near``, by default at the block's starts, and returns the unknowns. If the domain has a
-    method ``rounded``, it rounds the right-hand sides g(u), called images.
+    The iteration begins at ``near``, by default at the block's starts. The result is the list of unknowns. If
+    the domain has a method ``rounded``, this method rounds the right-hand sides g(u), called images.
     """
     kinds = [u.kind for u in block.unknowns]
     # All unknowns of a block form one vector, because their equations depend on one another.
@@ -211,8 +230,9 @@ def _correct(
         # The correction d solves (1 - g') d = g(u) - u.
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
-        if near is not None:  # each correction squares the error
-            # The increment is the root of the precision, and Newton's method squares the error.
+        if near is not None:
+            # The increment is the square root of the precision. A smaller change is enough, because the next
+            # correction squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
@@ -220,7 +240,7 @@ def _correct(
             images(now)
             if sharp:
                 return now
-            sharp = True  # once more: a fixed point that settles slowly leaves some rounding errors
+            sharp = True  # one more correction, because slow convergence leaves some rounding errors
     raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
 
 
@@ -229,7 +249,7 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # Partial pivoting is needed: the matrix is near the identity only where h is small.
+        # Partial pivoting is needed: the matrix is near the identity only for small h.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:

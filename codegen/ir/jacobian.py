@@ -1,11 +1,12 @@
-"""Jacobians of expressions by elimination of vertices: exact, and cheaper than one column after another.
+"""Jacobians of expressions by elimination of vertices: exact, and cheaper than to compute one column after
+the other.
 
 The expressions form a graph whose edges are labelled with partial derivatives. The elimination of a vertex
 multiplies the label of each incoming edge by the label of each outgoing edge. When only the variables and the
 results are left, the labels of the edges between them are the Jacobian. The order of elimination determines
-the number of products. The next vertex is always the one on the fewest paths (Markowitz's rule; Griewank and
-Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two possible orders, and
-seldom the best.
+the number of products. The vertex on the fewest paths is always eliminated next (Markowitz's rule; Griewank
+and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders,
+which are seldom the cheapest.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from codegen.ir.expr import Expr, walk
 def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr, ...], ...]:
     """Return d roots[i] / d symbols[j], a row for each root, in the roots' space.
 
-    :class:`codegen.ir.differentiate.NotDifferentiable` is raised where a function has no derivative.
+    :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a function has no derivative.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y = s.sym("x"), s.sym("y")
@@ -65,7 +66,7 @@ class _Graph:
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}
-            # An edge with the derivative 1 joins a variable or an inner node to the result that it is.
+            # An edge with the derivative 1 joins each root to the vertex of its result.
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
@@ -90,8 +91,8 @@ class _Graph:
     def eliminate(self) -> None:
         """Eliminate every inner vertex, the cheapest first; among equal costs the vertex nearest to the
         results."""
-        # The queue holds the negative number: among equal costs the youngest vertex is the first, which is
-        # nearest to the results.
+        # The queue contains -v, so that among equal costs the newest vertex comes first, which is nearest to
+        # the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         # A vertex may have several entries in the queue, of which the first valid entry counts.

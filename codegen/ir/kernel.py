@@ -2,9 +2,9 @@
 
 A kernel is single assignment. A :class:`Loop` solves u = g(u) for its unknowns u. The values g(u) are called
 images. The loop repeats its body until the unknowns converge: it replaces the unknowns by their images, or
-corrects them by Newton's method. Values of the body may be read after the loop, and are those of the last
-sweep. A :class:`Start` gives the first values of the unknowns of all loops, unless solutions of earlier steps
-are known. A kernel has no other branches on data: it uses selections.
+corrects them by Newton's method. Statements after the loop may read values of the body, as computed in the
+last sweep. A :class:`Start` computes the first values of the unknowns of all loops, unless solutions of
+earlier steps are known. Apart from loops, a kernel has no branches that depend on data.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from codegen.ir.number import Number
 from codegen.ir.program import Substep
 
 LEAD = "lead.h"
-"""The duration of the last flow of a step; the dot keeps it apart from names that users give."""
+"""The symbol for the duration of the last flow of a step; the dot prevents a clash with names of users."""
 
 ELAPSED = "elapsed.h"
-"""The total duration of the steps whose flows are deferred."""
+"""The symbol for the total duration of the steps whose flows are deferred."""
 
 LONGEST = 256
 """The largest number of steps for which a flow is deferred; the bound keeps the flow's angles moderate."""
@@ -30,7 +30,7 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The methods that may solve a block."""
 
 SLOWEST = 2.0**-12
-"""The smallest rate of convergence that a loop assumes: a rate measured near rounding is not reliable."""
+"""A lower bound for the rate of convergence: smaller measured rates are not reliable, because of rounding."""
 
 UNIT = 2.0**-53
 """Half a unit in the last place of the number 1."""
@@ -58,13 +58,13 @@ class Let:
 class Newton:
     """The matrix of Newton's method for u = g(u): ``matrix`` is 1 - g'(u), ``body`` computes its entries.
 
-    The matrix is kept from sweep to sweep and from step to step (:mod:`codegen.run.sweeps`). A matrix to
-    ``leading`` order in h is computed and inverted in each step instead. If ``inverted`` is true, the entries
-    are those of the inverse matrix.
+    The matrix is reused in later sweeps and steps (:mod:`codegen.run.sweeps`). If ``leading`` is true, the
+    matrix is expanded to leading order in h, and it is computed and inverted in each step. If ``inverted`` is
+    true, ``matrix`` contains the entries of the inverse matrix.
 
-    If the loop's images are ``residuals``, which vanish at the solution, the matrix is minus their derivative
-    to first order in h, and the inverse is used for ``period`` steps. ``changes`` names the last change of
-    the unknowns; values that are read after the loop may be corrected by it.
+    If ``residuals`` is true, the loop's images are residuals that vanish at the solution. The matrix is then
+    minus their derivative to first order in h, and its inverse is used for ``period`` steps. ``changes``
+    names the last changes of the unknowns, by which values that are read after the loop may be corrected.
     """
 
     body: tuple[Let, ...]
@@ -78,7 +78,8 @@ class Newton:
 
     @property
     def period(self) -> int:
-        """The number of steps for which an inverse for residuals is used; 0 means: as long as it contracts.
+        """The number of steps for which an inverse is used; 0 means that it is used as long as the loop
+        contracts.
 
         The inverse costs a multiple of n^3, a sweep a multiple of n. The older the inverse, the more sweeps a
         step takes.
@@ -92,14 +93,14 @@ class Loop:
     """Solve unknowns = images over body until the largest change is at rounding level.
 
     ``label`` names the block in messages and statistics ("stage 2"). ``starts`` are evaluated before the
-    loop, and are empty where a :class:`Start` gives the first values. Without ``newton`` the change of the
+    loop, and are empty if a :class:`Start` computes the first values. Without ``newton`` the change of the
     unknowns is images - unknowns, and the last change is not applied: the body's last values belong to the
     final unknowns. With ``newton`` the change is the inverse of ``newton.matrix`` times images - unknowns,
     and the last change is applied too.
 
     The stopping rule (:mod:`codegen.run.stopping`) uses three numbers. ``tolerance`` is the largest change,
-    in units of the largest unknown, at which an iteration may stagnate. ``close`` is the largest change after
-    which a contraction is trusted to finish. ``limit`` is the largest number of sweeps.
+    in units of the largest unknown, at which an iteration may stagnate. ``close`` is the largest change at
+    which the measured rate of convergence may end the loop. ``limit`` is the largest number of sweeps.
     ``only_unknowns_read`` says that only the unknowns are read after the loop, so the last change may be
     larger.
     """
@@ -124,11 +125,12 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The largest change after which a contraction is trusted to finish.
+        """The largest change at which the measured rate of convergence may end the loop.
 
-        Values of the body that are read after the loop were computed before the last change. Simplified
-        Newton contracts by (h L)^2, while the values of the body change by only h L times the last change. So
-        a rate that ends the loop also bounds the error of the values.
+        Values of the body that are read after the loop were computed before the last change. Let L be the
+        Lipschitz constant of the images. Simplified Newton contracts by (h L)^2, while the values of the body
+        change by only h L times the last change. A rate that is small enough to end the loop therefore also
+        bounds the error of these values.
         """
         # If values after the loop are recomputed from the last unknowns, their error is the rate times the
         # last change.
@@ -140,14 +142,14 @@ class Loop:
 
 @dataclass(frozen=True)
 class Start:
-    """unknowns = values over body, unless solutions of earlier steps are known.
+    """unknowns = values over body, if no solutions of earlier steps are known.
 
-    Otherwise the unknowns begin at the polynomial through the last solutions, extrapolated by one step. With
-    the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1 - 3 u2 + u3 and so on. At most
-    ``depth`` solutions are kept. The degree grows while the differences of the solutions decrease. The first
-    change of the loops is the error of the extrapolation. If it exceeds ``ROUGH`` times the change of the
-    unknowns in the step, only u1 is kept for the next step. The unknowns are those of all loops of the
-    kernel, in order.
+    If earlier solutions are known, the unknowns begin at the polynomial through the last solutions,
+    extrapolated by one step. With the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1
+    - 3 u2 + u3 and so on. At most ``depth`` solutions are kept. The degree grows while the differences of the
+    solutions decrease. The first change of the loops is the error of the extrapolation. If it exceeds
+    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. The unknowns
+    are those of all loops of the kernel, in order.
 
     If the loops do not converge, earlier solutions are dropped; then the step is halved until the loops
     converge. The solution of each step is the start of a longer step (continuation in h), until the whole
@@ -172,7 +174,7 @@ class Start:
 
 @dataclass(frozen=True)
 class Field:
-    """A named block of scalars in the state, input or output: the names of its scalars in order, and its
+    """A named block of scalars in the state, the input or the output, with the scalars' names in order and a
     meaning."""
 
     name: str
@@ -184,9 +186,10 @@ class Field:
 class Deferred:
     """Flows deferred across steps.
 
-    A step is ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with :data:`ELAPSED` = h.
-    Several steps in a row are ``begin`` once, the kernel once for each step, and ``finish`` once. In them
-    LEAD = ``later`` h in all steps but the last, and ELAPSED is the length of all steps together.
+    A single step calls ``begin``, the kernel with :data:`LEAD` = ``last`` h, and ``finish`` with
+    :data:`ELAPSED` = h. A run of several steps calls ``begin`` once, the kernel once for each step, and
+    ``finish`` once. In all steps of the run but the last, LEAD = ``later`` h. ELAPSED is the length of the
+    whole run.
     """
 
     begin: Kernel | None
@@ -204,10 +207,11 @@ class Deferred:
 class Carried:
     """The momentum m in the body frame, which a run keeps from step to step in place of the state's mu.
 
-    m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum is the part of the state from the number
-    ``first`` on. A step is ``inward``, the kernel on (q, m), and an end mu + outward(q', m') - outward(q, m)
-    with the new q', m'. Several steps in a row are ``inward`` once, the kernel once for each step, and the
-    end once. If q is not quite orthogonal by rounding, it then rotates only the change of the momentum.
+    m = ``inward``(q, mu) and mu = ``outward``(q, m). The momentum begins at the index ``first`` of the state.
+    A single step computes m by ``inward``, calls the kernel with (q, m), which returns (q', m'), and ends
+    with mu' = mu + outward(q', m') - outward(q, m). A run of several steps computes m once, calls the kernel
+    once for each step, and computes mu' once. Rounding makes q slightly non-orthogonal, and this error then
+    affects only the change of the momentum.
     """
 
     inward: Kernel
@@ -258,7 +262,8 @@ class Expansion:
 
 @dataclass(frozen=True)
 class Function:
-    """A function that a kernel calls in several places: ``outputs`` over ``body``, of ``inputs`` alone.
+    """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
+    from ``inputs`` alone.
 
     Its k-th result is the expression that calls ``NAME.k``. ``about`` describes the function by operations of
     a program.
@@ -311,7 +316,7 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """The common start of all loops, None if each has its own."""
+        """The common start of all loops; None if each loop has its own starts."""
         # A kernel has at most one Start: warm starts extrapolate the unknowns of all loops as one vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 

@@ -29,7 +29,7 @@ class NotLinearised(ArithmeticError):
 
 @dataclass(frozen=True)
 class _Dual:
-    """A value v_0 + v_1 h and its derivatives by those unknowns for which they are not zero."""
+    """A value v_0 + v_1 h and its non-zero derivatives, by the index of the unknown."""
 
     value: Pair
     slopes: dict[int, Pair]
@@ -51,8 +51,7 @@ class FirstOrder:
     def jacobian(self, roots: Sequence[Expr]) -> list[list[Expr]]:
         """Return the derivatives of roots, all of one space, a row for each root.
 
-        :class:`NotLinearised` is raised for a root whose expansion at h = 0 the rules of this module do not
-        find.
+        :class:`NotLinearised` is raised for a root that the rules of this module cannot expand at h = 0.
         """
         # Without roots there is no space that has the symbol h.
         if not roots:

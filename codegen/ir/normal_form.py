@@ -1,8 +1,8 @@
 """Normal forms: expressions as polynomials in their symbols and irrational parts, reduced by relations.
 
-Formulas that agree only where coordinates satisfy a group's laws differ as expressions. The normal form of an
-expression brings the arguments of roots and the divisors to normal form first. It then expands the expression
-as a polynomial, and replaces the leading product of each law. Many such formulas become equal in this way: |g
+Formulas that agree only where coordinates satisfy a group's laws differ as expressions. First the arguments
+of roots and the divisors of an expression are brought to normal form. Then the expression is expanded as a
+polynomial, and the leading product of each law is replaced. Many such formulas become equal in this way: |g
 y|^2 becomes |y|^2 where g^T g = 1. The result equals the given expression wherever the laws hold. It is not
 canonical, and need not be shorter.
 """
@@ -26,8 +26,8 @@ ONE = Number.rational(1)
 MOST_TERMS = 400
 """A polynomial with more terms than this is not expanded further.
 
-It bounds the time of the compiler: with 200 or 800 all emitted files stay the same (edit it and type
-``orderconds regenerate --check``)."""
+It bounds the time of the compiler: with 200 or 800 all emitted files stay the same (to verify this, edit the
+number and run ``orderconds regenerate --check``)."""
 
 
 class TooLong(ArithmeticError):
@@ -38,7 +38,7 @@ class NormalForms:
     """Brings expressions of one space to normal form.
 
     ``relations`` map a product of two symbols to an equal sum; repeated replacement must terminate. ``whole``
-    holds expressions that are not expanded.
+    contains expressions that are not expanded.
     """
 
     def __init__(self, space: Space, relations: Sequence[Relation] = (), whole: Sequence[Expr] = ()) -> None:
@@ -63,15 +63,16 @@ class NormalForms:
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
-        """Return an expression equal to root where the relations hold; root itself where it is too long."""
+        """Return an expression equal to root where the relations hold, or root itself if the expansion is too
+        long."""
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # An expression that is too long is no failure: the caller compares or emits it as it is.
+            # This is not a failure: the caller compares or emits the given expression.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
-        """Return root as a reduced polynomial; :class:`TooLong` where it has too many terms."""
+        """Return root as a reduced polynomial; raise :class:`TooLong` if it has too many terms."""
         known_forms = self.known
         for node in walk([root], lambda n: n.id in known_forms):
             if node.id in known_forms:
@@ -111,7 +112,7 @@ class NormalForms:
         return known_forms[root.id]
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
-        """Return a polynomial as an expression, the most frequent factor taken out first."""
+        """Return a polynomial as an expression; the most frequent factor is taken out first."""
         # The terms are copied, because the polynomial may be needed for later expressions.
         terms = dict(polynomial)
         count: dict[int, int] = {}
@@ -157,7 +158,7 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This limits only the work: like terms are added, so a long product may still have few terms.
+        # This test limits only the work. The result may still be short, because like terms are added.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}

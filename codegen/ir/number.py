@@ -35,7 +35,7 @@ def is_normal(value: Fraction) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Number:
-    """An exact or certified real number; rational values are kept over QQ whatever ring they came from."""
+    """An exact or certified real number; rational values are stored as elements of QQ."""
 
     ring: Ring = field(repr=False)
     element: Element = field(repr=False)
@@ -83,8 +83,7 @@ class Number:
     @cached_property
     def is_zero(self) -> bool:
         """Whether this number is provably zero."""
-        # The ring's is_zero answers None where the question is undecided; such a number does not count as
-        # zero.
+        # The ring's is_zero returns None if the question is undecided; such a number does not count as zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
@@ -99,7 +98,7 @@ class Number:
 
     @property
     def is_rational(self) -> bool:
-        """Whether this number is held as an element of QQ."""
+        """Whether this number is stored as an element of QQ."""
         return self.ring is QQ
 
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
@@ -154,9 +153,9 @@ class Number:
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:
-        """Return the value of a rational number; a TypeError otherwise."""
+        """Return the value of a rational number; raise a TypeError for any other number."""
         if not self.is_rational:
-            message = f"{self.text()} is not held as a rational"
+            message = f"{self.text()} is not stored as a rational number"
             raise TypeError(message)
         return Fraction(int(self.element.p), int(self.element.q))
 

@@ -32,14 +32,15 @@ class Problem(Protocol):
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
         """Return the results of an operation of the group or the scene, by the name of its function.
 
-        ``order`` is the number of brackets after which dexp^{-1} is cut off, None for all other operations.
+        ``order`` is the number of brackets after which dexp^{-1} is truncated, and None for all other
+        operations.
         """
 
     def flow(self, domain: Domain, part: str, tau: Scalar, args: Values) -> Values:
         """Return the state after the exact flow of a part for the time tau."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Return the product of a word's functions of ad_x, or of ad*_x where ``dual``, applied to v."""
+        """Return the product of a word's functions of ad_x, or of ad*_x if ``dual`` is true, applied to v."""
 
     def dimension(self) -> int:
         """Return the dimension of the Lie algebra."""
@@ -127,7 +128,8 @@ class Linear(Operation):
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Whether there is at least one term, and all are of the kind of the result."""
+        """Whether there is one argument for each coefficient, at least one, and all have the kind of the
+        result."""
         # An empty sum is a Zero, which stores its kind. The kind of a combination is determined by its
         # arguments.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
@@ -248,7 +250,7 @@ class ActExp(OfGroup):
 
 @dataclass(frozen=True)
 class Adjoint(OfGroup):
-    """Ad_g x, or Ad*_g mu; where ``inverse``, g^-1 replaces g."""
+    """Ad_g x, or Ad*_g mu; if ``inverse`` is true, g^-1 replaces g."""
 
     dual: bool = False
     inverse: bool = False
@@ -303,7 +305,7 @@ class Bracket(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDexp(Operation):
-    """sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu: dexp^{-1} cut off."""
+    """sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu: the truncated dexp^{-1}."""
 
     order: int
     dual: bool = False

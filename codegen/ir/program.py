@@ -50,6 +50,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
+    # Passes treat multiples in a special way, because a number commutes with every linear map.
     @property
     def is_multiple(self) -> bool:
         """Whether the operation is a combination of one term: one coefficient times one value."""
@@ -71,10 +72,10 @@ class Assign:
 class Solve:
     """Find unknowns = images, where the body computes the images from the unknowns.
 
-    Values of the body may be used after the block, and are those at the solution. ``starts`` are the first
-    values of the unknowns; they have the same kinds and are known before the block. ``residuals`` may be
-    empty. Otherwise there is one residual for each unknown, of the same size, and the residuals vanish
-    together exactly where unknowns and images agree.
+    Statements after the block may read values of the body, which are then evaluated at the solution.
+    ``starts`` are the first values of the unknowns: they have the kinds of the unknowns and are known before
+    the block. ``residuals`` may be empty. Otherwise there is one residual for each unknown, of the same size,
+    and the residuals vanish together exactly where unknowns and images agree.
     """
 
     label: str
@@ -96,7 +97,7 @@ estimate."""
 
 
 SPACE, BODY = "space", "body"
-"""The frame of the momentum that the statements of a program read and return."""
+"""The possible frames of the momentum that the statements of a program read and return."""
 
 
 @dataclass(frozen=True)
@@ -142,6 +143,7 @@ class Program:
 
     def text(self) -> str:
         """Return the program as text, one statement a line."""
+        # The lines have the order of execution, and the body of a block is indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
         # The frame changes the meaning of all statements, so it is shown before them.
@@ -202,7 +204,7 @@ class Builder:
         return self.add(Act(), target, g, y)
 
     def adjoint(self, target: str, g: Var, v: Var, *, inverse: bool = False) -> Var:
-        """Append target = Ad_g v, or Ad*_g v for v in the dual; where ``inverse``, g^-1 replaces g."""
+        """Append target = Ad_g v, or Ad*_g v for v in the dual; if ``inverse`` is true, g^-1 replaces g."""
         return self.add(Adjoint(v.kind is Kind.DUAL, inverse), target, g, v)
 
     def bracket(self, target: str, x: Var, v: Var) -> Var:
@@ -249,7 +251,9 @@ class Builder:
         return targets
 
     def take(self) -> tuple[Assign, ...]:
-        """Return the assignments appended so far and forget them; their names stay taken."""
+        """Return the assignments appended so far and remove them from the builder; their names stay
+        reserved."""
         body = tuple(self.body)
+        # The names stay reserved, because the returned statements still contain them.
         self.body.clear()
         return body

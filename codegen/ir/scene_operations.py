@@ -12,7 +12,8 @@ from codegen.ir.values import Coefficient
 
 @dataclass(frozen=True)
 class OfScene(OfGroup):
-    """An operation that evaluates the scene's formulas; where ``timed``, the last argument is the time."""
+    """An operation that evaluates the scene's formulas; if ``timed`` is true, the last argument is the
+    time."""
 
     timed: bool = False
 
@@ -23,7 +24,8 @@ class OfScene(OfGroup):
         return f"{self.name}t" if self.timed else self.name
 
     def at(self, arguments: Kinds) -> Kinds:
-        """Return the kinds of the arguments, followed by the kind of the time where ``timed``."""
+        """Return the kinds of the arguments, followed by the kind of the time if ``timed`` is true."""
+        # The time is the last argument, so that the state has the same positions with and without time.
         return arguments + R if self.timed else arguments
 
 
@@ -57,6 +59,7 @@ class HamiltonianDerivatives(OfScene):
 class BodyVelocity(OfScene):
     """W(q, P), the velocity in the body frame, where P = Ad*_q mu (:mod:`codegen.scene.body_frame`)."""
 
+    # Velocity and force are separate operations, because passes may remove one and keep the other.
     name = "velocity"
 
     def signature(self) -> tuple[Kinds, Kinds]:
@@ -66,8 +69,7 @@ class BodyVelocity(OfScene):
 
 @dataclass(frozen=True)
 class BodyForce(OfScene):
-    """N(q, P), the force in the body frame; :class:`BodyVelocity` and it count as one evaluation of the
-    scene."""
+    """N(q, P), the force in the body frame; a force and a :class:`BodyVelocity` count as one evaluation."""
 
     name = "force"
     evaluates_scene = True
@@ -80,8 +82,9 @@ class BodyForce(OfScene):
 
 @dataclass(frozen=True)
 class Legendre(OfGroup):
-    """The momentum P in the body frame from the velocity W."""
+    """The momentum P as a function of the velocity W, both in the body frame."""
 
+    # This operation does not count as an evaluation: it is a constant matrix times a vector.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -108,8 +111,9 @@ class Differential(OfGroup):
 
 @dataclass(frozen=True)
 class Secant(OfGroup):
-    """The covector nearest to g whose pairing with x is H1 - H0; arguments g, x, H0, H1."""
+    """The covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x, H0, H1."""
 
+    # The secant is one operation, because its quotient is 0/0 at x = 0 and needs a guard.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -119,6 +123,7 @@ class Secant(OfGroup):
 class Bivector(OfGroup):
     """omega_y(alpha, .); it is f(y) where alpha is the differential of H."""
 
+    # Passes may move numbers out of the covector alpha, because the result is linear in alpha.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -191,7 +196,7 @@ class FlowOf(Operation):
 
 @dataclass(frozen=True)
 class FlowFor(Operation):
-    """The exact flow of a part for a duration that is computed at run time; it is the last argument."""
+    """The exact flow of a part; the last argument is the duration, which is computed at run time."""
 
     part: str
     timed: bool = False

@@ -9,10 +9,10 @@ from codegen.ir.expr import Expr, walk
 
 
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
-    """Return the derivatives of roots where symbols change at the rates ``seeds`` and all others are
-    constant.
+    """Return the derivatives of roots along one direction.
 
-    :class:`codegen.ir.differentiate.NotDifferentiable` is raised where a function has no derivative.
+    ``seeds`` maps symbols to their rates of change; all other symbols are constant.
+    :class:`codegen.ir.differentiate.NotDifferentiable` is raised if a function has no derivative.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, y, dx = s.sym("x"), s.sym("y"), s.sym("dx")

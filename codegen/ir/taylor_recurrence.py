@@ -71,7 +71,9 @@ class Sum(Series):
 
     def following(self, n: int) -> Coefficient:
         """Return a_n + b_n, or a_n - b_n."""
-        return _subtract(self.a.term(n), self.b.term(n)) if self.minus else _add(self.a.term(n), self.b.term(n))
+        return (
+            _subtract(self.a.term(n), self.b.term(n)) if self.minus else _add(self.a.term(n), self.b.term(n))
+        )
 
 
 class Multiple(Series):
@@ -111,9 +113,7 @@ class Quotient(Series):
         if n == 0:
             self.inverse = self.domain.rational(1) / self.b.term(0)
             return _multiply(self.a.term(0), self.inverse)
-        rest = _total(
-            _multiply(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1))
-        )
+        rest = _total(_multiply(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1)))
         return _multiply(_subtract(self.a.term(n), rest), self.inverse)
 
 
@@ -222,9 +222,7 @@ class Logarithm(Series):
         if n == 0:
             self.inverse = self.domain.rational(1) / self.a.term(0)
             return self.domain.call("log", self.a.term(0))
-        rest = _total(
-            _multiply(self.slope.term(j), self.a.term(n - j)) for j in _late_last(n, range(1, n))
-        )
+        rest = _total(_multiply(self.slope.term(j), self.a.term(n - j)) for j in _late_last(n, range(1, n)))
         rest = _scaled(self.domain, Number.rational(1, n), rest)
         return _multiply(_subtract(self.a.term(n), rest), self.inverse)
 
@@ -352,7 +350,7 @@ class _Builder:
             case "call" if node.payload == "sqrt":
                 return one, node.args[0], Fraction(1, 2)
             case "neg":
-                (c, x, e), = parts
+                ((c, x, e),) = parts
                 return -c, x, e
             case "mul" if constants[0] is not None:
                 c, x, e = parts[1]
@@ -361,7 +359,7 @@ class _Builder:
                 c, x, e = parts[1]
                 return constants[0] / c, x, -e
             case "pow":
-                (c, x, e), = parts
+                ((c, x, e),) = parts
                 if e == 1:
                     return plain
                 for _ in range(node.payload - 1):
@@ -448,7 +446,10 @@ class _Builder:
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
                 # The recurrences of sine and cosine read one another.
-                sine, cosine = Circular(domain, "sin", a, slope, False), Circular(domain, "cos", a, slope, True)
+                sine, cosine = (
+                    Circular(domain, "sin", a, slope, False),
+                    Circular(domain, "cos", a, slope, True),
+                )
                 sine.other, cosine.other = cosine, sine
                 self.shared["sin", argument.id, Fraction(1)] = sine
                 self.shared["cos", argument.id, Fraction(1)] = cosine

@@ -35,6 +35,7 @@ class Coefficient:
     value: Number
     power: int = 0
 
+    # "Provably" matters for balls: a ball that contains 0 or 1 need not be equal to it.
     @property
     def is_zero(self) -> bool:
         """Whether the number is provably zero."""

@@ -72,7 +72,7 @@ class _Verifier:
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # Starts are read before the unknowns exist: they cannot depend on the solution.
+        # Starts are checked before the unknowns are defined, because starts cannot depend on the solution.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:
@@ -94,7 +94,7 @@ def _shape(name: str, block: Solve) -> None:
     if not block.unknowns or kinds[0] != kinds[1] or kinds[0] != kinds[2]:
         raise IllFormed(f"{name}: unknowns, starts and images of {block.label} differ in kind")
     if block.residuals and len(block.residuals) != len(block.unknowns):
-        raise IllFormed(f"{name}: {block.label} has not a residual for each unknown")
+        raise IllFormed(f"{name}: {block.label} needs one residual for each unknown")
 
 
 def _types(name: str, assign: Assign) -> None:

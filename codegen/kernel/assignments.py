@@ -1,9 +1,9 @@
 """Expressions in order: assignments for shared or long expressions, loops for blocks of equations.
 
-A loop contains the expressions that depend on the loop's unknowns and that its images need. Expressions that
-do not depend on the unknowns are assigned before the loop. Later statements read body values as computed in
-the last sweep. Starting values have assignments of their own, because a later step starts from earlier
-solutions instead.
+A loop contains the expressions that depend on its unknowns and that a sweep needs. Expressions that do not
+depend on the unknowns are assigned before the loop. Statements after a loop read the values of the last
+sweep. Starting values have separate assignments, because only the first step of a run needs them: later steps
+start from earlier solutions.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """Largest number of operations in one assignment: longer expressions get names for their parts.
 
-The number changes the text and not the operations. For vcg:triple_jump on heavy_top 5, 10 and 20 give 265,
+The number changes the text, but not the operations. For vcg:triple_jump on heavy_top 5, 10 and 20 give 265,
 199 and 187 assignments: ``len(list(compile_method("heavy_top", "vcg:triple_jump").kernel.lets()))``."""
 
 
@@ -102,7 +102,7 @@ class Assignments:
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
-        """Return the starting values of all blocks; assign parts that other statements share before them."""
+        """Return the statement that sets all starting values; assign shared subexpressions before it."""
         # The start is skipped if earlier solutions are known, so no other statement may read names defined in
         # it.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
@@ -133,14 +133,14 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Whether the later readers of block k cost less than half of one sweep of block k."""
+        """Whether computing all later values that depend on block k costs less than half of its sweep."""
         rest = [*self._later(k), *self.roots]
         # Recomputed values belong to the corrected unknowns: they replace a last sweep at less than half its
         # cost.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the weight of the nodes below roots whose last block is k."""
+        """Return the cost of the operations in ``roots`` that depend on block k and on no later block."""
         # Nodes that do not depend on block k, or depend on a later block, are computed once in either case.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
@@ -154,7 +154,7 @@ class Assignments:
                 self.done.pop(node.id, None)
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
-        """Return root with every named part replaced by its symbol; append the assignments of new names."""
+        """Return ``root`` with every named subexpression replaced by its symbol; append new assignments."""
         # Iterative, because expressions are deeper than Python's recursion limit.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:

@@ -21,22 +21,24 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 
 On x86 processors additions and products of doubles take about four cycles, a division about 14. The latency
 of a function is that of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
-matter little: a division of 2 or 8 changes none of five explicit methods of the gallery, and a call of 3 or
-12 one of them, splitting:blanes_moan_rkn4 on fast_heavy_top, which keeps its number of operations."""
+matter little: with a division of 2 or 8, none of five explicit methods of the gallery changes. With a call of
+3 or 12, only splitting:blanes_moan_rkn4 on fast_heavy_top changes, and keeps its number of operations."""
 
 ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""How much shorter than the longest chain a chain may be and still be rewritten, in units of an addition.
+"""A chain is rewritten if it is at most this much shorter than the longest chain, in units of an addition.
 
-If a chain of nearly the longest length is not rewritten, it becomes the critical path. The value hardly
+A chain of nearly the longest length would otherwise become the critical path. The value hardly
 matters: with 0, 2 or 4 all emitted files stay the same; without a limit the splittings of fast_heavy_top
 change. To repeat this, edit the value and type ``orderconds regenerate --check``.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum over late values (None: no such factor), each multiplied by sign, steps and constants, the rest."""
+"""A sum of products: for each late value, a sign, the fixed factors, and the other factors.
+
+The key None belongs to the product without a late value."""
 
 
 def chain(kernel: Kernel) -> int:
@@ -84,7 +86,7 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 
 @dataclass
 class _Chains:
-    """Expressions, with the time at which each value is ready and the longest chain of its readers."""
+    """Expressions, with the time at which each value is ready and the longest chain that follows it."""
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]

@@ -24,7 +24,12 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """A program split into three: ``core`` reads :data:`LEAD`, ``finish`` :data:`ELAPSED`; None: no flows."""
+    """A program split into three; ``begin`` or ``finish`` is None if it would contain no flows.
+
+    ``core`` reads the duration :data:`LEAD`, ``finish`` the duration :data:`ELAPSED`. ``last`` is the
+    duration, in units of h, of the flow that ends the last step of a run. ``later`` is the duration of the
+    flow that joins two steps.
+    """
 
     begin: Program | None
     core: Program
@@ -84,10 +89,10 @@ def _is_h(letter: Letter) -> bool:
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable of its duration if the duration is not that of the program."""
+"""A flow, and the variable that replaces its duration; None keeps the duration of the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Index of a flow at the beginning, index of a flow at the end, the latter's duration alone and joined."""
+"""The index of a first flow, the index of a last flow, the duration of the last flow, and of both joined."""
 
 
 def _joined(

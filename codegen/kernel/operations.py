@@ -65,7 +65,7 @@ def matrix_of(label: str) -> str:
 
 
 def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
-    """Format counts as text, a line for the step and one for each block's sweep.
+    """Format counts as text: a line for the step, and a line for the sweep of each block.
 
     >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
     ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
@@ -74,7 +74,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     for block, numbers in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in numbers.items()) or "none"
         if block == START:
-            lines.append(f"{each} an initial guess, in the first step of a run")
+            lines.append(f"{each} for an initial guess, in the first step of a run")
         elif block == STEP:
             lines.append(f"{each} a step")
         elif block.startswith("matrix of "):

@@ -1,7 +1,8 @@
-"""Outlined functions: trees of operations that the expressions of a kernel call.
+"""Outlined functions: calls of one function replace a tree of operations that a step repeats.
 
-The arguments of a function are the inputs of a tree, and the coefficients of the tree's sums unless a
-coefficient is the same constant in every call. The function computes only those results that are read.
+The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. An input
+or coefficient that is the same constant in every call is no argument. A function computes only those results
+of the tree that are read.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ class _Inputs:
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
 ) -> tuple[Function, list[int]]:
-    """Return the function of a tree's shape, and the positions of the tree inputs that are its arguments.
+    """Return the function for a tree, and the positions of those inputs of the tree that are arguments.
 
     ``read`` are the indices of the results that the function computes. ``fixed`` has, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
@@ -130,7 +131,7 @@ class WithFunctions:
         return getattr(self.domain, name)
 
     def call(self, callee: str, *args: Value) -> Value:
-        """Return one result of a function, or a function's value."""
+        """Return one result of an outlined function, or the value of a library function."""
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)
@@ -161,7 +162,7 @@ def _sum(
 def rewritten(
     roots: Sequence[Expr], calls: Mapping[int, tuple[str, int, list[Expr]]], space: Space
 ) -> list[Expr]:
-    """Return the roots with nodes replaced by results of calls, whose arguments are rewritten as well."""
+    """Return the roots with nodes replaced by calls; the arguments of the calls are rewritten, too."""
     new: dict[int, Expr] = {}
     for root in roots:
         # Arguments of replaced nodes are rewritten as well. An explicit stack, because recursion would be too

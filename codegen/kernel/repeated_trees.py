@@ -22,11 +22,11 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 """Operations that are not outlined: they cost next to nothing, or are flows, which are scheduled together."""
 
 NODES = 3
-"""Operations on a line of emitted code, on average over the gallery.
+"""The average number of operations on a line of emitted code, over the gallery.
 
-It only weighs lines against lines; with 2 or 5 all emitted files stay the same (edit it and type
-``orderconds regenerate --check``). Of longer steps, cg:cg5 on dipole has 6611, 6155 and 6467 operations with
-2, 3 and 5, and 471, 454 and 394 assignments."""
+It converts operations to lines. With 2 or 5, all emitted files stay the same (edit it and type
+``orderconds regenerate --check``). Among longer steps, cg:cg5 on dipole has 6611, 6155 and 6467 operations
+with 2, 3 and 5, and 471, 454 and 394 assignments."""
 
 Values = tuple[Expr, ...]
 
@@ -34,7 +34,7 @@ Key = Hashable
 """A value that is equal for trees of one shape."""
 
 PairKey = tuple[Key, Key, Key]
-"""The keys of two trees and of the tree that they are joined to."""
+"""The keys of two trees, and the key of the tree that results from joining them."""
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return c (d v) as (c d) v: a multiple of a multiple no longer reads the inner multiple."""
+        """Return a multiple c (d v) as (c d) v, which does not read the inner multiple d v."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
@@ -228,7 +228,7 @@ class Trees:
         return list(given), wires
 
     def key(self, tree: Tree) -> Key:
-        """Return the shape of a tree: which coefficients are equal belongs to it, their values do not."""
+        """Return the shape of a tree; it records which coefficients are equal, but not their values."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):

@@ -1,6 +1,6 @@
 """Printable statements of a kernel: Stumpff functions of one argument share a call, powers become products.
 
-A target's template sees five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
+There are five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
 results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
 No statement after a loop reads the names that this module adds inside the loop.
 """
@@ -41,7 +41,7 @@ class SharedCall:
 
     @property
     def function(self) -> str:
-        """The snippet that computes this set, such as ``stumpff_12``."""
+        """The name of the function that computes these orders, for example ``stumpff_12``."""
         return "stumpff_" + "".join(map(str, self.orders))
 
 
@@ -135,7 +135,7 @@ class Arrangement:
         yield from self.errors
 
     def symbols(self) -> frozenset[str]:
-        """Return every symbol that some expression reads; for membership only."""
+        """Return every symbol that some expression reads, in no particular order."""
         return frozenset(n.payload for n in walk(self.expressions()) if n.op == "sym")
 
 
@@ -214,7 +214,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a counter for fresh names that contains every name of the kernel."""
+    """Return the counter of fresh names; its keys are all names of the kernel."""
     # Every name of the kernel counts as used, so that fresh names differ from all of them.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]

@@ -18,12 +18,13 @@ LONGEST = 64
 """Arguments with more nodes than this are not compared.
 
 Equal angles occur between unknowns of implicit stages; on the gallery their arguments have 12 to 42 nodes.
-Arguments of explicit stages have hundreds or thousands. Limits of 64, 128 and 256 give the same kernels for
-nine methods of the gallery; 32 changes one of them, vcf:cf4 on dipole, from 301 to 286 operations a step."""
+Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the same
+kernels for nine methods of the gallery. With 32, one of them changes: vcf:cf4 on dipole, from 301 to 286
+operations a step."""
 
 
 class SharedArguments(ExprDomain):
-    """Expressions in which Stumpff functions of equal arguments are called with the first of them."""
+    """Expressions in which arguments of Stumpff functions are shared if they are equal as polynomials."""
 
     def __init__(self, space: Space | None = None) -> None:
         super().__init__(space)

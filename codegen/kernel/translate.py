@@ -48,8 +48,8 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""Treatments of the critical path: none; multiply steps and constants first; order the assignments;
-everything in :mod:`codegen.kernel.critical_path`."""
+"""Treatments of the critical path: none; multiply step sizes and constants first; order the assignments;
+apply all of :mod:`codegen.kernel.critical_path`."""
 
 
 def to_kernel(
@@ -134,7 +134,7 @@ class _Translation:
                 f"{assign.operation.name} on {scene.group.name}: {error}",
                 where=scene.name,
                 expected="a group whose operations have closed forms",
-                hint="this group serves exact series and interpretation",
+                hint="add closed forms to the group, or use the group for exact series only",
             ) from error
         if isinstance(assign.operation, BodyForce):
             # The arguments are not expanded: they already have names, and expansion would lose the sharing.
@@ -262,7 +262,7 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body, outputs and functions of the kernel; without functions unless these shorten it."""
+        """Return the body, outputs and functions of the kernel; outline functions if that shortens it."""
         # If an outlined schedule is tried, it may use the names of the first schedule again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
@@ -308,7 +308,7 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return the schedule of a step with outlined functions, and the functions; None without repetitions."""
+    """Return the schedule of a step with outlined functions (None if nothing repeats), and the functions."""
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
@@ -352,7 +352,10 @@ def _outlined(
 
 
 def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> Block:
-    """Return the linear equations for the variations of a block's unknowns; extend ``seeds``."""
+    """Return the linear equations for the variations of a block's unknowns.
+
+    The symbols of these variations are added to ``seeds``.
+    """
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so the iteration can start from zero.

@@ -93,10 +93,14 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return a group as one whose tangent vectors are elements of its algebra, None for numbers."""
+    """Return a group with its tangent vectors as elements of its algebra; None for plain numbers."""
     if group is None:
         return None
     trivialised = group.offers(RightTrivialisation)
     if trivialised is None:
-        raise SceneError(f"a Jacobian on {group.name}", where=scene.name, expected="another group")
+        raise SceneError(
+            f"a Jacobian on {group.name}, whose tangent vectors have no form as elements of the algebra",
+            where=scene.name,
+            expected="a group with right-trivialised tangent vectors",
+        )
     return trivialised

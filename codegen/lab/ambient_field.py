@@ -1,8 +1,9 @@
-"""The ambient equation y' = f(y).y of a scene as one Python function of balls.
+"""The right-hand side of the ambient equation y' = f(y).y of a scene, as a Python function of Arb balls.
 
-Arb's numbers are several times faster than mpmath's, and a compiled function is faster than an interpreted
-expression; a reference solution evaluates the field a million times. Radii are not used as error bounds: the
-integrator takes midpoints and measures the uncertainty by a second run.
+A ball is a number with an error radius. A reference solution evaluates the right-hand side a million times.
+Therefore it is a compiled function, and its numbers are Arb balls, which are several times faster than mpmath
+numbers. The radii are not used as error bounds: the integrator continues with the midpoints, and a second run
+measures the uncertainty.
 """
 
 from __future__ import annotations
@@ -19,15 +20,16 @@ FUNCTIONS = {name: getattr(arb, name) for name in ("sqrt", "sin", "cos", "exp", 
 
 
 def ambient_field(scene: Problem) -> Evaluate:
-    """Return the ambient derivative, for default parameter values, as a function (state, t) of balls.
+    """Return the right-hand side f(y).y as a function (state, t) -> tuple of balls.
 
-    Constants have the working precision at the time of this call.
+    Parameters have their default values. Constants are rounded to the working precision that is set when this
+    function is called.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 
 
 def ball(number: Number) -> arb:
-    """Return a ball of the working precision around an exact number.
+    """Return a ball that contains an exact number, with the working precision.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(53):

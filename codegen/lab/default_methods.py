@@ -1,8 +1,8 @@
-"""The methods that commands measure if the user names none, in one table.
+"""The methods and scenes that commands measure by default.
 
-The report uses a default method only if the method can be lowered onto the scene and has the order given here
-on that scene. A splitting, for example, may find no exact flows, or its order conditions may imply a lower
-order for the parts of the scene.
+The report omits a default method if the method cannot be compiled for the scene, or if its order on the scene
+is not the order given here. A splitting method, for example, needs exact flows of the parts of the scene, and
+its order depends on these parts.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from codegen.scene.problem import Problem
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
-"""Defaults of single measurements: one method for each order, of several families."""
+"""Default methods of ``bench``, ``longrun``, ``stability`` and ``localerror``."""
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
 """Default scenes of the report: a Hamiltonian scene and a field."""
@@ -33,17 +33,17 @@ REPORT_HAMILTONIANS = {
     "splitting:blanes_moan4": 4,
     "splitting:blanes_moan_rkn6a": 6,
 }
-"""Defaults of the report: each method with the order that it must have on the scene."""
+"""Default methods of the report, each with the order that it must have on the scene."""
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
-"""Defaults of the report with step-size control. Hamiltonian scenes use the first one only, because a figure
-has ten colours."""
+"""Default methods of the report with step-size control. On Hamiltonian scenes only the first method is used,
+because a figure has only ten colours."""
 
 
 def methods_for(scene: Problem, names: Sequence[str] = ()) -> tuple[Method, ...]:
-    """Return the named methods, or the defaults of single measurements.
+    """Return the named methods; without names, the default methods for the scene.
 
-    Errors of names as :func:`codegen.method.parse`.
+    An unknown name raises the errors of :func:`codegen.method.parse`.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     families = families_for(scene)
@@ -51,7 +51,7 @@ def methods_for(scene: Problem, names: Sequence[str] = ()) -> tuple[Method, ...]
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return the default methods of the report on a scene: with equal steps, and with step-size control."""
+    """Return the default methods of the report: those with equal steps, and those with step-size control."""
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

@@ -19,10 +19,11 @@ from codegen.scene.problem import Problem
 
 
 def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -> float:
-    """Return the error of ``state`` against ``exact``, both flat in the order of ``scene.symbols``.
+    """Return the error norm of ``state`` - ``exact``.
 
-    Differences are taken in the precision of ``exact`` before they are rounded, so that an error below 1e-16
-    is not lost. A state that is not finite is at distance infinity.
+    Both arguments list the coordinates in the order of ``scene.symbols``. Differences are computed in the
+    precision of ``exact`` and then rounded, so that an error below 1e-16 is not lost. The distance of a state
+    that is not finite is infinity.
     """
     gap = [float(b - a) for a, b in zip(state, exact, strict=True)]
     if not all(map(math.isfinite, gap)):
@@ -37,7 +38,10 @@ def distance(scene: Problem, state: Sequence[Scalar], exact: Sequence[Scalar]) -
 
 
 def _norm(group: LieGroup, gap: Sequence[float]) -> float:
-    """Return the norm of a difference of two elements; a product group adds the norms of its factors."""
+    """Return the norm of the difference of two group elements.
+
+    For a product group it is the sum of the norms of the factors.
+    """
     product = group.offers(DirectProduct)
     if product is not None:
         return sum(map(_norm, product.factors, product.parts(tuple(gap))))

@@ -1,4 +1,4 @@
-"""Conserved quantities of a scene as functions: its invariants and the manifold equations."""
+"""Conserved quantities of a scene: its invariants, and the equations that define its manifold."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from codegen.scene.problem import Problem
 FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
 
 MANIFOLD = "manifold"
-"""Name of the manifold equations among the conserved quantities."""
+"""The key of the manifold equations in the dictionaries of conserved quantities."""
 
 
 def functions(scene: Problem) -> dict[str, Evaluate]:
@@ -42,7 +42,7 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
 
 
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
-    """Return the expressions that vanish if every group element of the state is in the group."""
+    """Return the expressions that are zero if and only if the state is on the manifold."""
     start = 0
     laws: list[Expr] = []
     for block in scene.state:

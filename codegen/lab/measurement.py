@@ -1,4 +1,4 @@
-"""The base class of measurements: what is measured, its JSON, and its section of the report."""
+"""The base class of measurements. A measurement computes a result, its JSON, and a section of the report."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Measurement(ABC, Generic[R]):
 
     @abstractmethod
     def run(self, subject: Subject) -> R:
-        """Measure. Methods that fail must not affect the others (see :meth:`Subject.each`)."""
+        """Measure all methods. A method that fails must not affect other methods (:meth:`Subject.each`)."""
 
     @abstractmethod
     def as_json(self, result: R) -> object:
@@ -69,7 +69,7 @@ class Measurement(ABC, Generic[R]):
         return {}
 
     def result(self, subject: Subject) -> R:
-        """Return the result on a subject; it is measured once."""
+        """Return the result on a subject. Only the first call measures; later calls return its result."""
         if self.name not in subject.results:
             subject.results[self.name] = self.run(subject)
         return cast("R", subject.results[self.name])

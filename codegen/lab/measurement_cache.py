@@ -1,9 +1,10 @@
-"""A cache of measurements on disk, addressed by content: equal measurements are made once.
+"""A cache of measurements on disk, so that equal measurements are made only once.
 
-The name of an entry is a digest of everything that the result depends on: the emitted files, the scene, the
-settings, the kind of processor. An entry holds a digest of its own bytes. It is written under a temporary
-name and then moved into place, so that an interrupted write leaves no entry. An entry that is truncated,
-changed, or of another type is measured again. A folder that another user owns is never read or written.
+The file name of an entry is a digest of all inputs of the measurement: the emitted files, the scene, the
+settings, the kind of processor. An entry also contains a digest of its content. It is written under a
+temporary name and then renamed, so that an interrupted write leaves no entry. If an entry is truncated,
+changed, or of another type, it is ignored and the measurement is made again. A folder that another user owns
+is never read or written.
 """
 
 from __future__ import annotations
@@ -23,17 +24,17 @@ from codegen.cache_entry import cache_directory
 T = TypeVar("T")
 
 FORMAT = 1
-"""Version of the file format; part of every key."""
+"""Version of the file format. It is part of every key, so a new version ignores old entries."""
 
 FOLDER = ".measured"
-"""Name of the folder that holds the entries of an unfinished report or bench, beside its results."""
+"""Name of the folder, beside the results of an unfinished report or bench, that contains the entries."""
 
 DIGEST = 32
 """Bytes of SHA-256 at the start of an entry."""
 
 
 class MeasurementCache:
-    """Results by key in a folder; a cache without a folder keeps nothing.
+    """Results in a folder, addressed by keys. A cache without a folder stores nothing.
 
     >>> MeasurementCache(None).get(("a key",), int, lambda: 3)
     3
@@ -45,9 +46,9 @@ class MeasurementCache:
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
         """Return the stored result of ``key``, or call ``measure`` and store what it returns.
 
-        ``kind`` is the result's type, built of dataclasses, tuples and plain values. ``key`` consists of
-        values whose ``repr`` is the same in every process. If the folder cannot be used, ``measure`` is
-        called and no exception is raised. Exceptions of ``measure`` are passed on, and nothing is stored.
+        ``kind`` is the type of the result: dataclasses, tuples and plain values. Values in ``key`` must have
+        the same ``repr`` in every process. If the folder cannot be used, ``measure`` is called and no
+        exception is raised. If ``measure`` raises an exception, the caller receives it and nothing is stored.
         """
         result = self.find(key, kind)
         if result is None:

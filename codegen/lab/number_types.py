@@ -16,4 +16,4 @@ Vector: TypeAlias = tuple[Scalar, ...]
 """Coordinates of a state, or of an element of a Lie algebra, in order."""
 
 Evaluate: TypeAlias = Callable[..., Vector]
-"""A function ``(state, t) -> values`` compiled from a scene, over the numbers that it was compiled for."""
+"""A function ``(state, t) -> values`` compiled from a scene for one type of numbers."""

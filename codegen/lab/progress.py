@@ -6,4 +6,4 @@ from collections.abc import Callable
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[str], object]
-"""Called with one line that says what is measured next; :class:`str` ignores it."""
+"""A function that receives one line of text: the name of the next measurement. :class:`str` ignores it."""

@@ -23,19 +23,19 @@ from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
 
 DIGITS = 50
-"""Working precision: the harmonic step sequence loses up to ten digits with 16 columns."""
+"""Working precision in decimal digits. Extrapolation with 16 columns loses up to ten of them."""
 
 BITS = 200
-"""Working precision of the balls, some digits more than :data:`DIGITS`."""
+"""Working precision of the balls in bits: a few digits more than :data:`DIGITS`."""
 
 RUNS = ((14, -33), (16, -36))
-"""Columns of the extrapolation and decimal exponent of the tolerance: for the check, and for the result."""
+"""Number of columns and decimal exponent of the tolerance, for the checking run and for the result."""
 
 AGREEMENT = 1e-28
-"""Largest difference of the two runs, relative to the size of the state."""
+"""Largest difference between the two runs, relative to the size of the state, that is accepted."""
 
 LEAST_STEP = 1e-6
-"""A step below this part of the span shows that the solution is near a singularity."""
+"""If steps become shorter than this fraction of the span, the solution is close to a singularity."""
 
 MOST_STEPS = 10_000
 """Largest number of extrapolation steps. A scene that needs more is too stiff, or its span is too long."""
@@ -46,7 +46,8 @@ class Reference:
     """The state of a scene at the end of its span.
 
     ``state`` holds mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``;
-    ``uncertainty`` is the largest difference of two runs that share neither order nor tolerance.
+    ``uncertainty`` is the largest difference of a coordinate between two runs of different order and
+    tolerance.
     """
 
     scene: str
@@ -69,9 +70,9 @@ class _Stored:
 
 
 def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> Reference:
-    """Return the reference of a scene, computed only if the cache does not hold it.
+    """Return the reference of a scene from the cache; compute and store it if it is missing.
 
-    ``cache`` is the user's cache by default. Errors as :func:`reference`.
+    The default of ``cache`` is the cache of this user. Errors: those of :func:`reference`.
     """
 
     def compute() -> _Stored:
@@ -101,24 +102,24 @@ def _key(scene: Problem) -> tuple[object, ...]:
 def reference(scene: Problem) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
-    :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the way, or if the two runs
-    do not agree to 28 digits.
+    :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if the two
+    runs do not agree to 28 digits.
     """
     checked, answer = (_end(scene, columns, exponent) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
     gap = max(float(abs(a - b)) for a, b in zip(checked, answer, strict=True))
     if not gap <= AGREEMENT * size:
         raise SceneError(
-            f"two references differ by {gap:.1e}",
+            f"two reference solutions differ by {gap:.1e}",
             where=scene.name,
             expected=f"agreement to {AGREEMENT:g}",
-            hint="shorten the span, or look for a jump in the field",
+            hint="shorten the span, or look for a discontinuity of the field",
         )
     return Reference(scene.name, answer, gap)
 
 
 def _end(scene: Problem, columns: int, exponent: int) -> Vector:
-    """Return the final state of a run; the difference of the last two columns controls the step size."""
+    """Return the final state of one run of the extrapolation method, with step-size control."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
         field = ambient_field(scene)
@@ -128,7 +129,7 @@ def _end(scene: Problem, columns: int, exponent: int) -> Vector:
 
 
 def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, tolerance: float) -> Vector:
-    """Return the state at the end of the span, as midpoints in the working precision."""
+    """Return the state at the end of the span as midpoints of balls in the working precision."""
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
     step = whole / 8
@@ -162,9 +163,10 @@ def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, toleran
 
 
 def _extrapolate(field: Evaluate, y: Vector, t: Scalar, step: Scalar, columns: int) -> tuple[Vector, float]:
-    """Return the diagonal entry of the last row, and its distance from the entry before it in that row.
+    """Return the extrapolated state after one step, and an estimate of its error.
 
-    ArithmeticError if the field cannot be evaluated at some stage.
+    The state is the last entry of the extrapolation table, the estimate its distance from the previous entry
+    of the same row. ArithmeticError if the field cannot be evaluated at some stage.
     """
     slope = field(y, t)
     row: list[Vector] = []
@@ -182,7 +184,7 @@ def _extrapolate(field: Evaluate, y: Vector, t: Scalar, step: Scalar, columns: i
 
 
 def _midpoint(field: Evaluate, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
-    """Return n steps (n even) of the explicit midpoint rule, started by an Euler step."""
+    """Return the state after n substeps (n even) of the explicit midpoint rule, started by an Euler step."""
     h = step / n
     twice = 2 * h
     old, new = y, tuple([a + h * b for a, b in zip(y, slope, strict=True)])

@@ -1,7 +1,8 @@
 """The registered measurements, in the order of the sections of the report.
 
-A new measurement of this package is one file in :mod:`codegen.lab.measurements` and one line here. Others are
-added by :func:`register`, or by an entry point of the group ``orderconds.measurements``.
+To add a measurement to this package, write a file in :mod:`codegen.lab.measurements` and add a line to
+:data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
+``orderconds.measurements``.
 """
 
 from __future__ import annotations
@@ -26,22 +27,22 @@ BUILT_IN = (
     "codegen.lab.measurements.conditions:Conditions",
     "codegen.lab.measurements.emitted_code:EmittedCode",
 )
-"""Module and class of the measurements of this package."""
+"""The measurements of this package, as ``module:class``."""
 
 GROUP = "orderconds.measurements"
-"""Entry-point group of measurements of other packages."""
+"""The entry-point group in which other packages declare measurements."""
 
 _registered: dict[str, type[AnyMeasurement]] = {}
 
 
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
-    """Add a measurement after the others; may be used as a class decorator.
+    """Add a measurement at the end of the list, and return its class; usable as a class decorator.
 
-    InputError if its name belongs to another class.
+    InputError if another measurement has this name.
     """
     known = {m.name: type(m) for m in measurements()}
     if known.get(kind.name, kind) is not kind:
-        raise InputError(f"there is a measurement {kind.name!r} already", expected="another name")
+        raise InputError(f"there is a measurement {kind.name!r} already", expected="a new name")
     _registered[kind.name] = kind
     return kind
 
@@ -67,7 +68,7 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the named measurements with their parts, or all if no name is given.
+    """Return the named measurements and those that are ``part_of`` them; without names, all measurements.
 
     :class:`UnknownName` for an unknown name.
     """

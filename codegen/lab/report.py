@@ -1,4 +1,4 @@
-"""The report: measure scenes, and write a page for each and an overview, each file atomically."""
+"""The report: measure scenes, then write a page for each scene and an overview, each file atomically."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Request:
         )
 
     def command(self) -> str:
-        """Return the command of this report."""
+        """Return the command line that writes this report."""
         words = ["orderconds report", *(quoted(bare(scene)) for scene in self.scenes)]
         words += [f"-m {quoted(bare(m))}" for m in self.methods]
         words += [f"--adaptive {quoted(bare(m))}" for m in self.adaptive]
@@ -57,10 +57,9 @@ def report(
 ) -> tuple[Path, tuple[SceneResults, ...]]:
     """Measure, write the pages into a folder, and return the path of the overview with the results.
 
-    The page of a scene is written as soon as it is complete. Until the report is complete, measured results
-    are kept in a hidden folder, so an interrupted report can continue. :class:`InputError` is raised before
-    anything is measured if a name is unknown, if there is no C compiler, or if the folder cannot be written
-    to.
+    The page of a scene is written as soon as it is complete. A hidden folder stores the results until the
+    report is complete, so that an interrupted report can continue. :class:`InputError` is raised before the
+    first measurement if a name is unknown, if there is no C compiler, or if the folder cannot be written to.
     """
     folder = Path(directory)
     subjects = request.subjects()
@@ -81,7 +80,7 @@ def report(
 
 
 def write_file(path: Path, text: str | None) -> Path:
-    """Write a text under a temporary name and move the file into place; None tests the folder only."""
+    """Write a file atomically and return its path; if ``text`` is None, only test the folder for writing."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=".report-") as temporary:

@@ -1,4 +1,4 @@
-"""Running a method over the span of a scene, by the interpreter or by an emitted module.
+"""Run a method over the span of a scene, with the interpreter or with an emitted module.
 
 A :data:`Runner` computes the final state after a given number of steps. The same convergence test is
 therefore used for the interpreter in any precision, emitted Python and emitted C.
@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
+from codegen import printers
 from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder
 from codegen.emitter import Compiled, Optimised, compile_method, emit_compiled
@@ -20,18 +21,17 @@ from codegen.lab.number_types import Scalar, Vector
 from codegen.loader import Integrator, Statistics, StepFailed, load
 from codegen.lower import problem_for
 from codegen.method import Method
-from codegen.printers import TARGETS
 from codegen.scene.problem import Problem
 
-RUNNERS = (*TARGETS, "interpreter")
-"""Everything that can run a method: the targets of the compiler, and the interpreter."""
+INTERPRETER = "interpreter"
+"""The name that selects the interpreter in place of a target."""
 
 DOUBLE = 16
-"""Decimal digits up to which the interpreter computes with doubles."""
+"""The interpreter uses doubles for at most this number of decimal digits."""
 
 
 class RunFailed(ArithmeticError):
-    """A run that stopped: an iteration did not converge, or a number was not finite."""
+    """A run stopped early because an iteration did not converge, or because a number was not finite."""
 
 
 @dataclass
@@ -40,7 +40,7 @@ class Interpreted:
 
     compiled: Optimised
     digits: int = DOUBLE
-    target: str = "interpreter"
+    target: str = INTERPRETER
 
     @property
     def epsilon(self) -> float:
@@ -49,12 +49,12 @@ class Interpreted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test, about ten seconds."""
+        """The largest number of steps in a convergence test; a run with it takes about ten seconds."""
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
     def problem(self) -> Problem:
-        """The problem in which the method's family was lowered."""
+        """The scene in the form that the family of the method integrates."""
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
@@ -80,7 +80,7 @@ class Interpreted:
 
 
 def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
-    """Return the fields of a flat state by name."""
+    """Return the fields of a state by name; ``state`` is the list of all its coordinates."""
     fields: dict[str, Vector] = {}
     start = 0
     for field in problem.state:
@@ -92,17 +92,17 @@ def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
 
 @dataclass
 class Emitted:
-    """An emitted module, compiled and loaded: the same text that ``orderconds emit`` writes."""
+    """A compiled method as an emitted module, with the same text that ``orderconds emit`` writes."""
 
     compiled: Compiled
-    target: str
+    target: str = printers.DEFAULT
     order: CertifiedOrder | None = None
     epsilon = 2.0**-52
 
     @property
     def most_steps(self) -> int:
         """The largest number of steps in a convergence test, about one second."""
-        return 81920 if self.target == "c" else 10240
+        return printers.target(self.target).most_steps
 
     @cached_property
     def artifact(self) -> Artifact:
@@ -115,9 +115,9 @@ class Emitted:
         return load(self.artifact)
 
     @cached_property
-    def python(self) -> Emitted:
-        """The same step emitted to Python, whose solver can be observed."""
-        return Emitted(self.compiled, "python", self.order)
+    def observed(self) -> Emitted:
+        """The same step emitted to a target in which the solved unknowns can be observed."""
+        return Emitted(self.compiled, printers.observable().name, self.order)
 
     @cached_property
     def initial(self) -> list[float]:
@@ -138,24 +138,25 @@ class Emitted:
 
 
 Runner = Interpreted | Emitted
-"""Runs one compiled method over the span: ``target``, ``final``, ``epsilon``, ``most_steps``."""
+"""An object that runs one compiled method; it has ``target``, ``final``, ``epsilon`` and ``most_steps``."""
 
 
 def runner(
     scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
 ) -> Runner:
-    """Return the runner for a target: ``c``, ``python`` or ``interpreter``.
+    """Return the runner for a target, or for ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
     known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
     """
-    if target not in RUNNERS:
-        raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(RUNNERS)}")
-    if digits > DOUBLE and target != "interpreter":
+    known = (*printers.names(), INTERPRETER)
+    if target not in known:
+        raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(known)}")
+    if digits > DOUBLE and target != INTERPRETER:
         raise MethodError(
             f"{digits} digits for the target {target}",
             expected="double precision",
             hint="add --target interpreter",
         )
     compiled = compile_method(scene, method)
-    return Interpreted(compiled, digits) if target == "interpreter" else Emitted(compiled, target, order)
+    return Interpreted(compiled, digits) if target == INTERPRETER else Emitted(compiled, target, order)

@@ -41,7 +41,7 @@ class Measured:
         return None if self.failure else self.measurement.section(self.result, self.subject)
 
     def overview(self) -> Section | None:
-        """Return the paragraph for the overview."""
+        """Return the paragraph or table for the overview of all scenes; None if there is nothing to show."""
         return None if self.failure else self.measurement.overview(self.result, self.subject)
 
     def files(self) -> Mapping[str, str]:

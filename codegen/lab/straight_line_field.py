@@ -1,8 +1,8 @@
 """The ambient equation y' = f(y).y of a scene as straight-line code, for reference solutions and peers.
 
-The right-hand side is evaluated once over expressions. Every node becomes one line, so that common
-subexpressions are computed once. The same lines become a Python function over any numbers (floats, balls,
-arrays of another library) and the body of a C function.
+The right-hand side is evaluated with symbolic expressions. Every distinct expression becomes one assignment,
+so that common subexpressions are computed once. The assignments can be returned as a Python function for any
+type of numbers (floats, balls, arrays of another library) or as the body of a C function.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ class StraightLine:
     functions: tuple[str, ...]
 
     def python(self, constant: Callable[[Number], Scalar], functions: Mapping[str, Scalar]) -> Evaluate:
-        """Return field(y, t) -> tuple over any numbers.
+        """Return the code as a Python function (y, t) -> tuple for one type of numbers.
 
-        ``constant`` converts an exact number to this type of numbers. ``functions`` maps names such as
-        ``sqrt`` to functions of such numbers.
+        ``constant`` converts an exact number to this type. ``functions`` maps names such as ``sqrt`` to
+        functions of this type.
         """
         body = [f"    {name} = {text}" for name, text in self.lines]
         source = "\n".join(
@@ -50,7 +50,7 @@ class StraightLine:
         return field
 
     def c(self, target: str = "dy") -> list[str]:
-        """Return C statements that write the derivative to an array."""
+        """Return C statements that compute the results and store them in the array ``target``."""
         lines = [f"const double c{k} = {number(x)};" for k, x in enumerate(self.constants)]
         for name, text in self.lines:
             base, power, exponent = text.partition(" ** ")

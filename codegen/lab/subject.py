@@ -18,6 +18,7 @@ from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lower import families_for
 from codegen.method import Method, parse
+from codegen.printers import DEFAULT
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
@@ -26,11 +27,12 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured.
+    """The extent of the measurements.
 
-    ``budget`` is the CPU time in seconds that one run of the bench may take, ``steps`` the number of steps
-    of a long run. ``back`` includes the run back, ``rounding`` the growth of rounding errors, ``stiff`` the
-    stiff variants of the scene, ``endurance`` runs of ten million steps.
+    ``budget`` is the CPU time in seconds that one run of the bench may take. ``steps`` is the number of steps
+    of a long run. The flags add measurements. ``back``: each long run is also run backward to the start.
+    ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the scene. ``endurance``: runs of
+    ten million steps.
     """
 
     budget: float
@@ -50,7 +52,7 @@ EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 @dataclass(frozen=True)
 class CompiledMethod:
-    """A method compiled for the scene, the seconds of its compilation, and the emitted C."""
+    """A method compiled for the scene, the seconds of its compilation, and the emitted module."""
 
     compiled: Compiled
     seconds: float
@@ -69,7 +71,7 @@ class CompiledMethod:
 
 @dataclass(frozen=True)
 class MethodFailure:
-    """A method that could not be measured, with the reason."""
+    """A method that could not be measured, and the reason."""
 
     method: str
     reason: str
@@ -121,7 +123,7 @@ class Subject:
             try:
                 compiled = compile_method(self.scene, method)
                 seconds = time.perf_counter() - start
-                artifact = emit_compiled(compiled, "c", order=certified_order(method, self.scene))
+                artifact = emit_compiled(compiled, DEFAULT, order=certified_order(method, self.scene))
             except (InputError, ArithmeticError) as error:
                 failures.append(MethodFailure(method.label, str(error)))
                 continue
@@ -129,7 +131,7 @@ class Subject:
         return MethodResults(tuple(methods), tuple(failures))
 
     def each(self, measure: Callable[[CompiledMethod], T]) -> MethodResults[T]:
-        """Return the results of ``measure`` by method; a failure does not affect other methods."""
+        """Call ``measure`` for each compiled method and return the results and the failures."""
         results, failures = [], list(self.compiled.failures)
         for method in self.compiled.measured:
             try:
@@ -139,12 +141,12 @@ class Subject:
         return MethodResults(tuple(results), tuple(failures))
 
     def report_command(self, part: str) -> str:
-        """Return the command that measures one part of this page again."""
+        """Return the command line that repeats one measurement of this page."""
         words = ["orderconds report", bare(self.name), *self._methods()]
         return " ".join([*words, f"--only {part}", "-o DIR"])
 
     def bench_command(self) -> str:
-        """Return the command that measures the cost again."""
+        """Return the command line that repeats the measurement of the cost."""
         words = ["orderconds bench", bare(self.name), *self._methods()]
         words += [f"--adaptive {quoted(bare(m.label))}" for m in self.adaptive]
         words += [f"-a {peer}" for peer in self.peers]
@@ -164,8 +166,9 @@ def subject(
 ) -> Subject:
     """Return the subject of a page.
 
-    If no methods are named, the defaults of the report are used. If no peers are named, the installed peers
-    of the effort are used. Unknown names raise the errors of :func:`codegen.method.parse` and ``peers.find``.
+    If no methods are named, the default methods of the report are used. If no peers are named, those peers of
+    ``effort.peers`` are used that are installed. Unknown names raise the errors of
+    :func:`codegen.method.parse` and ``peers.find``.
     """
     families = families_for(scene)
     chosen = tuple(parse(m, families) for m in methods)

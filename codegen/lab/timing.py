@@ -1,8 +1,8 @@
 """The CPU time of a call: the least over several batches of repeated calls in one process.
 
-The batch with the least time is the one that other processes disturbed least; a mean would include the load
-by other processes. A call from Python takes some time before the first step. This overhead is measured with a
-run of no steps and subtracted, so that short and long runs can be compared.
+Other processes can only increase a time. The least time is therefore the best estimate; a mean would include
+the load by other processes. A call from Python takes some time before the first step. This overhead is
+measured with a run of zero steps and subtracted, so that short and long runs can be compared.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ BATCH = 0.004
 
 BATCHES = 7
 FEWER = 3
-"""The number of batches, and the number of batches for a call that takes longer than :data:`LONG` seconds."""
+"""The number of batches is BATCHES. It is FEWER if a call takes longer than :data:`LONG` seconds."""
 
 LONG = 0.2
 
@@ -57,7 +57,7 @@ def _batch(call: Callable[[], object], calls: int) -> float:
 
 
 def timings(run: Callable[[int], object], steps: Sequence[int], batch: float = BATCH) -> tuple[Timing, ...]:
-    """Return the time of ``run(n)`` for each n of ``steps``, less the time of ``run(0)``."""
+    """Return the CPU time of ``run(n)`` minus the CPU time of ``run(0)``, for each n of ``steps``."""
     overhead = cost(lambda: run(0), batch)
 
     def timing(n: int) -> Timing:

@@ -1,7 +1,7 @@
 """Lowering: a tableau and a scene become a step program, with one block of stages.
 
-A file for each family holds its :class:`Lowering`. All other code asks the registry, and :func:`register`
-adds a lowering to it.
+Each family has a file with its :class:`Lowering`. All other code finds lowerings in the registry, and
+:func:`register` adds a lowering to the registry.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ __all__ = [
 
 
 def problem_for(scene: Problem, method: Method) -> Problem:
-    """Return the scene as the method's family sees it; :class:`MethodError` if the family does not take the
-    scene."""
+    """Return the scene in the form that the method's family requires; raise :class:`MethodError` if the
+    family does not accept the scene."""
     own = lowering(method.family)
     objection = own.objection(scene)
     if objection is not None:
@@ -46,6 +46,7 @@ def problem_for(scene: Problem, method: Method) -> Problem:
             expected=objection.expected,
             hint=objection.hint or f"use one of {', '.join(families_for(scene))}",
         )
+    # The family has no objection, so any further error concerns this method only.
     return own.problem(scene, method)
 
 
@@ -55,11 +56,13 @@ def lower(scene: Problem, method: Method) -> Program:
 
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
-    """Return the verified program of a step that repeats a shorter step, None for any other step."""
-    # A composed tableau gives the composition of the steps in some families only. VRKMK expands dexp^{-1}
-    # over the whole step, and the product of exponentials of the substeps is a different method.
+    """Return the verified program of a step that repeats a shorter step; None for any other step."""
+    # Only in some families is the step of a composed tableau the composition of the shorter steps. VRKMK
+    # expands dexp^{-1} over the whole step, and the product of exponentials of the substeps is a different
+    # method.
     if not lowering(method.family).repeats_substeps:
         return None
+    # The test is on the coefficients: a tableau need not be declared as a composition.
     repetition = substeps(method)
     if repetition is None:
         return None

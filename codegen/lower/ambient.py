@@ -1,5 +1,5 @@
-"""Runge-Kutta methods in the coordinates of the state; the size of their error is their distance to the
-manifold."""
+"""Runge-Kutta methods in the coordinates of the state; their distance from the manifold is of the size of
+their error."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """The base class of lowerings: one class for each family turns a tableau and a problem into a program.
 
 Two classes define a family of methods. :class:`orderconds.families.Family` defines its order conditions.
-:class:`Lowering` decides which scenes the family takes, and writes the step program.
-:func:`codegen.lower.register` makes a lowering known to every command.
+:class:`Lowering` decides which scenes the family accepts, and writes the step program.
+:func:`codegen.lower.register` makes a lowering available in every command.
 """
 
 from __future__ import annotations
@@ -22,10 +22,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Objection:
-    """Why a family does not take a scene: the scene's unsuitable property, the expected property, and a hint.
+    """The reason why a family does not accept a scene: the unsuitable property, the expected property, and a
+    hint.
 
     ``reason`` continues the sentence "FAMILY on SCENE"; without a ``hint`` the message names the families
-    that take the scene.
+    that accept the scene.
     """
 
     reason: str
@@ -34,7 +35,7 @@ class Objection:
 
 
 class Lowering(ABC):
-    """How methods of one family become step programs.
+    """The translation of the methods of one family to step programs.
 
     A subclass sets :attr:`family` and implements :meth:`problem` and :meth:`lower`. It usually derives from
     :class:`codegen.lower.field.FieldLowering` (vector fields),
@@ -48,32 +49,32 @@ class Lowering(ABC):
     hamiltonian: ClassVar[bool] = False
     """Whether programs work on (q, mu) of a Hamiltonian scene, not on a point y of a vector field."""
     preference: ClassVar[int] = 0
-    """Families with a higher number come first where a method names no family."""
+    """If a method's name contains no family, families with a higher number have priority."""
     repeats_substeps: ClassVar[bool] = False
-    """Whether the program of a composed tableau is, in this family, the composition of the shorter steps.
+    """Whether the step of a composed tableau is, in this family, the composition of shorter steps.
 
-    It is not for a family that expands dexp^{-1} over the whole step.
+    This is false for a family that expands dexp^{-1} over the whole step.
     """
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return why the family does not take a scene, None where it does."""
+        """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         return None
 
     @abstractmethod
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as programs of this family see it. The family has no :meth:`objection` to the
-        scene.
+        """Return the scene in the form that programs of this family require.
 
-        :class:`codegen.errors.MethodError` is raised where the scene does not suit this method.
+        The family must have no :meth:`objection` to the scene. :class:`codegen.errors.MethodError` is raised
+        if the scene does not suit this method.
         """
 
     @abstractmethod
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the verified step program of a method, all its stages in one block.
 
-        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised for a
-        tableau of a format that the family does not read, :class:`orderconds.errors.ZeroWeight` for a zero
-        among the weights that the family divides by.
+        ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
+        family does not read the format of the tableau, :class:`orderconds.errors.ZeroWeight` if the family
+        divides by a weight that is zero.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -96,7 +97,8 @@ class Lowering(ABC):
         return 0
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the family whose order conditions hold for the program; they may depend on the scene."""
+        """Return the family whose order conditions apply to the program; the conditions may depend on the
+        scene."""
         from orderconds import families
 
         # The label includes the cut-off, on which the conditions depend.
@@ -106,6 +108,6 @@ class Lowering(ABC):
         """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
         from orderconds.checking import check
 
-        # One family was asked for, so the result has one order.
+        # The check is for one family, so the result has one order.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

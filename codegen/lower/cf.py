@@ -40,7 +40,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
     k = [build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)]
 
     def product(stage: Stage, name: str, points: list[Var]) -> Var:
-        # A stage may continue from an earlier one, Y_i = exp(...) Y_k, which saves the exponentials of stage
+        # A stage may start from an earlier stage, Y_i = exp(...) Y_k, which saves the exponentials of stage
         # k.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:

@@ -21,7 +21,7 @@ class CompositionLowering(FlowLowering):
         tableau = method.tableau.method
         if isinstance(tableau, AdjointComposition):
             return adjoint_word(parts, method, tableau)
-        # Tableaux of other formats have no gamma, and imply no base method.
+        # A tableau of another format has no step lengths gamma.
         if not isinstance(tableau, Composition):
             raise unread(parts, method)
         # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition of Phi and Phi*

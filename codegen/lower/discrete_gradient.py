@@ -1,4 +1,4 @@
-"""Discrete gradient methods on groups, section 2.6 of Marthinsen's thesis: they keep the energy exactly.
+"""Discrete gradient methods on groups, section 2.6 of Marthinsen's thesis: they preserve the energy exactly.
 
 x1 = exp(h xi).x0 with xi = i_D omega at the midpoint exp(h xi/2).x0, where omega is the scene's bivector
 (:mod:`codegen.scene.energy`) and D a trivialised discrete differential, <D, eta> = H(x1) - H(x0), eta = h xi.
@@ -37,9 +37,10 @@ class DiscreteGradient(FieldLowering):
     family = "discrete_gradient"
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return why the family does not take a scene: it needs an energy that the field keeps."""
+        """Return the reason why the family does not accept a scene; it requires an energy that the field
+        preserves."""
         expected = f"a Hamiltonian scene without time, or a field with an invariant called {ENERGY}"
-        # If H depends on time, the energy is no invariant, so there is nothing to keep.
+        # If H depends on time, the energy is no invariant of the field, so a method cannot preserve it.
         if not scene.autonomous:
             return Objection(", which depends on time", expected)
         return Objection(", which has no energy", expected) if energy_of(scene) is None else None
@@ -54,7 +55,7 @@ class DiscreteGradient(FieldLowering):
         return _program(problem, method)
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Return False: no method keeps both the energy and the symplectic form."""
+        """Return False: no such method preserves both the energy and the symplectic form."""
         return False
 
 
@@ -111,5 +112,5 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
                 f"{method.label} on {scene.name}, whose energy is the same in all directions of the group",
-                expected="an energy whose differential along the group vanishes only where f does",
+                expected="an energy whose differential along the group vanishes only where f vanishes",
             )

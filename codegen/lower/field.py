@@ -1,4 +1,4 @@
-"""Lowerings that take any vector field on a homogeneous space."""
+"""The base class of lowerings for vector fields on homogeneous spaces."""
 
 from __future__ import annotations
 
@@ -9,9 +9,11 @@ from codegen.scene.problem import Problem
 
 
 class FieldLowering(Lowering):
-    """A family for vector fields y' = f(y).y; it sees a Hamiltonian scene as a field on the group T*G."""
+    """A family for vector fields y' = f(y).y; a Hamiltonian scene is converted to a field on the group
+    T*G."""
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene as a field; a Hamiltonian gives the sum of the fields of its parts if that is
-        shorter."""
+        """Return the scene as a field; the field of a Hamiltonian is the sum of the fields of its parts if
+        that sum is shorter."""
+        # The parts come first, because they are formulas in q and mu, which as_field joins to one point.
         return with_field_by_parts(scene).as_field()

@@ -1,7 +1,7 @@
 """Lowerings that compose exact flows: a step is a word in the flows of a Hamiltonian's parts, on T*G.
 
-The flows of one summand advance the time; the summand itself does not depend on the time. The time is
-constant during all other flows.
+If the Hamiltonian depends on time, the flow of one summand also advances the time; this summand itself does
+not depend on time. The time is constant during all other flows.
 """
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class FlowLowering(Lowering):
     hamiltonian = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return why the family does not take a scene."""
+        """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         if not scene.is_hamiltonian:
             return Objection("", "a Hamiltonian scene")
         # A scene with a wrench has no Hamiltonian, and a run-time input changes during a flow, so neither
@@ -107,15 +107,15 @@ class FlowLowering(Lowering):
         """
 
     def read(self, scene: Problem, method: Method) -> Reading:
-        """Return the reading of a method on a Hamiltonian scene in parts.
+        """Return the word, the carrier and the conditions of a method on a Hamiltonian scene with parts.
 
         :class:`codegen.errors.MethodError` is raised for parts that do not add up to H, a part without exact
         flow, a tableau for another number of parts, and parts that all depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
-        # Flows of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}, so joining neighbours is
-        # exact.
+        # Flows of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}, so neighbouring flows can
+        # be joined exactly.
         return Reading(tuple(_joined(word)), _carrier(parts), conditions)
 
     def lower(self, problem: Problem, method: Method) -> Program:
@@ -160,7 +160,7 @@ def parts_of(scene: Problem, where: str) -> Parts:
                 f"the part {part.name} has no exact flow: {part.reason}",
                 where=where,
                 expected="kicks, drifts, tops, turns about fixed axes and linear flows",
-                hint="split it into such parts",
+                hint="split it into parts of these kinds",
             )
     return Parts(scene, tuple(parts), where)
 
@@ -183,19 +183,18 @@ def unread(parts: Parts, method: Method) -> MethodError:
 
 
 def is_kick(summand: Summand) -> bool:
-    """Whether a summand changes the momentum alone."""
+    """Whether a summand changes only the momentum."""
     return all(isinstance(flow, Kick) for _, flow in summand.flows)
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first: at the ends of Strang's step the flows of neighbouring steps
-    join."""
+    """Return the summands with kicks first: kicks at the ends of neighbouring steps join into one flow."""
     # The sort is stable, so the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
 
 def pairs(summands: Sequence[Summand], both: Sequence[tuple[Number, Number]]) -> Word:
-    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, ...; Phi has the summands in reverse order, Phi* in
+    """Return the word Phi*_{beta_1}, Phi_{alpha_1}, ...; Phi* has the order of ``summands``, Phi the reverse
     order."""
     word: Word = []
     for beta, alpha in both:
@@ -232,13 +231,13 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand without t. Any other one would be right, too, because the order
-        # conditions are those of the extended system.
+        # The carrier is the first summand without t. Any other summand without t would be correct, too,
+        # because the order conditions are those of the extended system.
         if not summand.timed:
             return summand
     raise MethodError(
         "every part depends on t",
         where=parts.where,
-        expected="one part without t, with whose flow the time moves",
+        expected="one part that does not depend on t, whose flow advances the time",
         hint="add a part that does not depend on t",
     )

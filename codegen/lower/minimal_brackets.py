@@ -21,7 +21,8 @@ program."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
-    """Return arguments with the fewest brackets for ``rkmk`` without a cut-off, keeping the tableau's order.
+    """Return the bracket program of an ``rkmk`` method without a cut-off: the fewest brackets that keep the
+    order.
 
     :class:`codegen.errors.MethodError` is raised for a tableau that is implicit, has ball coefficients, or
     has an order above the family's ``minimal_brackets``.
@@ -80,7 +81,7 @@ def lower(scene: Problem, method: Method) -> Program:
         return build.lin(name, Kind.ALG, terms)
 
     def images() -> list[Var]:
-        # A bracket may use earlier ones, in the order of the program.
+        # A bracket may read earlier brackets, in the order of the program.
         for r, (left, right) in enumerate(written.brackets):
             # Both arguments are combinations: [a + b, c] is one bracket, but [a, c] + [b, c] would be two.
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)

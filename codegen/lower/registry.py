@@ -1,4 +1,4 @@
-"""The registry of lowerings: one for each family that the compiler knows."""
+"""The registry of lowerings: one for each family that the compiler supports."""
 
 from __future__ import annotations
 
@@ -47,19 +47,20 @@ def _built_in() -> tuple[type[Lowering], ...]:
 
 
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
-    """Make a lowering known to every command, and return it; it may be used as a decorator.
+    """Register a lowering for all commands, and return it; this function may be used as a decorator.
 
-    With ``family``, the class of its order conditions is registered by the same call
-    (:func:`orderconds.families.register`), so that all commands of both packages know the family.
+    ``family`` is the class of the order conditions. If it is given, it is registered, too
+    (:func:`orderconds.families.register`), so that all commands of both packages support the family.
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
     family that already has a lowering of another class.
     """
     if not lowering.family:
         raise MethodError(f"{lowering.__name__} names no family", expected='family = "NAME" in the class')
+    # A second class is refused: the meaning of a method must not depend on the order of registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(
-            f"a second lowering of family {lowering.family}", where=lowering.__name__, expected="one"
+            f"a second lowering of family {lowering.family}", where=lowering.__name__, expected="one lowering"
         )
     if family is not None:
         families.register(family)
@@ -69,14 +70,16 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 
 
 def unregister(family: str) -> None:
-    """Forget the lowering of a family that :func:`register` added; built-in ones stay."""
+    """Remove the lowering of a family that :func:`register` added; raise MethodError for a built-in
+    family."""
+    # Built-in families stay, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(f"family {family} is built in", expected="a family that was registered")
     _registered.pop(family, None)
 
 
 def names() -> tuple[str, ...]:
-    """Return the families that can be lowered, built-in ones first.
+    """Return the families that can be lowered, built-in families first.
 
     >>> names()[:4]
     ('rk', 'rkmk', 'cg', 'cf')
@@ -85,7 +88,8 @@ def names() -> tuple[str, ...]:
 
 
 def lowering(family: str) -> Lowering:
-    """Return the lowering of a family; :class:`codegen.errors.MethodError` for a family without lowering.
+    """Return the lowering of a family; raise :class:`codegen.errors.MethodError` for a family without
+    lowering.
 
     >>> lowering("vcg").hamiltonian
     True
@@ -97,15 +101,15 @@ def lowering(family: str) -> Lowering:
 
 
 def families_for(scene: Problem) -> tuple[str, ...]:
-    """Return the families that take a scene, in the order of preference where a method names none."""
+    """Return the families that accept a scene, in order of preference for methods that name no family."""
     able = [own for own in _lowerings().values() if own.objection(scene) is None]
     # The sort is stable: families of the same preference keep the order of registration.
     return tuple(own.family for own in sorted(able, key=lambda own: -own.preference))
 
 
 def _lowerings() -> dict[str, Lowering]:
-    """Return all lowerings by family; the modules of the built-in ones are imported at the first call."""
-    # The modules are imported at the first call, because they import this package themselves.
+    """Return all lowerings by family; built-in modules are imported at the first call."""
+    # The import is here and not at the top, because the built-in modules import this package.
     if not _registered:
         _registered.update((lowering.family, lowering()) for lowering in _built_in())
     return _registered

@@ -17,7 +17,8 @@ class RungeKuttaLowering(FieldLowering):
     repeats_substeps = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return why the family does not take a scene: its steps leave any manifold but R^n."""
+        """Return the reason why the family does not accept a scene: on manifolds other than R^n a step leaves
+        the manifold."""
         group = scene.as_field().group
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:
@@ -27,4 +28,5 @@ class RungeKuttaLowering(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
+        # On R^n all brackets vanish, so a program without brackets loses no order.
         return with_cutoff(problem, method, 0)

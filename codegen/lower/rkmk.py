@@ -48,8 +48,8 @@ class MuntheKaas(FieldLowering):
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order; without a cut-off the failing conditions have no index sums that could name
-        them."""
+        """Return the order. Without a cut-off no failing conditions are listed, because they have no
+        names."""
         if method.cutoff is not None:
             return super().order(method, scene)
         from orderconds.checking import family_order

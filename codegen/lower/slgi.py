@@ -31,7 +31,8 @@ class SymplecticIntegrator(VariationalLowering):
     family = "slgi"
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of an SLGI method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        """Return the program of an SLGI method; raise :class:`orderconds.errors.ZeroWeight` if some b_i =
+        0."""
         return _program(problem, method)
 
 

@@ -1,10 +1,10 @@
 """Splittings: words of exact flows of a Hamiltonian's parts, on T*G.
 
-If a tableau has as many parts as the scene, it names the flows of the parts directly. A tableau for two parts
-A, B also applies to a scene with more parts: it is written as a composition with coefficients beta_1,
-alpha_1, ... of Phi and its adjoint Phi*. Phi is the product of the flows of all summands, and Phi* has the
-same flows in the opposite order. The composition keeps the order of the splitting for any basic method Phi
-(McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+If a tableau has as many parts as the scene, its coefficients are the durations of the flows of these parts. A
+tableau for two parts A, B also applies to a scene with more parts: it is written as a composition with
+coefficients beta_1, alpha_1, ... of Phi and its adjoint Phi*. Phi is the product of the flows of all
+summands, and Phi* has the same flows in the opposite order. The composition keeps the order of the splitting
+for any basic method Phi (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
 """
 
 from __future__ import annotations
@@ -55,9 +55,9 @@ class SplittingLowering(FlowLowering):
             return pairs(kicks_first(chosen), _as_pairs(steps)), self.family
         inexact = [part.name for part in parts.parts if not part.exact]
         raise MethodError(
-            f"a tableau in {len(tableau.parts)} parts for a scene in {len(chosen)}",
+            f"a tableau for {len(tableau.parts)} parts on a scene with {len(chosen)} parts",
             where=parts.where,
-            expected=f"{len(chosen)} parts, or two",
+            expected=f"a tableau for {len(chosen)} parts, or for two",
             hint=f"{', '.join(inexact)} is split into turns that do not commute" if inexact else "",
         )
 

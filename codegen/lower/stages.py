@@ -1,4 +1,4 @@
-"""Stages of a step: inputs, stage times, evaluations of the scene, and one block that holds all stages."""
+"""Stages of a step: inputs, stage times, evaluations of the scene, and one block that contains all stages."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Stages:
         self.time = None if self.scene.autonomous else Var("t", Kind.REAL)
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient of the tableau as a number; rational values are kept over QQ."""
+        """Return a coefficient of the tableau as a number; rational values are stored over QQ."""
         return self.method.number(x)
 
     def times_h(self, x: Element | Number) -> Coefficient:
@@ -63,8 +63,9 @@ class Stages:
         starts: Callable[[], Sequence[Var]],
         update: Callable[[], dict[str, Var]],
     ) -> Program:
-        """Return the verified program: starts, one block with the images' body, the update; outputs by input
-        name."""
+        """Return the verified program: the starts, one block with the equations, and the update. The
+        functions append statements and return variables; ``update`` returns the outputs by the name of the
+        replaced input."""
         # The order of appending is the order of the program: starts, body of the block, update.
         first = tuple(starts())
         before = self.builder.take()

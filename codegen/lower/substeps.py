@@ -1,11 +1,11 @@
-"""Compositions: a step that repeats one shorter step becomes the shorter step and a table of substeps.
+"""Compositions: a step that repeats one shorter step is compiled as the shorter step and a table of substeps.
 
 Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in an earlier group than i, and
 a_ij = 0 for j in a later group. Then the method is the composition of the methods of the groups with steps
 gamma_k h, where gamma_k is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
-Crouch-Grossman methods the products of exponentials show the same. If the coefficients of every group divided
-by gamma_k are the same, all groups are one method, and one program is enough. The repeated method may also
-consist of several neighbouring groups.
+Crouch-Grossman methods the same follows from the products of exponentials. If the coefficients of every group
+divided by gamma_k are the same, all groups are one method, and one program is enough. The repeated method may
+also consist of several neighbouring groups.
 
 Only implicit methods are split, because explicit stages of neighbouring substeps share computations.
 """
@@ -102,7 +102,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Whether the stages from k on begin where the update by the stages before k has ended."""
+    """Whether the stages from k on start from the result of the update by the stages before k."""
     s = len(b)
     # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
     # depend on later ones.
@@ -112,7 +112,7 @@ def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> boo
 
 
 def _implicit(rows: Sequence[Sequence[Number]]) -> bool:
-    # The last row is b. An entry on or above the diagonal makes a stage depend on itself or on a later one.
+    # The last row is b. An entry on or above the diagonal makes a stage depend on itself or on a later stage.
     return any(not x.is_zero for i, row in enumerate(rows[:-1]) for x in row[i:])
 
 

@@ -1,4 +1,4 @@
-"""Variational lowerings on T*G: they take Hamiltonian scenes, and their steps are symplectic."""
+"""Variational lowerings on T*G: they accept Hamiltonian scenes, and their steps are symplectic."""
 
 from __future__ import annotations
 
@@ -18,13 +18,14 @@ from orderconds.tableau import RungeKutta
 
 
 class VariationalLowering(Lowering):
-    """A family that discretises Hamilton's principle on a group; it sees (q, mu) and the Hamiltonian."""
+    """A family that discretises Hamilton's principle on a group, for scenes with a state (q, mu) and a
+    Hamiltonian."""
 
     hamiltonian = True
     preference = 1  # a Hamiltonian scene is usually integrated for long times, which needs symplectic steps
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return why the family does not take a scene."""
+        """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         return None if scene.is_hamiltonian else Objection("", "a Hamiltonian scene")
 
     def problem(self, scene: Problem, method: Method) -> Problem:
@@ -39,7 +40,7 @@ class VariationalLowering(Lowering):
 def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list[Number]], list[Number]]:
     """Return the stages of a step from (q, mu), the tableau, and its A and b as numbers.
 
-    :class:`orderconds.errors.ZeroWeight` where some b_i = 0.
+    :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0.
     """
     tableau = method.runge_kutta()
     stages = Stages(scene, method, (Var("q", Kind.GROUP), Var("mu", Kind.DUAL)))
@@ -49,19 +50,24 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
-    """Return the weights, by which the step's equations divide; ZeroWeight names the first zero weight."""
+    """Return the weights, by which the step's equations divide; raise ZeroWeight for the first
+    weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # Only a proven zero is refused, because a small weight is no error.
-        if weight.is_zero:
+        # A small weight is no error, but no quotient by a ball that contains zero is defined.
+        vanishes = weight.ring.is_zero(weight.element)
+        if vanishes is not False:
             raise ZeroWeight(
-                f"b_{i} = 0", where=method.label, expected="all b_i non-zero: the method divides by them"
+                f"b_{i} = 0" if vanishes else f"b_{i} = {weight.text()}, which may be zero",
+                where=method.label,
+                expected="all b_i non-zero: the method divides by them",
+                hint="" if vanishes else "write the weight with more digits",
             )
     return list(weights)
 
 
 def brackets(method: Method) -> int:
-    """Return the cut-off of dexp^{-1}; MethodError without a cut-off: a program has finitely many
-    brackets."""
+    """Return the cut-off of dexp^{-1}; raise MethodError without a cut-off, because a program has finitely
+    many brackets."""
     if method.cutoff is None:
         # The program also expands the dual of dexp^{-1} and its derivative. The search for the fewest
         # brackets does not cover these.
@@ -123,7 +129,8 @@ class ExpandedStep(ABC):
         self.mubar = build.lin("mubar", Kind.DUAL, terms)
 
     def time(self, i: int) -> tuple[Var, ...]:
-        """Return the time of a stage as arguments of the scene: () where the scene has none."""
+        """Return the time of a stage as arguments of the scene, or () if the scene does not depend on
+        time."""
         return self.stages.at(self.tableau.c[i])
 
     def update(self) -> dict[str, Var]:

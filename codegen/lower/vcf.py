@@ -10,7 +10,7 @@ sum_j b_j nu_j, its Hamilton equations are
     q1 = e q0,   mu1 = Ad*_{e^-1} mubar.
 
 As for VCG, the exponential of each factor is merged into dexp* (dexp*_x Ad*_{exp(-x)} = dexp*_{-x}). The
-terms are separate, so that the passes see what cancels. A stage that starts from another stage has the
+terms are separate, so that the passes can cancel equal terms. A stage that starts from another stage has the
 exponentials of that stage before its own; the passes find shared prefixes.
 """
 
@@ -28,7 +28,7 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 
 Rows = tuple[tuple[Number, ...], ...]
-"""The exponentials of one product from y0 on; the first acts first."""
+"""The exponents of a product of exponentials, as rows of coefficients; the first exponential acts first."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class VariationalCommutatorFree(VariationalLowering):
     repeats_substeps = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a VCF method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        """Return the program of a VCF method; raise :class:`orderconds.errors.ZeroWeight` if some b_i = 0."""
         return _program(problem, method)
 
 
@@ -136,8 +136,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
-    """Return the exponentials of each stage and of the update, each after those of the stage from which it
-    starts."""
+    """Return the exponentials of each stage and of the update. If a stage starts from an earlier stage, the
+    exponentials of the earlier stage come first."""
     tableau = method.commutator_free()
     *stages, update = (
         tuple(tuple(method.number(x) for x in row) for row in tableau.from_start(stage))
@@ -147,7 +147,7 @@ def _coefficients(method: Method) -> tuple[list[Rows], Rows]:
 
 
 def _weights(method: Method, update: Rows, s: int) -> list[Number]:
-    """Return b_i = sum_J beta_J^i, none of them zero."""
+    """Return b_i = sum_J beta_J^i; raise ZeroWeight if one of them is zero."""
     b = []
     for i in range(s):
         # The weight of stage i in the discrete Lagrangian is its total coefficient in the update.

@@ -29,7 +29,7 @@ class VariationalCrouchGrossman(VariationalLowering):
     repeats_substeps = True
 
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the program of a VCG method; :class:`orderconds.errors.ZeroWeight` where some b_i = 0."""
+        """Return the program of a VCG method; raise :class:`orderconds.errors.ZeroWeight` if some b_i = 0."""
         return _program(problem, method)
 
 

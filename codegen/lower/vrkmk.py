@@ -33,8 +33,9 @@ class VariationalMuntheKaas(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program of a VRKMK method with cut-off ``method.cutoff``.
 
-        :class:`orderconds.errors.ZeroWeight` is raised where some b_i = 0,
-        :class:`codegen.errors.MethodError` without a cut-off: a program has finitely many brackets.
+        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
+        :class:`codegen.errors.MethodError` for a method without a cut-off, because a program has finitely
+        many brackets.
         """
         return _Step(problem, method).program()
 
@@ -53,7 +54,7 @@ class _Step(ExpandedStep):
         self.slopes: dict[int, Var] = {}
 
     def images(self) -> list[Var]:
-        """Return new values of v_i, m_i and Lambda, computed from the old ones."""
+        """Return new values of v_i, m_i and Lambda, computed from the old values."""
         # X_i is computed from the unknowns v_j, but Y below from the new v_j, which are one sweep ahead.
         self.exponentiate(self.v)
         velocities = self._evaluated()

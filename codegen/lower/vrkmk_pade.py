@@ -36,8 +36,9 @@ class VariationalMuntheKaasPade(VariationalLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program with ``method.cutoff`` brackets in dexp.
 
-        :class:`orderconds.errors.ZeroWeight` is raised where some b_i = 0,
-        :class:`codegen.errors.MethodError` without a cut-off: a program has finitely many brackets.
+        :class:`orderconds.errors.ZeroWeight` is raised if some b_i = 0, and
+        :class:`codegen.errors.MethodError` for a method without a cut-off, because a program has finitely
+        many brackets.
         """
         return _Step(problem, method).program()
 
@@ -56,7 +57,7 @@ class _Step(ExpandedStep):
         self.corrections: list[Terms] = []
 
     def images(self) -> list[Var]:
-        """Return new values of v_i and M_i, computed from the old ones."""
+        """Return new values of v_i and M_i, computed from the old values."""
         self.exponentiate(self.v)
         velocities = [self._evaluated(i) for i in range(self.s)]
         self.end(velocities, self.forces)

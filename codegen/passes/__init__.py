@@ -1,7 +1,9 @@
-"""The passes: one file each, pure functions over programs, run in a fixed order and verified after each.
+"""The passes: pure functions over programs, one file for each. They run in a fixed order. A pass is called
+exact if the new program has the same results as the old program in exact arithmetic.
 
-``optimise`` runs them on a scene. After every pass it checks types and single assignment. It also interprets
-the new program at sample points, where the results must agree with those of the lowered program to rounding.
+``optimise`` runs the passes on a scene. After every pass it checks types and single assignment. It also
+interprets the new program at sample points, where the results must agree with the results of the lowered
+program up to rounding.
 """
 
 from __future__ import annotations
@@ -44,7 +46,7 @@ FACTORED = "a linear map is applied to a sum, not to each term"
 def optimise(
     program: Program, scene: Problem, *, framed: bool = False, composed: Program | None = None
 ) -> tuple[Program, tuple[PassReport, ...]]:
-    """Return the program after all passes, and a report of each that changed something.
+    """Return the program after all passes, and a report of each pass that changed the program.
 
     ``scene`` is the problem that the program was lowered in; for ``framed`` and ``composed`` see
     :class:`Optimiser`.
@@ -57,11 +59,9 @@ class Optimiser:
     """Runs the passes on one program and compares each result with a reference.
 
     ``composed``, if given, is the same step as a composition of shorter steps
-    (:mod:`codegen.lower.substeps`).
-    The whole composition is compared with ``program`` and then replaces it. The passes rewrite and compare
-    only
-    one of its substeps. A pass that changes the meaning of the program raises
-    :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
+    (:mod:`codegen.lower.substeps`). The whole composition is compared with ``program`` and then replaces it.
+    The passes rewrite and compare only one of its substeps. A pass that changes the meaning of the program
+    raises :class:`codegen.ir.verify.IllFormed`, which is a fault of this compiler.
     """
 
     def __init__(self, program: Program, scene: Problem, composed: Program | None = None) -> None:
@@ -70,7 +70,7 @@ class Optimiser:
         self.program, self.meaning = program, Reference(program, scene)
         if composed is not None:
             whole: Program = composed
-            self._run(Pass("substeps", "the step repeats a shorter one", lambda _: whole))
+            self._run(Pass("substeps", "the step repeats a shorter step", lambda _: whole))
             # The passes now rewrite one substep, so the reference is this substep as a step of its own.
             self.meaning = Reference(_part(composed), scene)
         for each in plain_passes(scene):
@@ -86,11 +86,11 @@ class Optimiser:
         The new program may need more operations: the caller counts the operations of both programs.
         """
         plain, reports = self.program, list(self.reports)
-        # No new reference: the interpreter turns the momentum into the body frame and back.
+        # The reference stays valid, because the interpreter converts the momentum to the body frame and back.
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The caller may still want the plain program: the body frame does not always need fewer operations.
+        # The plain program is restored, because the body frame does not always need fewer operations.
         self.program, self.reports = plain, reports
         return outcome
 
@@ -99,7 +99,7 @@ class Optimiser:
         # Many passes do not change a program, which then needs no comparison at several points.
         if new == old:
             return
-        # Each result is compared with the lowered program, not with the previous result: else small
+        # Each result is compared with the lowered program and not with the previous result, because small
         # deviations could accumulate.
         account = self.meaning.differs(new if old.substeps == () else _part(new))
         if account:
@@ -117,20 +117,21 @@ def plain_passes(scene: Problem) -> list[Pass]:
     """Return the passes that apply to every scene, in order."""
     abelian_group = scene.group.abelian
     joined = "flows of one part are joined across flows that commute"
-    vanish = "the group is abelian" if abelian_group else "dexpinv is cut off before its first bracket"
+    vanish = "the group is abelian" if abelian_group else "dexpinv is truncated before its first bracket"
     return [
-        # First: this pass creates the zeros that the next pass removes from sums.
+        # This pass is the first, because it creates zeros that the next pass removes from sums.
         Pass("brackets that vanish", vanish, lambda p: abelian.run(p, abelian_group)),
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # After value numbering, which gives stages with equal rows the same image variable.
+        # This pass follows value numbering, which gives stages with equal rows the same image variable.
         Pass("equal unknowns", "equal stages are solved once", equal_unknowns.run),
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
         # When flows are joined, the stage times of the replaced flows may become unused.
         Pass("unused values", UNUSED, dead.run),
-        # After the pass for zeros, because terms that cancel would keep a composition in one large block.
+        # This pass follows the pass for zeros, because terms that cancel would keep a composition in one
+        # large block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
         Pass("unused values", UNUSED, dead.run),
@@ -140,7 +141,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # Factoring leaves sums of a single term.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # After value numbering, which merges equal exponentials: only then are the readers of exp(x) known.
+        # This pass follows value numbering, which merges equal exponentials: only then are the readers of
+        # exp(x) known.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
         # Factoring can make values independent of a block's unknowns; this pass moves them out of the block.
@@ -150,17 +152,20 @@ def plain_passes(scene: Problem) -> list[Pass]:
 
 def body_frame_passes(scene: Problem) -> list[Pass]:
     """Return the passes that follow where the scene has a body frame, in order."""
-    inverse = "adjoint maps undo each other"
-    one_ad = "functions of one ad are one function"
+    inverse = "an adjoint map and its inverse cancel"
+    one_ad = "functions of the same ad_x are combined"
     return [
-        Pass("body frame", "the equations are those of the body", lambda p: body_frame.run(p, scene)),
+        Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # Before the Legendre transform, which would not replace a second variable of the same momentum.
+        # This pass precedes the Legendre transform, which would not replace a second variable for the same
+        # momentum.
         Pass("shared values", SHARED, value_numbering.run),
-        Pass("Legendre transform", "momenta follow from velocities", lambda p: legendre.run(p, scene)),
-        # The transform applies inverses of maps; elsewhere the program may apply the maps themselves.
+        Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
+        # The transform introduces inverses of maps. Such an inverse may act directly on the result of its
+        # map.
         Pass("inverse maps", inverse, opposites.run),
-        # After the transform: before it, a force depends on its own momentum, which closes a cycle.
+        # This pass follows the transform. Before the transform a force depends on its own momentum, which
+        # closes a cycle.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
         # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -168,10 +173,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # Before functions of ad, which need an exp(x) with one reader: this pass can remove a second reader.
+        # This pass precedes functions of ad, which need an exp(x) with one reader: it can remove a second
+        # reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # After functions of ad: residuals compare momenta in the frame with fewer operations, known only now.
+        # This pass follows functions of ad, because only now is it known in which frame momenta need fewer
+        # operations.
         Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverse maps, so the passes for maps run again.
         Pass("inverse maps", inverse, opposites.run),
@@ -183,6 +190,6 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("numbers outside maps", "numbers are multiplied into sums", hoist_scalars.run),
         Pass("shared values", SHARED, value_numbering.run),
         Pass("unused values", UNUSED, dead.run),
-        # Last: the other passes would multiply the factor -1 back into a sum.
-        Pass("negatives of sums", "a sum is the negative of another", shared_negatives.run),
+        # This pass is the last, because other passes would multiply the factor -1 back into a sum.
+        Pass("negatives of sums", "a sum is the negative of another sum", shared_negatives.run),
     ]

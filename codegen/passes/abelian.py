@@ -1,7 +1,8 @@
 """Vanishing brackets of an abelian group, and dexp^{-1} truncated at order 0.
 
-Exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity, and ad and P
-are zero. On any group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0 is zero.
+The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
+and ad and P are zero. On any group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0
+is zero.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ IDENTITIES = (Adjoint, InverseDexp, DualDexp)
 """Operations that return their last argument where all brackets vanish."""
 
 ZEROS = (Bracket, InverseDexpSlope)
-"""Operations that return zero there."""
+"""Operations that return zero where all brackets vanish."""
 
 
 def run(program: Program, abelian: bool) -> Program:
@@ -26,10 +27,11 @@ def run(program: Program, abelian: bool) -> Program:
         # dexp^{-1} = 1 - ad/2 + ...: truncated at order 0 it is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The last argument is the value that the map acts on; the others select the map.
+            # The last argument is the value that the map acts on; the other arguments select the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
-            # Not an empty sum: the pass for zeros recognises an explicit zero in every operation.
+            # The result is an explicit zero and not an empty sum, because the pass for zeros recognises only
+            # the explicit zero.
             return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))
         return rewriter.emit(assign)
 

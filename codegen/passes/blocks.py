@@ -1,9 +1,9 @@
-"""Blocks: each is split into the strongly connected components of its dependency graph, solved in order.
+"""Split each block into the strongly connected components of its dependency graph, which are solved in order.
 
-Exact. An edge leads from each assignment to those that read its values. An unknown is represented by its
-image, the right-hand side of the unknown's fixed-point equation. A component without a cycle becomes plain
-assignments; a component with a cycle becomes a block with its own unknowns. Explicit methods therefore need
-no solver, and a composition tableau is solved stage by stage.
+The pass is exact. An edge leads from each assignment to those that read its values. An unknown is represented
+by its image, the right-hand side of the unknown's fixed-point equation. A component without a cycle becomes
+plain assignments; a component with a cycle becomes a block with its own unknowns. Explicit methods therefore
+need no solver, and a composition tableau is solved stage by stage.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def run(program: Program) -> Program:
 
 def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     """Return the statements of one block in order; add the images of its unknowns to ``names``."""
-    # Imported here, not at the top: only programs with blocks need networkx.
+    # The import is here, because only programs with blocks need networkx.
     import networkx
 
     # After a block each of its unknowns is replaced by the image, also in the starts of later blocks.
@@ -50,7 +50,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     condensed = networkx.condensation(graph)
     # Inside a component the old order is valid, because only reads of unknowns refer to later assignments.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # Among the possible orders the program's own is taken, which keeps emitted text stable.
+    # Among the possible orders, the order of the program is chosen, which keeps emitted text stable.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
@@ -76,7 +76,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
-    """Replace images that are themselves unknowns; an unknown of a closed chain gets its start."""
+    """Return the image of each unknown; an image that is itself an unknown is replaced by the image of that
+    unknown. If this chain is closed, the start is used."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]

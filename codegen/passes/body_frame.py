@@ -1,10 +1,11 @@
-"""The body frame: values relative to the body at the start of the step, the field relative to the stage.
+"""The body frame: values are written in the body frame at the start of the step, the field in that of the
+stage.
 
-Exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the algebra to
-Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a program
-commute with this transformation, so they do not change. The field alone is replaced, by that of
+The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
+algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a
+program commute with this transformation, so they do not change. Only the field is replaced, by the field of
 :mod:`codegen.scene.body_frame`: xi = Ad_E~ W(Q, P), n = Ad*_{E~^-1} N(Q, P), P = Ad*_E~ M. Then the equations
-of a block read only those numbers of q that the body's field reads. The program reads and returns the
+of a block read only those coordinates of q that the body's field reads. The program reads and returns the
 momentum of the body (:data:`codegen.ir.program.BODY`), so consecutive steps need no transformation between
 them.
 
@@ -60,7 +61,8 @@ def run(program: Program, scene: Problem) -> Program:
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
-        # No test in advance: whether every operation is equivariant is known only after visiting all of them.
+        # There is no test in advance: whether every operation is equivariant is known only at the last
+        # operation.
         return _Framing(program).run()
     except NotFramed:
         return program
@@ -71,7 +73,7 @@ class _Framing:
     program: Program
     names: dict[Var, Var] = field(default_factory=dict)
     relative: dict[Var, Var | None] = field(default_factory=dict)
-    """The E of elements Q = q E, None where it is the identity."""
+    """The factor E of each group element Q = q E; None if E is the identity."""
 
     def run(self) -> Program:
         program = self.program
@@ -114,7 +116,8 @@ class _Framing:
         return replace(program, body=tuple(body), outputs=named, frame=BODY)
 
     def _now(self, variables: tuple[Var, ...]) -> tuple[Var, ...]:
-        # Only the field and products may read a position Q: other operations on it are not equivariant.
+        # Only the field and products may read a position Q, because other operations on Q are not
+        # equivariant.
         if any(v in self.relative for v in variables):
             raise NotFramed
         return tuple(self.names.get(v, v) for v in variables)
@@ -125,7 +128,7 @@ class _Framing:
             self._field(assign)
         elif isinstance(operation, Multiply) and args[1] in self.relative:
             left, right = args[0], self.relative[args[1]]
-            # Not supported: a product (E q)(E' q) does not have the form E'' q.
+            # This case is not supported, because a product (E q)(E' q) does not have the form E'' q.
             if left in self.relative:
                 raise NotFramed
             # left (E q) = (left E) q, and conjugation by q preserves products.

@@ -1,7 +1,7 @@
-"""Dead code: values on which neither the new state nor an equation needed for it depends.
+"""Remove dead code: values on which neither the new state nor the equations for the new state depend.
 
-Exact. An unknown that nothing reads is removed from its block together with its equation. A block without
-unknowns that anything reads is removed.
+The pass is exact. An unknown that nothing reads is removed from its block together with its equation. A block
+is removed if nothing reads its unknowns.
 """
 
 from __future__ import annotations
@@ -16,29 +16,31 @@ def run(program: Program) -> Program:
     """Return the program without dead assignments, unknowns and blocks."""
     live: set[Var] = {var for _, var in program.outputs}
     kept: list[Statement] = []
-    # Backwards: all readers of a value are visited before its definition.
+    # The loop runs backwards, so that all readers of a value are visited before its definition.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
-            # All results stay if one is live: an operation such as the field computes them together.
+            # All results are kept if one of them is live, because an operation such as the field computes
+            # them together.
             if live.intersection(statement.targets):
                 live.update(statement.args)
                 kept.append(statement)
             continue
-        # In reverse order here: the whole list is reversed at the end.
+        # The order is reversed, because the whole list is reversed at the end.
         kept += reversed(_trim(statement, live))
     return replace(program, body=tuple(reversed(kept)))
 
 
 def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
-    """Keep the body assignments that are live, adding what they need to ``live``.
+    """Return a block with its live assignments only, and add the values that they read to ``live``.
 
-    If none of them depends on an unknown, there is nothing to solve, and they become plain assignments.
+    If no live assignment depends on an unknown, there is nothing to solve, and the assignments replace the
+    block.
     """
     image = dict(zip(block.unknowns, block.images, strict=True))
-    # Not strict: a block has one residual for each unknown, or none at all.
+    # zip is not strict, because a block has one residual for each unknown, or no residuals.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # A list in program order, not a set: the iteration order of a set would change from run to run.
+    # This is a list in program order, because the iteration order of a set would change from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # A live unknown needs its image, and every value that the image is computed from.

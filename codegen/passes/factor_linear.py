@@ -1,7 +1,7 @@
-"""Linear maps taken out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2) where no term has other uses.
+"""Take linear maps out of sums: c1 L(x1) + c2 L(x2) becomes L(c1 x1 + c2 x2) if no term has other readers.
 
-Exact. L is a coadjoint operation, dexp* or another linear map, with the same group argument in all terms. The
-pass repeats until nothing changes, so that nested maps are taken out one after the other.
+The pass is exact. L is a coadjoint operation, dexp* or another linear map, with the same group argument in
+all terms. The pass repeats until nothing changes, so that nested maps are taken out one after the other.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from codegen.passes.rewrite import Rewriter, rewrite
 
 def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
-    # Each round has fewer maps than the one before, so the loop ends.
+    # Each round has fewer maps than the previous round, so the loop ends.
     while True:
         new = dead.run(rewrite(program, _rule))  # factored-out values must not count as used
         if new == program:
@@ -31,7 +31,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(arg)
         # If L(x) has a second reader, it is computed anyway, and a map of the sum would be an additional map.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
-        # Equal operation and equal first arguments: the same linear map. Other terms get unique keys.
+        # Terms with equal operation and equal first arguments are values of the same linear map. Other terms
+        # get unique keys.
         key = (source.operation, source.args[:-1]) if source is not None and single else k
         groups.setdefault(key, []).append((c, arg))
     if all(len(terms) == 1 for terms in groups.values()):

@@ -1,8 +1,8 @@
-"""Exact flows of one part are joined into one if they commute with all flows between them.
+"""Join exact flows of one part into one flow if they commute with all flows between them.
 
-Exact. Two flows commute if their order does not matter. Whether two flows commute is tested with 40 digits at
-points of the scene, for two different durations. Example: gravity does not depend on the spin of a symmetric
-top about its axis, so a step needs the flow of this spin only once.
+The pass is exact. Two flows commute if their order does not matter. Whether two flows commute is tested with
+40 digits at points of the scene, for two different durations. Example: gravity does not depend on the spin of
+a symmetric top about its axis, so a step needs the flow of this spin only once.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # Computed only if the program is a composition of flows: sampling the scene takes time.
+    # This is computed only if the program is a composition of flows, because sampling the scene takes time.
     commute = commuting(scene)
     kept: list[Letter] = []
     # Each flow moves to an earlier place if it commutes with all flows that it passes.
@@ -58,7 +58,7 @@ def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str]
         # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # To reach an earlier place, the letter would have to pass this flow.
+        # The new flow cannot reach an earlier place, because it does not commute with this flow.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -85,8 +85,9 @@ def word(program: Program) -> list[Letter] | None:
 
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
-    """Return the program that applies these flows, with the stage times of the old one."""
-    # All times first: each of them depends on t alone. The pass for unused values removes unread ones.
+    """Return the program that applies these flows, with the stage times of the old program."""
+    # All stage times come first, because each of them depends on t alone. The pass for unused values removes
+    # stage times that no flow reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
@@ -105,14 +106,16 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # Points on the manifold only: formulas that use the equations of the group agree only there.
+        # The points are on the manifold, because formulas that use the equations of the group agree only
+        # there.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))
         return tuple(x for block in state for x in block)
 
     @cache
     def same(pair: tuple[str, str]) -> bool:
-        # Different durations: with equal ones a symmetry of the two parts could hide a difference.
+        # The durations differ, because with equal durations a symmetry of the two parts could hide a
+        # difference.
         first, second = ((part, d.rational(k + 2, 7)) for k, part in enumerate(pair))
         for point in orbit.points:
             try:
@@ -124,7 +127,8 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
                 return False
         return True
 
-    # Commuting is symmetric: sorting the pair halves the comparisons. A flow commutes with itself.
+    # The relation is symmetric, so sorting the pair halves the number of comparisons. A flow commutes with
+    # itself.
     return lambda a, b: a == b or same((a, b) if a < b else (b, a))
 
 

@@ -1,9 +1,9 @@
-"""Simplification: zero coefficients, coefficients of equal values, terms that cancel, identities.
+"""Remove zeros, identities and terms that cancel, and add the coefficients of equal values.
 
-Exact. In a sum, terms with coefficient zero are removed, and coefficients of the same value are added. A sum
-that is a single value with coefficient one becomes that value. The exponential of zero is the identity. A
-product or action of the identity is the other factor. A linear operation on zero gives zero, and dexp at zero
-is the identity map.
+The pass is exact. In a sum, terms with coefficient zero are removed, and coefficients of the same value are
+added. A sum that is a single value with coefficient one becomes that value. The exponential of zero is the
+identity. A product or action of the identity is the other factor. A linear operation on zero gives zero, and
+dexp at zero is the identity map.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from codegen.ir.values import Coefficient, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
 AT_ZERO = (InverseDexp, DualDexp)
-"""Operations that return their last argument where the first is zero."""
+"""Operations that return their last argument if the first argument is zero."""
 
 AT_IDENTITY = (Act, Adjoint)
-"""Operations that return their last argument where the first is the identity."""
+"""Operations that return their last argument if the first argument is the identity."""
 
 
 def run(program: Program) -> Program:
@@ -43,7 +43,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # t + 0 h is t: the stage at the start of the step needs no stage time.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # Definitions, not numerical values: only a zero or an identity that the program states explicitly counts.
+    # Definitions are examined, and not numerical values: only an explicit Zero or Identity of the program
+    # counts.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]

@@ -1,9 +1,9 @@
-"""Functions of one ad: dexp, dexp^{-1} and exp applied one after the other are combined into one function.
+"""Functions of ad_x: dexp, dexp^{-1} and exp of one x, applied one after the other, become one function.
 
-Exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with multiples of one x
-is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a closed form for this
-product: on SO(3) it is 1 + b ad_x + c ad_x^2. An exp(x) that is read by one adjoint operation only need not
-be computed.
+The pass is exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with
+multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
+closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. An exp(x) that is read by one adjoint
+operation only need not be computed.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ def run(program: Program, scene: Problem) -> Program:
 
 
 def rows(program: Program, scene: Problem) -> Program:
-    """Return the program with q exp(x) formed by rows where the body's field reads a single row of q.
+    """Return the program in which q exp(x) is formed row by row, if the body's field reads a single row of q.
 
-    Then that row of the product is computed without forming exp(x).
+    Then only this row of the product is computed, and exp(x) is not formed.
     """
     if scene.body is None:
         return program
@@ -99,7 +99,7 @@ Part = tuple[Var, Word, Var]
 
 
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
-    """Return y, the function of ad_y and its argument, by which var is defined, with s in x = s y."""
+    """Return (s, (y, W, v)) if var is defined as W(ad_y) v and x = s y; None otherwise."""
     source = rewriter.definitions.get(var)
     # A function with another reader is computed anyway; joined with this reader, it would be computed twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:

@@ -1,7 +1,7 @@
 """Exponential and action fused: an action by exp(x) becomes one operation if exp(x) has one reader.
 
-Exact. exp(x).y needs no group element: Rodrigues' formula, applied to a vector, needs two cross products
-only.
+The pass is exact. exp(x).y needs no group element: Rodrigues' formula, applied to a vector, needs two cross
+products only.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ def run(program: Program) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         if isinstance(assign.operation, Act):
+            # An element that is not defined as an exponential has no exponent x.
             source = rewriter.definitions.get(assign.args[0])
             if (
                 source is not None

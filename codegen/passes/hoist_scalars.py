@@ -1,8 +1,8 @@
 """Numbers taken out of linear maps, L(c x) = c L(x), and sums nested in sums expanded into one sum.
 
-Exact. The map is applied to the value x, which other operations share. The number c joins the coefficients of
-the sum that reads L(c x). Terms that several sums contain in the same proportion are added once for all these
-sums.
+The pass is exact. The map is applied to the value x, which other operations share. The number c joins the
+coefficients of the sum that reads L(c x). Terms that several sums contain in the same proportion are added
+once for all these sums.
 """
 
 from __future__ import annotations
@@ -16,13 +16,15 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that a value is a term of, and its coefficient relative to the first."""
+"""The sums that contain a value, each with the value's coefficient divided by its coefficient in the first
+sum."""
 
 
 def run(program: Program) -> Program:
-    """Return the program with numbers outside of maps, sums expanded, and proportional terms added once."""
+    """Return the program in which numbers are moved out of linear maps, nested sums are expanded, and
+    proportional terms are added once."""
     while True:
-        # Unused values are removed in each round: a sum that was expanded must not count as a reader.
+        # Unused values are removed in each round, because a sum that was expanded must not count as a reader.
         new = dead.run(rewrite(program, _rule))
         if new == program:
             return _added(program)
@@ -66,9 +68,9 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 
 
 def _added(program: Program) -> Program:
-    """Return the program in which terms that several sums contain in one proportion are added once."""
+    """Return the program in which terms that several sums contain in the same proportion are added once."""
     builder = Builder({v.name for v in defined(program)})
-    # Only in blocks: a sweep is repeated, so an addition saved there is saved several times.
+    # Only blocks are changed: a sweep is repeated, so an addition saved in a block is saved several times.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
@@ -79,7 +81,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # Coefficients relative to the first: values in the same proportion then have equal patterns.
+        # The coefficients are relative to the first one, so that values in the same proportion have equal
+        # patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum would have to be removed twice.

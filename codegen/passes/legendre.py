@@ -1,11 +1,11 @@
 """The Legendre transform: momenta and forces of a stage computed from its velocity alone.
 
-Exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the solution.
-Other operations that read W, P, or a value on the path between v and a momentum M then read values computed
-from v instead. A force thus no longer depends on an unknown momentum, and tearing removes the force from the
-unknowns. One equation remains for each v: the momentum computed from v equals the momentum of the equations.
-:func:`residuals` adds this equation to the block. Statements after the block read the velocity from the
-unknown.
+The pass is exact. If an unknown v equals W(Q, P) up to invertible linear maps, then P = W^{-1}(Q, v) at the
+solution. Other operations that read W, P, or a value on the path between v and a momentum M then read values
+computed from v instead. A force thus no longer depends on an unknown momentum, and tearing removes the force
+from the unknowns. One equation remains for each v: the momentum computed from v equals the momentum of the
+equations. :func:`residuals` adds this equation to the block. Statements after the block read the velocity
+from the unknown.
 """
 
 from __future__ import annotations
@@ -58,7 +58,8 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found in the old block: rewriting one keeps the statements of the others.
+        # All paths are found in the old block, because rewriting one path keeps the statements of the other
+        # paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -90,13 +91,13 @@ def residuals(program: Program, scene: Problem) -> Program:
 
 
 def path(block: Solve, unknown: Var) -> Path | None:
-    """Return the path from a velocity to an unknown of a block, None if there is none."""
+    """Return the path from a velocity to an unknown of a block; None if there is no such path."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The same search, from P back to the momentum of the equations that P is computed from.
+    # The second search leads from P back to the momentum of the equations from which P is computed.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
@@ -127,7 +128,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The number is not zero: the pass for zeros has removed multiples by a proven zero.
+    # The coefficient is not zero: an earlier pass has removed every term with the coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
@@ -154,7 +155,8 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
     replaced, computed = _values(build, route)
     # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base
-    # Here P is a sum of functions of one ad, which costs less than the momentum before the adjoint map.
+    # In this case P is a sum of functions of one ad_x, which costs less than the momentum before the adjoint
+    # map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:
@@ -179,7 +181,8 @@ def _function_of_one(block: Solve, route: Path) -> bool:
 
 
 def _turned(block: Solve, route: Path, build: Builder) -> Solve:
-    """Return the block with the values of a path computed from its unknown for all other statements."""
+    """Return the block in which all other statements read the values of a path as computed from its
+    unknown."""
     # Every value on the path is computed again from the unknown; unused values are removed later.
     replaced, _ = _values(build, route)
     fresh = build.take()
@@ -193,5 +196,6 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
         for a in block.body
     ]
     sorted_body = ordered((*body, *fresh))
-    # If the velocity depends on a value to be computed from it, there is a cycle: the block stays.
+    # If the velocity depends on a value that is computed from the velocity, there is a cycle, and the block
+    # is not changed.
     return block if sorted_body is None else replace(block, body=sorted_body)

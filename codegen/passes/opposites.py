@@ -1,6 +1,7 @@
 """Adjoint operations that cancel their inverses, and exponentials that act on multiples of their exponent.
 
-Exact. Ad*_g Ad*_{g^-1} mu = mu and the like; Ad_{exp x} y = y where x and y are multiples of one value.
+The pass is exact. For example, Ad*_g Ad*_{g^-1} mu = mu, and Ad_{exp x} y = y if x and y are multiples of one
+value.
 """
 
 from __future__ import annotations
@@ -21,11 +22,12 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if isinstance(operation, Adjoint):
         g, x = assign.args
         source, element = rewriter.definitions.get(x), rewriter.definitions.get(g)
-        # The same variable g in both: value numbering has already merged equal elements.
+        # Both operations must have the same variable g. This is enough, because value numbering has merged
+        # equal elements.
         if source is not None and source.operation == operation.opposite() and source.args[0] == g:
             return (source.args[1],)
-        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0.
-        # Not on the dual: exp(x) leaves its exponent x fixed, but changes most momenta.
+        # Ad_{exp x} y = y if x and y are multiples of one value, because [x, x] = 0. This is false on the
+        # dual: exp(x) leaves its exponent x fixed, but changes most momenta.
         own = element is not None and isinstance(element.operation, Exp) and not operation.dual
         if own and element is not None and _line(rewriter, element.args[0]) == _line(rewriter, x):
             return (x,)

@@ -24,6 +24,7 @@ class PassReport:
 
     name: str
     because: str
+    # Whole programs are stored, because ``emit --explain`` prints the program after each pass.
     earlier: Program
     program: Program
 
@@ -41,7 +42,7 @@ class PassReport:
     def removed(self) -> dict[str, int]:
         """How many of each operation the pass removed (negative: added)."""
         before, after = self.before, self.after
-        # Sorted, so that reports do not depend on the order of the program.
+        # The names are sorted, so that reports do not depend on the order of the program.
         change = {n: before.get(n, 0) - after.get(n, 0) for n in sorted({*before, *after})}
         return {n: k for n, k in change.items() if k}
 
@@ -57,7 +58,7 @@ def summaries(reports: Iterable[PassReport]) -> tuple[str, ...]:
 
     Operations removed for the same reason by several passes are added: ``2 brackets: the group is abelian``.
     """
-    # Grouped by reason: readers of a header want the reason, and several passes share a reason.
+    # Operations are grouped by reason, because several passes share a reason.
     total: dict[str, Counter[str]] = {}
     for report in reports:
         total.setdefault(report.because, Counter()).update(report.savings)

@@ -1,10 +1,10 @@
-"""Sums of functions of one ad in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
+"""Sums of functions of ad_x in nested form: sum_k f_k (1 + b_k ad_x + c_k ad_x^2) v_k in two brackets.
 
-Exact. The sum equals A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum f_k c_k v_k,
-for any number of terms. Without nesting, each term needs two brackets. The momentum of (3.19) is such a sum:
-functions of one ad applied to the old momentum and to the force. A group with closed forms computes the sum
-by ``series_sum``. If the v_k are sums themselves, A, B and C are expanded into the terms of the v_k. They can
-then be computed before the v_k.
+The pass is exact. The sum equals A + ad_x (B + ad_x C) with A = sum f_k v_k, B = sum f_k b_k v_k and C = sum
+f_k c_k v_k, for any number of terms. Without nesting, each term needs two brackets. The momentum of (3.19) is
+such a sum: functions of the same ad_x applied to the old momentum and to the force. A group with closed forms
+computes the sum by ``series_sum``. If the v_k are sums themselves, A, B and C are expanded into the terms of
+the v_k. They can then be computed before the v_k.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Term:
 
 @dataclass
 class SeriesSums:
-    """Finds sums of functions of one ad in a program while the program is executed."""
+    """Finds sums of functions of the same ad_x in a program while the program is executed."""
 
     program: Program
     scene: Problem
@@ -126,7 +126,7 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
+    """Return a coefficient with its sign in front, to share products with it and its negative."""
     # c x and (-c) x then share one product, and an addition or subtraction includes the sign at no cost.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)
@@ -136,7 +136,8 @@ def signed(domain: Domain, c: Coefficient) -> Value:
 def combined(domain: Domain, terms: Sequence[tuple[Coefficient, tuple[Value, ...]]]) -> tuple[Value, ...]:
     """Return a sum of multiples; terms that need no product are added first."""
     total: tuple[Value, ...] | None = None
-    # Starting with a term of coefficient one saves a product. The sort is stable, so the text is, too.
+    # Starting with a term of coefficient one saves a product. The sort is stable, so the order of emitted
+    # terms is reproducible.
 
     for c, v in sorted(terms, key=lambda term: not term[0].is_one):
         own = v if c.is_one else tuple(signed(domain, c) * a for a in v)

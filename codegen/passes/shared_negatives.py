@@ -1,8 +1,8 @@
 """A sum that is the negative of an earlier sum is computed as that negative, which costs nothing.
 
-Exact. Commutator-free and Crouch-Grossman methods use both exp(x) and dexp*_{-x}; with this pass the sum x is
-computed once. The pass is the last of all, because other passes would multiply the factor -1 into the
-coefficients of a sum.
+The pass is exact. Commutator-free and Crouch-Grossman methods use both exp(x) and dexp*_{-x}; with this pass
+the sum x is computed once. The pass is the last of all, because other passes would multiply the factor -1
+into the coefficients of a sum.
 """
 
 from __future__ import annotations
@@ -16,10 +16,11 @@ Terms = frozenset[tuple[Coefficient, Var]]
 
 
 def run(program: Program) -> Program:
-    """Return the program with negatives of sums taken from sums of the same block, or outside all blocks."""
+    """Return the program in which the negative of an earlier sum is computed from that sum; both sums are in
+    the same block, or outside all blocks."""
     outside: dict[Terms, Var] = {}
     body = [
-        # A new table for each block: a sum in one block must not refer to a sum in another.
+        # Each block has a new table, because a sum in one block must not refer to a sum in another block.
         replace(s, body=_signed(s.body, {})) if isinstance(s, Solve) else _signed((s,), outside)[0]
         for s in program.body
     ]
@@ -30,12 +31,12 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
     result = []
     for assign in body:
         if assign.terms:
-            # Compared as a set: the order of the terms does not matter.
+            # Terms are compared as a set, because their order does not matter.
             opposite = frozenset((Coefficient(-c.value, c.power), v) for c, v in assign.terms)
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
-                # Of equal sums the first is recorded, so that definitions stay before uses.
+                # The first of several equal sums is recorded, so that definitions stay before uses.
                 known.setdefault(frozenset(assign.terms), assign.targets[0])
         result.append(assign)
     return tuple(result)

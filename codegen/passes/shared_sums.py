@@ -1,9 +1,10 @@
-"""Linear maps of shared sums: where sums share L(x1), L(x2), ... in fixed proportions, L is applied once.
+"""Linear maps of shared sums: if several sums contain L(x1), L(x2), ... in fixed proportions, L is applied
+once.
 
-Exact. If sums contain the values L(x_k) of one map L in only a few fixed proportions, the combination is
-formed once for each proportion, and L is applied to it: sum_k c a_k L(x_k) = c L(sum_k a_k x_k). This pass is
-for terms that :mod:`codegen.passes.factor_linear` does not factor, because more than one sum uses them. The
-pass repeats until nothing changes.
+The pass is exact. If sums contain the values L(x_k) of one map L in only a few fixed proportions, the
+combination is formed once for each proportion, and L is applied to it: sum_k c a_k L(x_k) = c L(sum_k a_k
+x_k). This pass is for terms that :mod:`codegen.passes.factor_linear` does not factor, because more than one
+sum uses them. The pass repeats until nothing changes.
 """
 
 from __future__ import annotations
@@ -18,13 +19,15 @@ Key = tuple[Operation, tuple[Var, ...]]
 """A linear map: the operation and its first arguments."""
 
 Share = tuple[tuple[Var, Coefficient], ...]
-"""A combination of a map's values, the first of the lowest power of h with factor one."""
+"""A combination of a map's values, scaled so that the first value of the lowest power of h has coefficient
+one."""
 
 
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
-        # Counted again in each round: a factored map may complete a combination for the next round.
+        # The combinations are found again in each round, because a factored map may complete another
+        # combination.
         wanted = _worthwhile(program)
         if not wanted:
             return program
@@ -68,7 +71,7 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations that are worth factoring: a map has fewer combinations than values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only in blocks: maps in a block are evaluated once a sweep, maps outside once a step.
+        # Only blocks are searched: maps in a block are evaluated once a sweep, maps outside once a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}

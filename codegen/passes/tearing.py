@@ -1,8 +1,8 @@
 """Tearing: an unknown that the other unknowns determine within one sweep is computed, not solved for.
 
-Exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if the body then
-has no cycle. An equation has to hold at the solution only, so the solutions do not change, and the block has
-fewer unknowns. Momenta and forces are replaced first, so that velocities remain unknowns.
+The pass is exact. An unknown is replaced by its image (the right-hand side of its fixed-point equation) if
+the body then has no cycle. An equation has to hold at the solution only, so the solutions do not change, and
+the block has fewer unknowns. Momenta and forces are replaced first, so that velocities remain unknowns.
 """
 
 from __future__ import annotations
@@ -27,9 +27,11 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Momenta and forces first: velocities, which are extrapolated best between steps, then remain.
+        # Momenta and forces are tried first, so that velocities remain, which are extrapolated best between
+        # steps.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # Greedy, in a fixed order: finding the smallest set (a minimum feedback vertex set) is NP-hard.
+            # The search is greedy and has a fixed order: to find the smallest set (a minimum feedback vertex
+            # set) is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -40,7 +42,7 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image, None if that closes a cycle."""
+    """Return the block with an unknown replaced by its image; None if that closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     # The last unknown is in a cycle: the pass for blocks has already removed blocks without one.
     if len(block.unknowns) == 1 or image in block.unknowns:
@@ -57,7 +59,8 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
         (u, s, i) for u, s, i in zip(block.unknowns, block.starts, block.images, strict=True) if u != unknown
     ]
     unknowns, starts, images = zip(*kept, strict=True)
-    # The removed unknown may be the image of other unknowns; their image becomes that of the removed one.
+    # The removed unknown may be the image of other unknowns; their image becomes the image of the removed
+    # unknown.
     return replace(block, unknowns=unknowns, starts=starts, body=body, images=now(images))
 
 
@@ -65,14 +68,15 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     """Return assignments with definitions before uses, otherwise in the given order; None for a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # The state is False while an assignment waits for its arguments: meeting it again means a cycle.
+    # The state is False while an assignment waits for its arguments. If it is reached in this state, there is
+    # a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:
         if k in state:
             return state[k]
         state[k] = False
-        # Depth first in the given order, so that a body that is already sorted does not change.
+        # The search is depth first in the given order, so that a sorted body does not change.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

@@ -1,7 +1,8 @@
-"""Shared values: exponentials that stages and update share, products of exponentials with a common prefix.
+"""Value numbering: an operation on equal values is computed once, for example an exponential that several
+stages use.
 
-Exact. This is value numbering: an operation on equal values is computed once. The terms of a sum are sorted
-by the first appearance of their values, so that equal sums are recognised.
+The pass is exact. Products of exponentials with a common prefix share this prefix. The terms of a sum are
+sorted by the first appearance of their values, so that equal sums are recognised.
 """
 
 from __future__ import annotations

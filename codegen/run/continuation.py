@@ -38,14 +38,15 @@ from codegen.run.terms import (
 )
 
 CONTINUED = "continued"
-"""The name of the function."""
+"""The name of the function that repeats a failed step."""
 
 LARGEST_FACTOR = 4.0
-"""The largest ratio of consecutive steps."""
+"""The largest ratio of two consecutive step sizes."""
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statement that calls the continuation if a step fails; none without a warm start."""
+    # Without stored solutions there is nothing to follow from a shorter step to a longer one.
     if plan.start is None:
         return []
     # A diverging iteration may overflow before it reaches its limit of sweeps: retry after both.
@@ -59,8 +60,10 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """The function and its variables."""
+    """Builds the function; the attributes are the variables of the function."""
 
+    # Fractions of h: the longest step that succeeded, and the step that is tried now. The factor is the
+    # ratio of consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -68,12 +71,14 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
+        # A separate variable, because every attempt overwrites STATUS.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
-        """Return the function."""
+        """Return the function with its parameters and body."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
+        # The memory of the run is passed on, so that the next step starts from the solution found here.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
@@ -106,6 +111,7 @@ class _Continuation:
             Return(code(OK)),
         )
         part = "part of a step" if plan.parts else "step"
+        # The emitted comment names a step or a substep: with substeps, only the failed substep is repeated.
         about = (
             f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
             "mislead if the motion has changed, then by continuation in h from shorter steps."
@@ -125,6 +131,7 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
+        # Attempts need no error estimate: step control rejects a failed step instead of continuing it.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state, because h is the parameter of the

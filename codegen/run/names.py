@@ -35,10 +35,12 @@ class Names:
 
     def fresh(self, proposal: str) -> str:
         """Return an unused identifier, close to the proposal."""
+        # ASCII only: compilers differ in which other letters they allow in identifiers.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
+        # Underscores and not numbers are appended, because xi_1 and xi_2 are components of one vector.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

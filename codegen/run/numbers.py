@@ -22,8 +22,11 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, scalars = 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Array):
+            # Arrays of one name in different blocks are counted separately: a compiler need not overlap
+            # them.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
+        # A scalar that is assigned several times has one place on the stack.
         scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
     return arrays + len(scalars) + len(function.parameters)
 

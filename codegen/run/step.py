@@ -61,6 +61,7 @@ def kernel_step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
+    # Two phases: all outputs are computed before the first entry of the state is overwritten.
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The kernel does not read these entries, because other entries determine them. So the new state does not
     # show a NaN in them.
@@ -89,6 +90,7 @@ def _remembered(plan: Plan) -> list[Statement]:
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))
+    # One array for the unknowns of all loops, because all loops of a step share one warm start.
     unknowns = tuple(own(u) for u in plan.start.unknowns)
     return [Array(solution, unknowns), Call("remember", (plan.memory, solution))]
 
@@ -127,6 +129,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round
+    # The exact numbers are rounded once, at compile time.
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
     sequence = [Table(real("fraction", n), (fractions,), "Lengths of the substeps, in units of h.")]
     if plan.time:
@@ -137,6 +140,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
     """Return the arguments for the time and length of a substep."""
+    # From the beginning of the step, because a sum over substeps would accumulate rounding errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 

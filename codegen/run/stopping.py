@@ -54,7 +54,7 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""Added to the rate, because the last change is applied too and has relative errors of this size."""
+"""Added to the rate: the last change is also applied, and its relative error is about this large."""
 
 FOUR_ROUNDINGS = 2.0**-50
 """Four roundings, relative to the sum of the absolute values of the unknowns (see :meth:`Stopping.sums`)."""
@@ -84,11 +84,13 @@ class Stopping:
     @property
     def kept_rate(self) -> Term:
         """The rate that a step stores for the next."""
+        # Stored for each loop separately, because blocks of one step contract at different rates.
         return self.plan.memory.field(f"rate_{self.number}")
 
     @cached_property
     def warm(self) -> bool:
         """Whether the loop has a warm start."""
+        # Loops without starting values of their own share the warm start of the kernel.
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
@@ -165,6 +167,7 @@ class Stopping:
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that measure a sweep over residuals, by sums of absolute values."""
         return [
+            # Sums and not maxima: they keep NaNs, so no separate test for finiteness is needed.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]

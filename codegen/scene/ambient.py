@@ -15,8 +15,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 def ambient(problem: Problem) -> Problem:
     """Return a problem as a field on R^n without its group.
 
-    The steps of a method for the result leave the manifold; their distance to it is of the size of the
-    method's error.
+    A method for the returned problem does not stay on the manifold: the distance from the manifold is of the
+    size of the method's error.
     """
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
     state = tuple(domain.space.sym(s) for s in problem.symbols)
@@ -34,6 +34,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        open_roots=derivative(problem.open_roots),
+        # A scene without run-time inputs may have no open roots.
+        open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

@@ -1,4 +1,4 @@
-"""Checks of the arguments that both kinds of scenes take: group, action and time interval."""
+"""Checks of the arguments of field scenes and Hamiltonian scenes: group, action and time interval."""
 
 from __future__ import annotations
 
@@ -35,23 +35,26 @@ def check_action(reader: Reader, group: LieGroup, action: object) -> None:
     if group.offers(action.needs) is not None:
         try:
             width = len(action.velocity(domain, group, zero, y))
-        except (ValueError, IndexError):  # a product of tuples of different lengths
+        except (ValueError, IndexError):  # a formula may combine tuples of different lengths
             width = -1
     if width != len(y):
         raise SceneError(
             f"a point with {len(y)} coordinates",
             where=reader.name,
-            expected=f"one that {group.name} acts on by {action.name}",
+            expected=f"a point on which {group.name} acts by {action.name}",
         )
 
 
 def _refuse(name: str, what: str, value: object, example: str) -> NoReturn:
     shown = value.__name__ if isinstance(value, type) else repr(value)
-    raise SceneError(f"the {what} {shown}", where=name, expected=f"one of codegen.groups, as {example}")
+    raise SceneError(
+        f"the {what} {shown}", where=name, expected=f"an object of codegen.groups, such as {example}"
+    )
 
 
 def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction, Fraction]:
-    """Return the time interval; :class:`SceneError` if it is not two rational times in order."""
+    """Return the time interval; raise :class:`SceneError` unless it consists of two rational times in
+    order."""
     import sympy
 
     try:
@@ -59,5 +62,7 @@ def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction,
     except (TypeError, ValueError, AttributeError):  # AttributeError: sympy's infinities have no p and q
         raise SceneError(f"the span {span}", where=name, expected="two rational times") from None
     if not last > first:
-        raise SceneError(f"the span ({first}, {last})", where=name, expected="an end after the beginning")
+        raise SceneError(
+            f"the span ({first}, {last})", where=name, expected="an end later than the beginning"
+        )
     return first, last

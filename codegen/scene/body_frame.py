@@ -30,8 +30,8 @@ if TYPE_CHECKING:
 
 DIGITS, TOLERANCE = 40, Fraction(1, 10**30)
 POINTS = 6
-"""A splitting of H is compared at this many random points, with this many digits, up to this relative
-error."""
+"""A splitting of H is compared with H at POINTS random points, with DIGITS digits, up to the relative error
+TOLERANCE."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +39,7 @@ class BodyField:
     """Formulas in the coordinates of q and of P; the symbols of P are those of mu.
 
     ``velocity`` is W, ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
-    inverse matrix (rows of numbers), else None.
+    inverse matrix (rows of numbers); otherwise it is None.
     """
 
     velocity: tuple[Expr, ...]
@@ -129,7 +129,7 @@ def _same(group: BodyFrame, q: Sequence[str], mu: Sequence[str], a: Expr, b: Exp
 
 
 def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None:
-    """Return the coefficients of P in w, None if w is not linear in P with constant coefficients."""
+    """Return the coefficients of P in w; None if w is not linear in P with constant coefficients."""
     row = [Number.rational(0)] * len(P)
     place = {p.id: k for k, p in enumerate(P)}
     for monomial, c in normal.polynomial(w).items():
@@ -140,7 +140,7 @@ def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None
 
 
 def _inverse(rows: Sequence[list[Number] | None]) -> tuple[tuple[Number, ...], ...] | None:
-    """Return the inverse of a matrix of exact numbers, None for a singular matrix or a missing row."""
+    """Return the inverse of a matrix of exact numbers; None for a singular matrix or a missing row."""
     n = len(rows)
     zero, one = Number.rational(0), Number.rational(1)
     work: list[list[Number]] = []

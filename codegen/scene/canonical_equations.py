@@ -31,7 +31,7 @@ def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr
 
 
 def velocity(group: LieGroup, qs: Sequence[str], mus: Sequence[str], H: Expr) -> tuple[Expr, ...]:
-    """Return the time derivatives of the coordinates of (q, mu), named ``qs`` and ``mus``, along H."""
+    """Return the time derivatives of the coordinates ``qs`` of q and ``mus`` of mu along the flow of H."""
     space, names = H.space, (*qs, *mus)
     slopes = gradient(H, names)
     field = (*slopes[len(qs) :], *force(space, group, qs, slopes[: len(qs)]))

@@ -1,4 +1,4 @@
-"""Checks of what a scene states: its initial state, velocity, Hamiltonian field, flows and invariants.
+"""Checks of the formulas of a scene: its initial state, velocity, Hamiltonian field, flows and invariants.
 
 Derivatives are exact, by reverse differentiation of the formulas. They are compared at the points of an
 :class:`codegen.scene.orbit.Orbit`.
@@ -51,8 +51,8 @@ def check_start(orbit: Orbit) -> None:
 def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
-    """Raise :class:`SceneError` if stated formulas differ from ``derived`` ones, or from f.y if these are
-    None.
+    """Raise :class:`SceneError` if stated formulas differ from the ``derived`` formulas, or from f.y if
+    ``derived`` is None.
 
     ``what`` names the stated formulas in the message.
     """
@@ -64,7 +64,7 @@ def check_equal(
                 raise SceneError(
                     f"{what}[{k}] is {orbit.text(x)} {_place(orbit, point)}",
                     where=orbit.name,
-                    expected=f"{orbit.text(y)}, by {'f.y' if derived is None else 'differentiating H'}",
+                    expected=f"{orbit.text(y)}, by {'f.y' if derived is None else 'the derivatives of H'}",
                 )
 
 
@@ -85,19 +85,19 @@ def check_flow(
             if moved is None:
                 raise SceneError(f"the flow of {name} cannot be evaluated", where=orbit.name)
             after = point | dict(zip(orbit.symbols, moved, strict=True))
-            pairs = [("moves at the rate", orbit.values(slopes, there), orbit.values(rates, after))]
+            pairs = [("has the time derivative", orbit.values(slopes, there), orbit.values(rates, after))]
             if tau == 0:
-                pairs.insert(0, ("begins at", moved, tuple(point[s] for s in orbit.symbols)))
+                pairs.insert(0, ("has the value", moved, tuple(point[s] for s in orbit.symbols)))
             for verb, left, right in pairs:
                 for k, (x, y) in enumerate(zip(left or (), right or (), strict=True)):
                     if not orbit.sized(x - y, (x, y, 1)):
                         raise SceneError(
-                            f"the flow of {name} {verb} {orbit.text(x)} in {orbit.symbols[k]}, "
-                            f"where {elapsed} = {orbit.text(there[elapsed])}",
+                            f"the flow of {name} {verb} {orbit.text(x)} in {orbit.symbols[k]} "
+                            f"at {elapsed} = {orbit.text(there[elapsed])}",
                             where=orbit.name,
                             expected=f"{orbit.text(y)}, by the equations of the part",
-                            hint="flows of summands that do not commute make no flow of their sum: "
-                            "name them as parts of their own",
+                            hint="if summands do not commute, their flows do not compose to the flow of "
+                            "their sum: define them as separate parts",
                         )
 
 
@@ -119,7 +119,7 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
                     f"the invariant {name} changes at the rate {orbit.text(total)}, {_place(orbit, point)}",
                     where=orbit.name,
                     expected="a function that is constant along the field",
-                    hint="leave it out of invariants",
+                    hint="correct its formula, or remove it from invariants",
                 )
 
 

@@ -1,10 +1,10 @@
 """The operations of discrete gradients: energy, its trivialised differential, and the bivector.
 
-H. Marthinsen's thesis, section 2.6: a field that keeps H is x' = f(x).x with f = i_{dH} omega for a bivector
-omega on g*. The trivialised differential is gamma(x) = R*_x dH in g*: <gamma, e> is the derivative of H along
-e.x. On T*G the bivector is the canonical one. Elsewhere it is omega = (gamma wedge f)/|gamma|^2, where the
-Euclidean inner product of coordinates identifies gamma with an element of g. Then f must vanish where gamma
-does.
+H. Marthinsen's thesis, section 2.6: a field that preserves H is x' = f(x).x with f = i_{dH} omega for a
+bivector omega on g*. The trivialised differential is gamma(x) = R*_x dH in g*: <gamma, e> is the derivative
+of H along e.x. On T*G, omega is the canonical bivector. For all other problems omega = (gamma wedge
+f)/|gamma|^2, where the Euclidean inner product of coordinates identifies gamma with an element of g. This
+requires that f vanishes wherever gamma vanishes.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from codegen.ir.expr import Expr, evaluate
 from codegen.scene.values import Bindings
 
 ENERGY = "energy"
-"""The name of the invariant of a field scene that discrete gradients keep."""
+"""The name of the invariant of a field scene that discrete gradients preserve."""
 
 OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 """The operations of step programs that :func:`apply` evaluates."""
@@ -46,7 +46,7 @@ class Conservative(Protocol):
 
     @property
     def hamiltonian(self) -> Expr | None:
-        """H, None for a field scene."""
+        """H; None for a field scene."""
 
     @property
     def invariants(self) -> Mapping[str, Expr]:
@@ -109,7 +109,8 @@ def bivector(problem: Conservative, d: Domain, y: Vector[S], alpha: Vector[S]) -
 
 
 def secant(d: Domain, g: Vector[S], x: Vector[S], before: S, after: S) -> Vector[S]:
-    """Return the covector nearest to g whose pairing with x is ``after - before`` (thesis, eq. 2.31).
+    """Return the covector nearest to g whose pairing with x is ``after - before`` (eq. 2.31 of Marthinsen's
+    thesis).
 
     The distance is in the Euclidean norm, so the result is g plus a multiple of x. The multiple is zero if x
     is zero.

@@ -1,9 +1,9 @@
 """The extended phase space: time and its momentum as coordinates of a Hamiltonian that depends on time.
 
 The Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u on T*(G x R) does not depend on time: tau' = 1 and u' =
--dH/dt. So the flow keeps u + H, and u starts at -H (H. Marthinsen's thesis, section 4.3.2). Variational
-methods advance u by the sum of Example 4.4.5 and keep the extended symplectic form. Discrete gradients keep
-K.
+-dH/dt. The flow therefore preserves u + H, and the initial value of u is -H (H. Marthinsen's thesis, section
+4.3.2). Variational methods advance u by the sum of Example 4.4.5 in the thesis and preserve the extended
+symplectic form. Discrete gradients preserve K.
 """
 
 from __future__ import annotations
@@ -22,10 +22,11 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def extended(problem: Problem) -> Problem:
-    """Return the extended problem; SceneError for a field, and for a Hamiltonian without time.
+    """Return the extended problem; raise SceneError for a field, and for a Hamiltonian that does not depend
+    on time.
 
     The new coordinates are called tau and u; underscores are appended to a name that is taken. The summand u
-    is added to the first of ``parts`` that does not depend on time, or becomes a part of its own.
+    is added to the first part that does not depend on time, or becomes a new part if there is none.
     """
     hamiltonian = _timed(problem)
     space = hamiltonian.space
@@ -77,8 +78,8 @@ def _timed(problem: Problem) -> Expr:
     if not _reads(problem.hamiltonian, TIME):
         raise SceneError(
             f"the Hamiltonian of {problem.name} does not depend on time",
-            expected="one that does",
-            hint="leave +u out: u would be constant",
+            expected="a Hamiltonian that depends on t",
+            hint="remove +u from the name: u would be constant",
         )
     return problem.hamiltonian
 

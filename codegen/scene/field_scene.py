@@ -32,11 +32,12 @@ def FieldScene(
 ) -> Problem:
     """Return the scene y' = f(y).y for a group acting on a manifold.
 
-    ``y`` is a sympy column of coordinate symbols, ``f`` a column of ``group.dim`` formulas in them, in the
-    symbol ``t`` and in parameters, ``y0`` the exact initial point, ``span`` the rational time interval,
-    ``invariants`` maps names to scalar formulas. ``velocity`` may give y' as an ambient formula; f must
-    generate it. :class:`SceneError` for a wrong shape or symbol, a start that is not on the group, an f that
-    does not generate the velocity, an invariant that changes.
+    ``y`` is a sympy column of coordinate symbols. ``f`` is a column of ``group.dim`` formulas in the
+    coordinates, in the symbol ``t`` and in parameters. ``y0`` is the exact initial point, ``span`` the
+    rational time interval. ``invariants`` maps names to scalar formulas. ``velocity`` may contain formulas
+    for y', which must equal f.y. :class:`SceneError` is raised for a wrong shape or symbol, an initial point
+    that violates the equations of the group, a ``velocity`` that differs from f.y, and an invariant that
+    changes.
     """
     check_group(name, group)
     reader = Reader(name, list(y))

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 RESERVED = {
-    "t": "t is the time; it may occur in formulas, but it is no coordinate and no parameter",
+    "t": "t is the time; formulas may contain it, but it cannot be a coordinate or a parameter",
     "h": "h is the step size",
 }
 """Names that are reserved for programs, with the reason."""
@@ -33,7 +33,7 @@ class Reader:
         self.coordinates = [str(getattr(symbol, "name", "")) for symbol in coordinates]
         for symbol, text in zip(coordinates, self.coordinates, strict=True):
             if not text:
-                raise SceneError(f"the coordinate {symbol}", where=name, expected="symbols")
+                raise SceneError(f"the coordinate {symbol}", where=name, expected="a sympy symbol")
             self._allow(text)
         if len(set(self.coordinates)) != len(self.coordinates):
             raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
@@ -72,7 +72,9 @@ class Reader:
         what = f"signal {symbol.name}"
         for inner in _free_symbols(symbol.formula):
             if inner.name != TIME and not isinstance(inner, Parameter):
-                raise SceneError(f"{what} holds {inner.name}", where=self.name, expected="t and parameters")
+                raise SceneError(
+                    f"{what} contains {inner.name}", where=self.name, expected="t and parameters"
+                )
         formula = self.scalar(symbol.formula, what)
         taken = symbol.name in self.coordinates or symbol.name in self.defaults
         if taken or self.signals.setdefault(symbol.name, formula) is not formula:
@@ -139,6 +141,6 @@ class Reader:
 
 
 def _free_symbols(formula: sympy.Expr) -> Iterable[sympy.Symbol]:
-    """Return the symbols of a sympy formula, none of a Python number."""
+    """Return the symbols of a sympy formula; a Python number has none."""
     symbols: Iterable[sympy.Symbol] = getattr(formula, "free_symbols", ())
     return symbols

@@ -50,12 +50,14 @@ def HamiltonianScene(
     """Return the scene of a right-trivialised Hamiltonian H(q, mu) on T*G.
 
     ``q`` and ``mu`` are sympy matrices of symbols (``group.point``, ``group.dual``), ``q0`` and ``mu0`` exact
-    initial values, ``parts`` named summands of H. ``flows`` gives exact flows of parts that the compiler does
-    not recognise, as formulas of (q, mu) after the time ``Symbol("tau")``. xi = D_2 H and n = -(D_1 H).q^-1
-    (:mod:`codegen.scene.canonical_equations`) follow by differentiation; ``xi`` and ``n`` given by hand must
-    agree. ``wrench`` is a column of ``group.dim`` components of a force without potential, mu' = n + wrench -
-    ad*_xi mu in space; n given by hand excludes it. A scene with a wrench has no energy and no parts. The
-    energy is an invariant of a Hamiltonian without time. :class:`SceneError` as for :func:`FieldScene`.
+    initial values, ``parts`` named summands of H. If the compiler does not recognise the exact flow of a
+    part, ``flows`` may contain it, as formulas of (q, mu) after the time ``Symbol("tau")``. xi = D_2 H and n
+    = -(D_1 H).q^-1 (:mod:`codegen.scene.canonical_equations`) are computed by differentiation. If ``xi`` or
+    ``n`` is given, it must equal the computed formulas. ``wrench`` is a column of ``group.dim`` components,
+    in space, of a force without potential: mu' = n + wrench - ad*_xi mu, so a given ``n`` does not contain
+    the wrench. A scene with a wrench has no energy and no parts. If H does not depend on time and there is no
+    wrench, the energy is an invariant. :class:`SceneError` is raised in the same cases as by
+    :func:`FieldScene`.
     """
     reader = _reader(name, group, q, mu)
     system = _CanonicalSystem.read(reader, group, q, mu, H, parts or {}, wrench)
@@ -84,7 +86,8 @@ def HamiltonianScene(
 
 
 def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
-    """Return the reader of a scene's formulas; SceneError for a wrong group or number of coordinates."""
+    """Return the reader of a scene's formulas; raise SceneError for a wrong group or number of
+    coordinates."""
     check_group(name, group)
     group.require(Coadjoint, where=name)
     reader = Reader(name, [*q, *mu])
@@ -92,8 +95,8 @@ def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
         raise SceneError(
             f"{len(q)} coordinates of q and {len(mu)} of mu",
             where=name,
-            expected=f"{group.size} and {group.dim}, those of {group.name}",
-            hint='take group.point("q") and group.dual("mu")',
+            expected=f"{group.size} and {group.dim} coordinates for {group.name}",
+            hint='use group.point("q") and group.dual("mu")',
         )
     return reader
 
@@ -155,19 +158,21 @@ class _CanonicalSystem:
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return two versions of xi or n: the one given by hand, and the one by differentiation."""
+        """Return xi or n twice: as the scene gives it in ``column``, and by differentiation."""
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)
 
     def flows(self, flows: Mapping[str, tuple[Column, Column]]) -> dict[str, tuple[Expr, ...]]:
-        """Read the flows that the scene states for its parts."""
+        """Return the formulas of the flows that the scene states for its parts, by the name of the part."""
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():
             if key not in self.summands:
                 known = ", ".join(self.summands) or "none: the scene names no parts"
                 raise SceneError(
-                    f"a flow of {key!r}", where=self.reader.name, expected=f"that of a part: {known}"
+                    f"a flow of {key!r}",
+                    where=self.reader.name,
+                    expected=f"a flow of one of the parts: {known}",
                 )
             element = self.reader.column(q, len(self.qs), f"q of the flow of {key}", more=(TAU,))
             momentum = self.reader.column(mu, len(self.mus), f"mu of the flow of {key}", more=(TAU,))

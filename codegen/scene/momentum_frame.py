@@ -1,4 +1,4 @@
-"""The frame of the momenta that emitted code takes and returns."""
+"""The frame of the momenta that emitted code accepts and returns."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ FRAMES = (SPACE, BODY)
 def with_frame(problem: Problem, frame: str) -> Problem:
     """Return a problem with the momenta of emitted code in a frame: ``space`` or ``body``.
 
-    The momentum in the body is Ad*_q mu, left-trivialised. Programs compute with mu in either case.
-    :class:`SceneError` for the body frame of a problem without momenta, or on an abelian group.
+    The momentum in the body is Ad*_q mu, left-trivialised. Programs compute with mu for both frames.
+    :class:`SceneError` is raised for the body frame of a problem without momenta, or on an abelian group.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))
     if frame == BODY and (not problem.paired or problem.group.abelian):
         raise SceneError(
-            f"{problem.name} has no momentum in a body",
+            f"{problem.name} has no momentum in the body frame",
             expected="a Hamiltonian scene on a group that is not abelian",
-            hint="leave --frame out",
+            hint="remove the option --frame",
         )
     return replace(problem, body_group=problem.group.require(Coadjoint) if frame == BODY else None)

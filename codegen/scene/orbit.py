@@ -1,7 +1,8 @@
-"""Sample points of a problem, at which formulas are compared that agree only on the manifold.
+"""Sample points on the manifold of a problem, at which formulas are compared.
 
-The points are on the orbit of the initial state under the group, at times of the span. Formulas that agree
-only by the equations of the group (g^T g = 1, say) agree at these points. Numbers have 40 digits.
+The points are on the orbit of the initial state under the group, at times of the span. Two formulas that are
+equal only by the equations of the group, such as g^T g = 1, are equal at these points. Numbers have 40
+digits.
 """
 
 from __future__ import annotations
@@ -29,10 +30,10 @@ TOLERANCE = Fraction(1, 10**20)
 """Allowed rounding error of a sum relative to the size of its terms, with room for cancellation."""
 
 FLOOR = Fraction(1, 10**28)
-"""Allowed absolute error, for terms that cancel within themselves."""
+"""Allowed absolute error, for sums whose terms are themselves small by cancellation."""
 
 POINTS = 4
-"""The number of sample points: the initial state and three others."""
+"""The number of sample points: the initial state and three random points of its orbit."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +78,7 @@ class Orbit:
                 points.append(values)
             elif not k:
                 raise SceneError(
-                    "f at the initial state is no finite real number",
+                    "f at the initial state is not a finite real number",
                     where=self.name,
                     expected="an initial state where the field is smooth",
                 )
@@ -87,7 +88,7 @@ class Orbit:
         start = self.values(self.start, constants)
         if start is None or not self._finite(start):
             raise SceneError(
-                "a coordinate of the initial state is no finite real number",
+                "a coordinate of the initial state is not a finite real number",
                 where=self.name,
                 expected="real numbers",
             )

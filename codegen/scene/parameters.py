@@ -54,8 +54,8 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
 def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
-    The default is folded into emitted code unless the parameter is requested at run time.
-    :class:`SceneError` for a default that is not rational.
+    The default is folded into emitted code unless the parameter is requested at run time. :class:`SceneError`
+    is raised for a default that is not rational.
     """
     try:
         value = sympy.Rational(default)
@@ -67,7 +67,7 @@ def param(name: str, default: object) -> Parameter:
         raise SceneError(
             f"the default {sympy.N(value, 3)}",
             where=f"parameter {name}",
-            expected="0, or between 1e-307 and 1e308 in size",
+            expected="0, or an absolute value between 1e-307 and 1e308",
         )
     return Parameter(name, int(value.p), int(value.q))
 
@@ -76,7 +76,8 @@ def signal(name: str, formula: object = 0) -> Signal:
     """Return a sympy symbol for a function of time: a control, a measured load.
 
     Its ``formula``, in t and parameters, is folded into emitted code unless the signal is requested as a
-    run-time input (``emit --input NAME``). :class:`SceneError` for a formula that sympy cannot read.
+    run-time input (``emit --input NAME``). :class:`SceneError` is raised for a formula that sympy cannot
+    read.
     """
     try:
         return Signal(name, sympy.sympify(formula, strict=True))

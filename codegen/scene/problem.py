@@ -1,4 +1,4 @@
-"""Problems: a scene as step programs see it, evaluated over any domain.
+"""Problems: scenes in the form that step programs evaluate, over any domain.
 
 A scene is read once. Its sympy formulas become exact, hash-consed expressions, and derivatives are taken by
 reverse differentiation. The problem can then be evaluated over any domain: the interpreter and the compiler
@@ -44,7 +44,7 @@ class StateField:
 
 @dataclass(frozen=True)
 class Problem:
-    """A scene as programs see it: group, action, state, and a field or a Hamiltonian.
+    """A scene in the form that programs evaluate: group, action, state, and a field or a Hamiltonian.
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
     state's symbols, the parameters and ``t``. ``paired`` says that the state is (q, mu). ``parts`` are named
@@ -89,12 +89,12 @@ class Problem:
 
     @property
     def autonomous(self) -> bool:
-        """Whether the field depends neither on the time nor on signals taken at run time."""
+        """Whether the field depends neither on the time nor on signals that are read at run time."""
         return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
 
     @property
     def is_hamiltonian(self) -> bool:
-        """Whether programs see (q, mu) and the operation ``hamilton``."""
+        """Whether programs have the state (q, mu) and evaluate the operation ``hamilton``."""
         return self.paired
 
     def dimension(self) -> int:
@@ -156,7 +156,8 @@ class Problem:
         return action.to_orbit(domain, group, y, start)
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
-        """Return (q, mu) after the exact flow of a part for the time tau; ``args``: q, mu, perhaps t."""
+        """Return (q, mu) after the exact flow of a part for the time tau; ``args`` are q, mu, and t if the
+        part depends on t."""
         q, mu, *time = args
         values = self.values(domain, (*q, *mu), *time)
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
@@ -189,7 +190,8 @@ class Problem:
         return tuple(evaluate(roots, domain, self.values(domain, (*q, *P), *time)))
 
     def _field(self, domain: Domain, args: Values) -> Values:
-        """Return f, or xi and n, at a state and perhaps a time."""
+        """Return f, or xi and n; ``args`` are the blocks of the state, and the time if the operation has a
+        time argument."""
         blocks, time = args[: len(self.state)], args[len(self.state) :]
         values = self.values(domain, tuple(x for block in blocks for x in block), *time)
         roots = self.roots

@@ -14,9 +14,9 @@ from codegen.scene.problem import Problem
 def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a problem in which some parameters are run-time inputs, or constants with another value.
 
-    ``alpha`` makes alpha an input, ``alpha=1/2`` makes it the constant 1/2; the invariants and the initial
-    state are then checked again. :class:`SceneError` is raised for an unknown parameter, for two values of
-    one parameter, and for a value that is no number.
+    ``alpha`` makes alpha an input, ``alpha=1/2`` makes it the constant 1/2; then the invariants and the
+    initial state are checked again. :class:`SceneError` is raised for an unknown parameter, for two values of
+    one parameter, and for a value that is not a number.
     """
     values = dict(problem.parameters)
     runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()
@@ -29,7 +29,7 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
             runtime.add(name)
             continue
         if name in folded:
-            raise SceneError(f"two values of the parameter {name}", where=problem.name, expected="one")
+            raise SceneError(f"two values of the parameter {name}", where=problem.name, expected="one value")
         try:
             values[name] = Number.read(text)
         except ValueError as error:
@@ -47,7 +47,7 @@ def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
 
 
 def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:
-    """Return a problem with signals read at run time, in the given order; SceneError for an unknown
+    """Return a problem that reads signals at run time, in the given order; raise SceneError for an unknown
     signal."""
     for name in names:
         if name not in problem.signals:

@@ -1,7 +1,7 @@
 """Stiff variants of a scene: the same problem with a time scale far below its span, or near a singularity.
 
 A scene file may define ``stiff_variants()``, which returns a list of them. ``orderconds stability`` measures
-the order that methods keep on each.
+the order of methods on each variant.
 """
 
 from __future__ import annotations

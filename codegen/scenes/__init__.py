@@ -1,4 +1,5 @@
-"""The gallery, one file a scene; registered scenes; and loading a scene by name or from a user's file."""
+"""The gallery of scenes (one file for each), registered scenes, and loading a scene by name or from a user's
+file."""
 
 from __future__ import annotations
 
@@ -49,20 +50,20 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
     """Register a scene under a name for all commands of this process, and return the scene with this name.
 
     ``about`` describes the scene in reports. A second scene of the same name replaces the first.
-    :class:`SceneError` for an object that is no scene, for a name of the gallery, and for a name that is no
-    identifier. A scene in a Python file needs no registration: the path of the file is its name.
+    :class:`SceneError` is raised for an object that is no scene, for a name of the gallery, and for a name
+    that is no identifier. A scene in a Python file needs no registration: the path of the file is its name.
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
     if name in GALLERY or not name.isidentifier():
-        raise SceneError(f"the name {name!r}", expected="an identifier that is no scene of the gallery")
+        raise SceneError(f"the name {name!r}", expected="an identifier that is not a scene of the gallery")
     named = replace(scene, name=name)
     _REGISTERED[name] = (named, about)
     return named
 
 
 def unregister(name: str) -> None:
-    """Forget a scene that :func:`register` added; other names are ignored."""
+    """Remove a scene that :func:`register` added; other names are ignored."""
     _REGISTERED.pop(name, None)
 
 
@@ -72,11 +73,12 @@ def names() -> tuple[str, ...]:
 
 
 def load(name: str) -> Problem:
-    """Return a scene of the gallery, a registered one, or the ``scene`` of the Python file at path ``name``.
+    """Return a gallery scene, a registered scene, or the variable ``scene`` of the Python file at the path
+    ``name``.
 
     ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum
-    (:mod:`codegen.scene.extended_phase_space`). :class:`SceneError` with file and line for a file that raises
-    or defines no scene.
+    (:mod:`codegen.scene.extended_phase_space`). :class:`SceneError`, with file and line, is raised for a file
+    that fails or defines no scene.
     """
     if name.endswith(EXTENDED):
         scene = load(name.removesuffix(EXTENDED))
@@ -101,7 +103,7 @@ def _load(name: str) -> Problem:
 
 
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
-    """Return the stiff variants that the file of a gallery scene defines, none for any other scene.
+    """Return the stiff variants that the file of a gallery scene defines; all other scenes have none.
 
     A user's scene has no variants, even if it has the name of a gallery scene.
     """
@@ -114,9 +116,9 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # regular and of bounded size
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # refuses huge files
     try:
-        # A scene may print for its author; stdout belongs to the result of the command.
+        # A scene may print messages, but stdout is reserved for the result of the command.
         with redirect_stdout(sys.stderr):
             scene = runpy.run_path(str(path)).get("scene")
     except InputError as error:
@@ -143,9 +145,10 @@ def _line(name: str, path: Path, error: BaseException) -> str:
 
 
 def about(name: str) -> str:
-    """Return the description of a scene: the docstring of its file, '' without one.
+    """Return the description of a scene: the docstring of its file, or '' if there is no docstring.
 
-    ``name`` is a name that :func:`load` accepts. A registered scene has the description that it was given.
+    ``name`` is a name that :func:`load` accepts. A registered scene has the description that was passed to
+    :func:`register`.
     """
     name = name.removesuffix(EXTENDED)
     if name in _REGISTERED:

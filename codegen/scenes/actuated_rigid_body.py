@@ -1,7 +1,8 @@
 """Actuated rigid body: a body turned by three thrusters or wheels, on T*SO(3); their torques are signals.
 
-mu' = n - ad*_xi mu + g u, where u holds the torques in the body and g turns them into space. The formulas are
-what the torques are where nothing else is put in at run time; with u = 0 it is ``free_rigid_body_attitude``.
+mu' = n - ad*_xi mu + g u, where u contains the torques in the body frame and g rotates them to space. The
+formulas below are defaults for torques that are not supplied at run time. With u = 0 the scene is
+``free_rigid_body_attitude``.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin

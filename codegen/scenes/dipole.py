@@ -1,7 +1,7 @@
 """Dipole on a stick: a pendulum with a charged dipole at its end near a fixed charge, on T*SO(3).
 
-H. Marthinsen's thesis, section 3.6. Gravity enters with a minus sign (the printed Hamiltonian has a plus):
-only then do the energies and errors printed there come out.
+H. Marthinsen's thesis, section 3.6. The gravity term has a minus sign here, but a plus sign in the printed
+Hamiltonian: only the minus sign reproduces the energies and errors printed in the thesis.
 """
 
 import math
@@ -48,5 +48,5 @@ def _passing(gap: Fraction) -> StiffVariant:
     reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
     near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the charge at {float(gap):g}"
-    # The attraction is 1/gap^2 over a length of about gap.
+    # The attraction is about 1/gap^2 over a length of about gap, so the time scale is gap^(3/2).
     return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

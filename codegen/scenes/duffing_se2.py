@@ -1,7 +1,9 @@
-"""Duffing's equation in the frame of SE(2), rigid motions of the plane: the cubic force as it is now.
+"""Duffing's equation in the frame of SE(2), rigid motions of the plane: a step keeps the cubic force
+constant.
 
-f = E_1 - x^3 E_2 of H. Marthinsen's thesis, section 2.2, E_1 = y d/dx - x d/dy a rotation, E_2 = d/dy a
-translation; ``duffing`` says what the frame means. The linear part of the equation is solved exactly.
+f = E_1 - x^3 E_2 (H. Marthinsen's thesis, section 2.2), where E_1 = y d/dx - x d/dy is a rotation and E_2 =
+d/dy is a translation. The linear part of the equation is solved exactly. ``duffing`` explains the role of the
+frame.
 """
 
 from codegen.groups import SE2, Motion

@@ -1,8 +1,8 @@
-"""Duffing's equation in the frame of SL(2) acting linearly on the plane: a spring as stiff as it is now.
+"""Duffing's equation in the frame of SL(2) acting linearly on the plane: a step keeps the stiffness constant.
 
-f = X - (1 + x^2) Y of H. Marthinsen's thesis, section 2.2, X and Y the off-diagonal unit matrices;
-``duffing`` says what the frame means. The field is frozen to linear oscillations of the frequency sqrt(1 +
-x^2), and the area is kept.
+f = X - (1 + x^2) Y (H. Marthinsen's thesis, section 2.2), where X and Y are the off-diagonal unit matrices.
+At constant stiffness the flow is a linear oscillation with the frequency sqrt(1 + x^2), which preserves area.
+``duffing`` explains the role of the frame.
 """
 
 from codegen.groups import SL2, Linear

@@ -1,8 +1,8 @@
 """Free rigid body with its attitude on SO(3) x R^3: attitude in the group, momentum in a vector space.
 
 g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006), the body of ``free_rigid_body_attitude``. The
-attitude stays a rotation, but the product knows nothing of |P| or the energy: a method keeps them to its
-order, where the coadjoint action and T*SO(3) keep the momentum.
+attitude stays a rotation, but P may be any vector. A method preserves |P| and the energy only up to its
+order, whereas methods with the coadjoint action or on T*SO(3) preserve the momentum.
 """
 
 from sympy import Matrix, Rational, diag, eye

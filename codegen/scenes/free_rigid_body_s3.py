@@ -1,8 +1,9 @@
 """Free rigid body: its attitude as a unit quaternion, on S^3 acting on itself.
 
 H. Marthinsen's thesis, section 2.6: q' = f(q) q with f(q) = q v q^c, v = I^-1 E(q^c) m0/2, E the
-Euler-Rodrigues map and m0 the momentum in space. The moments of inertia are far apart, so the energy is steep
-on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1); in print the inverse is missing.
+Euler-Rodrigues map and m0 the momentum in space. The moments of inertia differ widely, so the energy varies
+strongly on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1); the printed formula lacks the
+inverse.
 """
 
 from sympy import Expr, Matrix, Rational, diag

@@ -1,9 +1,9 @@
-"""Linear oscillator with a frequency that changes in time, on T*R^4: every family is classical there.
+"""Linear oscillator with a frequency that changes in time, on T*R^4: every family is a classical method.
 
 H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis, paper 3, Table 4.1). On
 R^n brackets vanish and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, variational
-ones are symplectic partitioned ones. Time enters through the stages alone, so an error in the time of a
-stage is visible at once.
+methods are symplectic partitioned Runge-Kutta methods. The field depends on time, so a wrong stage time
+lowers the measured order.
 """
 
 from dataclasses import replace

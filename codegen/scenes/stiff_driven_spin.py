@@ -1,6 +1,6 @@
 """Stiff driven spin on the sphere: the equation of ``driven_spin`` with rates of 2000 and 1000.
 
-Explicit methods must take steps of about a thousandth here; the solution itself turns with the slow field.
+Explicit methods need steps of about 1/1000, although the solution only follows the slowly rotating field.
 """
 
 from dataclasses import replace

@@ -13,7 +13,7 @@ from typing import Any
 
 import networkx as nx
 
-from codegen.run.precision import DOUBLE, Precision
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets import stumpff
 from codegen.templates import environment
 

@@ -13,7 +13,7 @@ from jinja2 import Environment, PackageLoader, PrefixLoader, StrictUndefined
 
 @cache
 def environment(target: str) -> Environment:
-    """Return the environment of a target ("c", "python")."""
+    """Return the environment of a target by its name."""
     loader = PrefixLoader(
         {
             "module": PackageLoader("codegen.templates", target),

@@ -5,6 +5,7 @@
  * source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic integration in
  *             Lie groups and manifolds, PhD thesis, NTNU 2014, Section 2.2.1
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 3.2e-17 at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns;
  *             1.7 sweeps and 0.2 matrices a step, measured over the first 20 steps of h = 0.005
@@ -16,12 +17,12 @@
  *             7 adjoint maps, 1 evaluation of the derivatives of H: no result depends on them
  *             4 adjoint maps, 9 evaluations of dexp*: a linear map is applied to a sum, not to
  *             each term
- *             4 adjoint maps: adjoint maps undo each other
- *             5 evaluations of dexp*: functions of one ad are one function
+ *             4 adjoint maps: an adjoint map and its inverse cancel
+ *             5 evaluations of dexp*: functions of the same ad_x are combined
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
- *             2 mul an initial guess, in the first step of a run
+ *             2 mul for an initial guess, in the first step of a run
  *             102 add, 184 mul a matrix of the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
  *             442 add, 562 mul, 6 div, 6 sqrt, 4 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4
@@ -446,7 +447,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 12])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

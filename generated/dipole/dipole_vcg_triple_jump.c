@@ -5,6 +5,7 @@
  * source:     Yoshida 1990; Hairer, Lubich and Wanner, (II.4.4); Table 3.2b of Bogfjellmo and
  *             Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 2.3e-16 at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * substeps:   3 calls of one function, with step sizes 1.35121, -1.70241, 1.35121 times h
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 4.85 sweeps and 3 matrices a
@@ -12,18 +13,18 @@
  * state:      [0..8] q: element of SO(3), row by row
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the derivatives of H, 10
- *             exponentials, 12 products, 16 sums: the step repeats a shorter one
+ *             exponentials, 12 products, 16 sums: the step repeats a shorter step
  *             3 adjoint maps, 2 products: coefficients are zero, or terms cancel
  *             1 Legendre transform, 1 sum: equal values are computed once
  *             3 adjoint maps, 1 evaluation of the derivatives of H: no result depends on them
  *             1 evaluation of dexp*, 1 exponential, 2 functions of ad, 1 sum: a linear map is
  *             applied to a sum, not to each term
- *             4 adjoint maps: adjoint maps undo each other
- *             2 adjoint maps, 2 evaluations of dexp*: functions of one ad are one function
+ *             4 adjoint maps: an adjoint map and its inverse cancel
+ *             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are combined
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 114 add, 174 mul, 3 stumpff_12 a step
- *             6 mul an initial guess, in the first step of a run
+ *             6 mul for an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
@@ -328,7 +329,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

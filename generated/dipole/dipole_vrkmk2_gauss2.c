@@ -5,6 +5,7 @@
  * source:     Hammer and Hollingsworth 1955; Hairer, Lubich and Wanner, Table II.1.1; Table 3.1c
  *             of Bogfjellmo and Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 1.6e-17 at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps and 0.35
  *             matrices a step, measured over the first 20 steps of h = 0.005
@@ -16,14 +17,14 @@
  *             no result depends on them
  *             6 adjoint maps, 2 evaluations of dexp*, 2 exponentials, 2 functions of ad: a linear
  *             map is applied to a sum, not to each term
- *             3 adjoint maps: adjoint maps undo each other
- *             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv: functions of one
- *             ad are one function
+ *             3 adjoint maps: an adjoint map and its inverse cancel
+ *             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv: functions of the
+ *             same ad_x are combined
  *             2 sums: numbers are multiplied into sums
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
- *             2 mul an initial guess, in the first step of a run
+ *             2 mul for an initial guess, in the first step of a run
  *             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
@@ -424,7 +425,7 @@ static double difference_size(const struct memory *memory, size_t order)
  */
 static inline void remember(struct memory *memory, const double solution[static 6])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions the guess is a copy of the last one and is not judged */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

@@ -1,6 +1,7 @@
-"""Families of methods. A family defines the series of a tableau and its order conditions.
+"""Families of integration methods. A family defines the series of a tableau and its order conditions.
 
-Each family has a module. Built-in families load when they are used; :func:`register` adds others:
+Each family is defined in a module of its own. Built-in families load when they are used; :func:`register`
+adds new families:
 
 >>> from orderconds import families
 >>> families.get("rkmk(1)").label()

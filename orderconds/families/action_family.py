@@ -1,4 +1,5 @@
-"""The base class of variational families: conditions on action trees, and the values of action trees."""
+"""The base class of the variational families. Their order conditions belong to action trees, see
+:mod:`orderconds.series.action_trees`."""
 
 from __future__ import annotations
 
@@ -26,17 +27,19 @@ from orderconds.tableau.record import Tableau
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
     from orderconds.series.action import ActionSeries
     from orderconds.series.action_relations import Polynomial
 
 
 class ActionFamily(Family):
-    """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact, one for each g-valued action tree t.
+    """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact value. There is one condition for each
+    g-valued action tree t.
 
-    The conditions of order n belong to the trees with n copies of H. ``conditions`` selects independent
-    conditions by ranks of their values at random methods. ``decisive_conditions`` needs neither ranks nor
-    NumPy.
+    The conditions of order n belong to the trees with n vertices, that is, n copies of the Hamiltonian H.
+    ``conditions`` selects independent conditions by the rank of their values at random methods.
+    ``decisive_conditions`` selects a larger set that implies all conditions; it computes no ranks and does
+    not import NumPy.
     """
 
     needs_nonzero_weights = True
@@ -47,32 +50,32 @@ class ActionFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> ActionSeries:
-        """Return the action series of a method; raises ZeroWeight for a weight that vanishes."""
+        """Return the action series of a method; raises ZeroWeight if a weight b_i is zero."""
 
     @abstractmethod
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the action series of random members of the family, one for each sample of the ring.
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the action series of random methods of the family, one method for each sample of the ring.
 
-        The members have enough stages to distinguish the independent conditions up to ``order``.
+        These methods have enough stages to distinguish the independent conditions up to ``order``.
         """
 
     @abstractmethod
     def formula(self) -> ActionFormula:
-        """Return the writer of the family's index sums."""
+        """Return the object that writes the conditions of this family as index sums."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of exactly this order, simplest trees preferred."""
+        """Return independent conditions of exactly this order; conditions of simple trees are preferred."""
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all trees of exactly this order, simplest first, dependent ones with
-        relations."""
+        """Return the conditions of all trees of exactly this order, simplest first. A dependent condition
+        contains its relation to independent conditions."""
         related = _relations(self, order)
         return tuple(replace(self.condition(tree), relation=related.get(tree)) for tree in velocities(order))
 
     def relations(self, order: int) -> dict[Velocity, Polynomial]:
-        """Return the printed left-hand side of each dependent tree as a polynomial in the left-hand sides of
-        independent trees.
+        """Return, for each dependent tree, its printed left-hand side as a polynomial in the printed
+        left-hand sides of independent trees.
 
         >>> from orderconds.families import get
         >>> {str(t): [(str(q), trees) for q, trees in p] for t, p in get("vcg").relations(2).items()}
@@ -88,18 +91,28 @@ class ActionFamily(Family):
             for tree, polynomial in polynomials.items()
         }
 
+    def dependence_holds(self, order: int) -> bool:
+        """Whether the relations of the dependent conditions of this order hold exactly over Q.
+
+        The relations are verified at a random method with two stages more than those of the rank computation.
+        """
+        from orderconds.series.action_relations import hold_over_rationals, relations
+
+        polynomials = relations(partial(self.random_series, order=order), _independent(self, order))
+        return hold_over_rationals(partial(self.random_series, order=order + 2), polynomials)
+
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order: the simplest of each root-switching
-        class."""
+        """Return conditions that imply all conditions of this order. Trees that differ only in the choice of
+        the root have equal conditions; the condition of the simplest tree is returned."""
         return tuple(map(self.condition, representatives(order)))
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Velocity, Callable[[], OrderCondition]]]:
-        """Yield the trees of the decisive conditions."""
+        """Yield the trees of :meth:`decisive_conditions`, each with a function that returns its condition."""
         for of_class in classes_in_turn(order):
             yield of_class[0], partial(self.condition, of_class[0])
 
     def decisive_count(self, order: int) -> int:
-        """Return the number of decisive conditions."""
+        """Return the number of conditions in :meth:`decisive_conditions`, by a formula."""
         return class_count(order)
 
     @cached_property
@@ -109,20 +122,20 @@ class ActionFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the left-hand sides of the printed conditions for a method with coefficients in ``ring``."""
+        """Return the left-hand sides of the printed conditions of a method with coefficients in ``ring``."""
         series = self._memo(method, ring)
         return tuple(series.condition(c.key) * multiplier(c.key) for c in conditions)
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of all rooted action trees in the expansion about (q0, mu1), without scale
-        factors."""
+        """Return the residuals of all rooted action trees in the expansion about (q0, mu1). They are not
+        multiplied by the factors of the printed conditions."""
         series = self.series(method, ring)
         exact = action_exact.condition
         return tuple(series.condition(t) - in_ring(ring, exact(t)) for t in velocities(order))
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for tableaux (A, b) without zero weights."""
+        """Return this family for a tableau (A, b) without zero weights, else None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def elementary_hamiltonian(self, condition: OrderCondition) -> str:
@@ -130,7 +143,7 @@ class ActionFamily(Family):
         return hamiltonian(condition.key)
 
     def condition(self, tree: Velocity) -> OrderCondition:
-        """Return the condition of a tree."""
+        """Return the order condition that belongs to a tree."""
         return OrderCondition(
             family=self.label(),
             order=tree.vertices,
@@ -147,7 +160,7 @@ def _relations(family: ActionFamily, order: int) -> dict[Velocity, str]:
 
 
 def _text(polynomial: Polynomial) -> str:
-    """Write a polynomial, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
+    """Return a polynomial as text, short terms first: ``3 <o(|L(o o))> - <o> <o(o)>``."""
     text = ""
     for q, trees in sorted(polynomial, key=lambda term: len(term[1])):
         sign = ("-" if q < 0 else "") if not text else (" - " if q < 0 else " + ")
@@ -165,7 +178,7 @@ def _independent(family: ActionFamily, order: int) -> tuple[tuple[Velocity, ...]
 
 @lru_cache(maxsize=1 << 14)
 def longest_word(tree: Velocity) -> int:
-    """Return the length of the longest word on whose value the value of an action tree depends.
+    """Return the length of the longest word that contributes to the value of an action tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> longest_word(velocity((velocity(), velocity())))
@@ -177,7 +190,8 @@ def longest_word(tree: Velocity) -> int:
 
 @lru_cache(maxsize=1 << 14)
 def _longest_in_momentum(tree: Momentum) -> int:
-    """Return the length of the longest word for a momentum tree; the varied velocity is a separate letter."""
+    """Return the length of the longest word that contributes to the value of a momentum tree. A varied
+    velocity counts as one letter."""
     if isinstance(tree, Transport):
         return max(len(tree.word) + 1, *map(longest_word, tree.word))
     assert isinstance(tree, Force)

@@ -1,10 +1,12 @@
-"""Action conditions as readable index sums, computed by one traversal of the tree with symbols for numbers.
+"""Action conditions as readable index sums, computed by one traversal of the tree with symbols in place of
+numbers.
 
 A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with a factor
-1/r! for each run of r equal indices. This module writes the coefficient with strict inequalities, one sum for
-each division into runs. A word that repeats one letter k times does not need such sums: its coefficient is a
-power of one sum, divided by k!. Both sides of a condition are multiplied by k! (:func:`multiplier`). The
-printed condition is then ``sum_i b_i c_i^2 = 1/3``, for example.
+1/r! for each run of r equal indices. This module writes the coefficient as one sum with strict inequalities
+for each division of the word into runs. A word that repeats one letter k times does not need such sums: its
+coefficient is a power of one sum, divided by k!. Both sides of a condition are multiplied by k!
+(:func:`multiplier`). For example, the printed condition is then ``sum_i b_i c_i^2 = 1/3`` and not ``1/2 sum_i
+b_i c_i^2 = 1/6``.
 """
 
 from __future__ import annotations
@@ -35,12 +37,13 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word that may contain the index of a stage once; the index represents a variation of the stage's
-velocity."""
+"""A word of trees in which the index of a stage may occur once; this index represents a variation of the
+stage's velocity."""
 
 
 def multiplier(tree: Velocity) -> int:
-    """Return the factor that clears the factorials of repeated letters from a tree's condition.
+    """Return the factor by which a condition is multiplied to clear the factorials of repeated letters in its
+    tree.
 
     >>> from orderconds.series.action_trees import velocity
     >>> multiplier(velocity((velocity(), velocity())))
@@ -58,9 +61,10 @@ def _momentum_multiplier(tree: Momentum) -> int:
 
 
 class ActionFormula(ABC):
-    """The index sums of action conditions. A subclass defines how stages and update depend on the velocities.
+    """The index sums of action conditions. A subclass defines how the stages and the update depend on the
+    velocities.
 
-    ``row`` is the index of a stage, None for the update.
+    In all methods ``row`` is the index of a stage, or None for the update.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import force, velocity
@@ -70,20 +74,21 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return a word's coefficient in a stage, times k! if it repeats one letter."""
+        """Return a word's coefficient in the group element of ``row``, times k! if the word repeats one
+        letter k times."""
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v, where u is ``before``, v is ``after`` and x replaces the velocity
-        of ``stage`` once."""
+        """Return the coefficient of the word u x v in the group element of ``row``, where u is ``before``, v
+        is ``after``, and the letter x is a variation of the velocity of ``stage``."""
 
     def condition(self, tree: Velocity) -> Formula:
-        """Return ``sum_i b_i tau_t(i)`` times :func:`multiplier`."""
+        """Return ``sum_i b_i tau_t(i)`` for t = ``tree``, times :func:`multiplier` of the tree."""
         stage = fresh("i")
         return index_sum((stage,), (), product(coefficient("b", stage), self.tau(tree, stage)))
 
     def tau(self, tree: Velocity, stage: str) -> Formula:
-        """Return tau_t at a stage for t = ``tree``, times the multiplier of the tree."""
+        """Return ``tau_t(i)`` for t = ``tree`` and i = ``stage``, times :func:`multiplier` of the tree."""
         return product(self.word(stage, tree.word), self._psi_product(tree.momenta, stage))
 
     def _psi_product(self, momenta: Momenta, stage: str) -> Formula:
@@ -103,7 +108,7 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums for products of exponentials; ``place`` is the index of an exponential.
+    """The index sums for products of exponentials; ``place`` is the index of an exponential in the product.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -113,36 +118,41 @@ class ExponentialsFormula(ActionFormula):
 
     @abstractmethod
     def place(self) -> str:
-        """Return a new index for exponentials."""
+        """Return a new index that runs over exponentials."""
 
     @abstractmethod
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return the tree's coefficient in one exponent."""
+        """Return the tree's coefficient in the exponent of the exponential ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return a word's coefficient in a stage, times k! if it repeats one letter."""
+        """Return a word's coefficient in the group element of ``row``, times k! if the word repeats one
+        letter k times."""
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
         return product(*(self._whole_exponent(row, letter) for letter in word))
 
     def _whole_exponent(self, row: str, tree: Velocity) -> Formula:
-        """Return the sum of a tree's coefficients in all exponents of a stage, ``c_i`` for the leaf."""
+        """Return the sum of a tree's coefficients in all exponents of ``row``. For the leaf and stage i it is
+        ``c_i``."""
         if tree.vertices == 1:
             return coefficient("c", row)
         place = self.place()
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return a word's coefficient in the exponentials strictly between two places (None: no bound)."""
+        """Return a word's coefficient in the product of the exponentials strictly between two places; None
+        means no bound."""
         if not word:
             return one()
-        lengths = reversed(list(compositions(len(word))))  # first the sum over distinct places
+        # The first term is the one in which all letters come from different exponentials.
+        lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return 1/prod run! and the sum over strictly increasing places for given run lengths."""
+        """Return the product of 1/r! over the given run lengths r, and the sum in which the places of the
+        runs strictly increase."""
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
         relations: list[Relation] = [(low, "<", high) for low, high in pairwise(bounds)]
@@ -152,8 +162,8 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v with x in the exponential at ``place``, without the coefficient of
-        x itself."""
+        """Return the coefficient of u x v, where x comes from the exponential at ``place``, without the
+        factor for x itself."""
         terms = []
         for r in range(len(before) + 1):
             for q in range(len(after) + 1):
@@ -166,8 +176,8 @@ class ExponentialsFormula(ActionFormula):
 
 
 class CrouchGrossmanFormula(ExponentialsFormula):
-    """Index sums for one exponential for each a_ij and each b_j: the index of an exponential is that of a
-    stage.
+    """Index sums for methods with one exponential for each a_ij and each b_j. The stage index j is the index
+    of the exponential.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -176,21 +186,22 @@ class CrouchGrossmanFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return a new stage index."""
+        """Return a new index that runs over stages."""
         return fresh("i")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return ``a_ij tau_t(j)`` or ``b_j tau_t(j)``."""
+        """Return the tree's coefficient in one exponent, ``a_ij tau_t(j)`` or ``b_j tau_t(j)``."""
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return ``a_ji`` or ``b_i`` times the words on both sides of place i."""
+        """Return ``a_ji`` (or ``b_i`` for the update) times the coefficients of the words before and after
+        the exponential i."""
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
 class CommutatorFreeFormula(ExponentialsFormula):
-    """Index sums for exponents ``sum_j alpha_iJj xi_j`` in the stages and ``sum_j beta_Jj xi_j`` in the
-    update.
+    """Index sums for products of exponentials with the exponents ``sum_j alpha_iJj xi_j`` in the stages and
+    ``sum_j beta_Jj xi_j`` in the update.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -199,16 +210,18 @@ class CommutatorFreeFormula(ExponentialsFormula):
     """
 
     def place(self) -> str:
-        """Return a new index of exponentials."""
+        """Return a new index that runs over exponentials."""
         return fresh("J")
 
     def exponent(self, row: str | None, place: str, tree: Velocity) -> Formula:
-        """Return ``sum_j alpha_iJj tau_t(j)`` or ``sum_j beta_Jj tau_t(j)``."""
+        """Return the tree's coefficient in one exponent, ``sum_j alpha_iJj tau_t(j)`` or ``sum_j beta_Jj
+        tau_t(j)``."""
         stage = fresh("i")
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the sum over the exponentials whose exponents contain the stage's velocity."""
+        """Return the coefficient of u x v, summed over the exponentials that contain the velocity of
+        ``stage``."""
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
         return index_sum((place,), (), inner)
@@ -220,7 +233,8 @@ class CommutatorFreeFormula(ExponentialsFormula):
 
 
 class MuntheKaasFormula(ActionFormula):
-    """Index sums for one exponential of ``X_i = sum_j a_ij dexpinv_{(r),X_j} xi_j``.
+    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij dexpinv_{(r),X_j}
+    xi_j``.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity
@@ -233,13 +247,14 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return a word's coefficient in exp(X_i), times k! if it repeats one letter."""
+        """Return a word's coefficient in exp(X_i), times k! if the word repeats one letter k times."""
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v in exp(X_i), or in exp(Y) for the update."""
+        """Return the coefficient of u x v in exp(X_i), or in exp(Y) for the update; x varies the velocity of
+        ``stage``."""
         return self._exponential(row, (*before, stage, *after))
 
     def _exponential(self, row: str | None, word: Marked) -> Formula:
@@ -248,8 +263,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i^n, or in Y^n for the update; it is computed once for all
-        stages."""
+        """Return the coefficient of a word in X_i^n, or in Y^n for the update. It is computed once with a
+        free stage index."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -275,8 +290,8 @@ class MuntheKaasFormula(ActionFormula):
     def _argument(self, row: str | None, word: Marked) -> Formula:
         """Return the coefficient of a word in X_i, or in Y for the update.
 
-        The coefficient is a sum over the letters: each one in turn is the argument of dexpinv. A varied
-        velocity belongs to one stage.
+        The coefficient is a sum over the letters: each letter in turn is the argument of dexpinv. The letter
+        for a varied velocity belongs to one stage only.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -307,7 +322,8 @@ class MuntheKaasFormula(ActionFormula):
 
 
 class PadeFormula(MuntheKaasFormula):
-    """Index sums for one exponential of ``X_i = sum_j a_ij v_j``, where v_j solves dexp_{(r),X_j} v_j = xi_j.
+    """Index sums for methods with the single exponential exp(X_i), where ``X_i = sum_j a_ij v_j`` and v_j
+    solves dexp_{(r),X_j} v_j = xi_j.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import velocity

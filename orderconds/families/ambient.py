@@ -1,6 +1,6 @@
-"""Runge-Kutta methods on the space around the manifold: ``rk`` in coordinates of the ambient space.
+"""Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
-The distance of a step from the manifold is at most the local error, and the order is the classical one. The
+One step leaves the manifold by at most the local error. The order is the classical order of the tableau. The
 family is a baseline for comparison with methods that stay on the manifold.
 """
 
@@ -25,7 +25,7 @@ class AmbientFamily(RungeKuttaFamily):
     name = "ambient"
     description = "Runge-Kutta methods in coordinates of the ambient space; a step leaves the manifold."
     illustrates = ()
-    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is its own ambient space"}
+    implies: ClassVar[Mapping[str, str]] = {"rk": "the ambient space of a vector space is the space itself"}
     bounds_others = False
     default_series = False
     low_storage = ()
@@ -33,9 +33,10 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order is that of ``rk``."""
+        """Return None: a file need not claim an order in this family, because it equals the order in
+        ``rk``."""
         return None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the classical order."""
+        """Return the order in ``rk``."""
         return orders.get("rk", 0)

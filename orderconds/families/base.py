@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 Key = Hashable
-"""A family's own encoding of a tree, a forest or a word: the ``key`` of a condition."""
+"""The key of a condition: a tree, a forest or a word in the encoding of the family."""
 
 Kind = TypeVar("Kind")
 
@@ -40,15 +40,15 @@ class Family(ABC):
     """A family of methods.
 
     A subclass sets ``name``, ``description`` and ``formats`` and implements :meth:`conditions` and
-    :meth:`evaluate`; all other attributes and methods have defaults. :func:`orderconds.families.register`
-    makes it known to every command. The options of a family, such as ``cutoff`` of RKMK, are parameters of
-    its class; they are integers.
+    :meth:`evaluate`; all other attributes and methods have default values.
+    :func:`orderconds.families.register` makes the family available to every command. The options of a family,
+    such as ``cutoff`` of RKMK, are integer parameters of the constructor.
     """
 
     name: ClassVar[str] = ""
-    """The name of the family in commands and claims; lower case."""
+    """The name of the family in commands and claims, in lower case."""
     description: ClassVar[str] = ""
-    """One line for ``orderconds list families``."""
+    """The description of the family in ``orderconds list families``, one line."""
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family reads, the preferred one first."""
     has_tableau: ClassVar[bool] = True
@@ -60,64 +60,73 @@ class Family(ABC):
     needs_nonzero_weights: ClassVar[bool] = False
     """Whether the family divides by the weights b_i."""
     search_limit: ClassVar[int] = 8
-    """The order up to which ``check`` searches without a claim. With a claim, it searches at least one order
-    beyond the claim."""
+    """The highest order that ``check`` evaluates for a file without a claim. For a file with a claim,
+    ``check`` evaluates at least one order beyond the claim."""
     order_bound: ClassVar[int | None] = None
-    """The highest order of any member, by a theorem; None without such a bound."""
+    """The highest order that any member of the family can have, by a theorem; None if no such theorem is
+    known."""
     over_rationals: ClassVar[bool] = False
-    """Whether conditions are evaluated by :mod:`orderconds.ring.nodal`, without field arithmetic."""
+    """Whether conditions are evaluated by :mod:`orderconds.ring.nodal` over the rationals, without arithmetic
+    in the field of the coefficients."""
     trees: ClassVar[str | None] = None
-    """The kind of the trees that index the conditions (:mod:`orderconds.explain.kinds`); None for words."""
+    """The kind of trees that index the conditions (:mod:`orderconds.explain.kinds`); None if words index
+    them."""
     illustrates: ClassVar[tuple[str, ...]] = ()
-    """The kinds of trees that ``orderconds trees --explain`` shows with the conditions of this family."""
+    """The kinds of trees that ``orderconds trees --explain`` shows together with the conditions of this
+    family."""
 
     # Other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """Names of families whose conditions are a subset of this family's at every order, each with the
-    theorem."""
+    """The families in which a method has at least the order that it has in this family, with reasons. The
+    keys are names of families, the values are theorems. At each order, the conditions of these families are a
+    subset of the conditions of this family."""
     abelian: ClassVar[str | None] = None
-    """The family of the same method on an abelian group, where brackets vanish; None if no family reads all
-    tableaux."""
+    """The family to which this family reduces on an abelian group, where brackets vanish; None if no family
+    reads all tableaux of this family."""
     low_order: ClassVar[str | None] = None
-    """A family with the same conditions up to order 2, which involve no bracket and no momentum."""
+    """The name of a family that has the same conditions up to order 2. These conditions contain no bracket
+    and no momentum."""
     bounds_others: ClassVar[bool] = False
     """Whether ``check`` computes the order in this family to bound the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
-    """Families in which the order of a 2N scheme is equal to its order in this family."""
+    """The families in which a 2N (low-storage) scheme has the same order as in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
     """Whether a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """Whether the stages are independent of the weights, so that a second row of weights can estimate the
+    """Whether the stages are independent of the weights. A second row of weights can then estimate the
     error."""
     keeps_manifold: ClassVar[bool] = True
     """Whether a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
-    """Whether every member keeps the energy exactly."""
+    """Whether every method of the family preserves the energy exactly."""
     controls_steps: ClassVar[bool] = False
     """Whether step sizes follow from the coefficients of a step, without an embedded method."""
     takes_cutoff: ClassVar[bool] = False
-    """Whether dexpinv, or dexp, is cut after ``cutoff`` brackets."""
+    """Whether the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
+    truncated."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order at which members without a cut-off are compiled with the fewest brackets."""
+    """The highest order at which methods without ``cutoff`` are compiled to programs with the fewest
+    brackets."""
     cutoff: int | None = None
-    """The number of brackets after which dexpinv is cut; None: no cut."""
+    """The number of brackets after which dexpinv is truncated; None: dexpinv is not truncated."""
 
     default_series: ClassVar[bool] = False
-    """Whether ``orderconds modified`` may read a tableau in this family if the user names none."""
+    """Whether ``orderconds modified`` may choose this family for a tableau if the user names no family."""
 
     # Search
     unknowns: ClassVar[str | None] = None
-    """The tableau format whose coefficients ``orderconds solve`` looks for; None: no search."""
+    """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
+    search."""
     equal_abscissae: ClassVar[bool] = False
-    """Whether conditions of order three make the abscissae of a stage equal
+    """Whether the conditions of order three force abscissae of one stage to be equal
     (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
-    """The highest order of which the principal error is computed; None: no limit."""
+    """The highest order at which the principal error is computed; None: no limit."""
 
     def label(self) -> str:
-        """Return the name with its options, as ``rkmk(1)``."""
+        """Return the name of the family with its options, such as ``rkmk(1)``."""
         return self.name
 
     @abstractmethod
@@ -130,14 +139,17 @@ class Family(ABC):
     ) -> tuple[Element, ...]:
         """Return the left-hand sides of ``conditions`` for a method with coefficients in ``ring``.
 
-        Raises :class:`~orderconds.errors.ZeroWeight` where the family divides by a weight that is zero.
+        Raises :class:`~orderconds.errors.ZeroWeight` if the family divides by a weight and this weight is
+        zero.
         """
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return a subset of :meth:`conditions` in which none follows from the others or from lower orders.
+        """Return a subset of :meth:`conditions` in which no condition follows from the other conditions or
+        from conditions of lower order.
 
-        By default the subset is all of :meth:`conditions`. A family overrides the method if its conditions
-        generate all others but are not independent, and explains the difference in :meth:`remark`.
+        By default the subset is all of :meth:`conditions`. A family overrides this method if
+        :meth:`conditions` returns conditions that are not independent, and explains the difference in
+        :meth:`remark`.
         """
         return self.conditions(order)
 
@@ -146,34 +158,45 @@ class Family(ABC):
         return ""
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of every tree or word of this order; by default the independent ones."""
+        """Return the conditions of every tree or word of this order. By default these are the independent
+        conditions."""
         return self.conditions(order)
 
-    def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return conditions that imply all conditions of this order and cost less than an independent set.
+    def dependence_holds(self, order: int) -> bool:
+        """Whether :meth:`conditions` imply all conditions of this order, verified without ranks modulo
+        primes.
 
-        By default these are the independent set.
+        By default this is a theorem about trees or words, and nothing is computed.
+        """
+        return True
+
+    def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Return conditions that imply all conditions of this order, and that can be selected without
+        computation of ranks.
+
+        By default these are the independent conditions.
         """
         return self.conditions(order)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
-        """Yield the keys of the decisive conditions, each with a function that returns the condition.
+        """Yield the keys of :meth:`decisive_conditions`, each with a function that returns the condition.
 
-        A family with very many trees yields them as they are enumerated.
+        A family with very many trees enumerates the trees on demand.
         """
         for condition in self.decisive_conditions(order):
             yield condition.key, partial(_itself, condition)
 
     def decisive_count(self, order: int) -> int | None:
-        """Return the number of decisive conditions if a formula gives it, else None."""
+        """Return the number of conditions in :meth:`decisive_conditions` if there is a formula for it, else
+        None."""
         return None
 
     def residuals(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return left-hand side minus right-hand side of each condition, elements of ``ring``.
+        """Return the left-hand side minus the right-hand side of each condition, as elements of ``ring``.
 
-        Raises ZeroDivisionError where a quotient of balls is not defined.
+        Raises ZeroDivisionError if a ball that contains zero is a divisor.
 
         >>> from orderconds.families import get
         >>> from orderconds.tableau import Tableau, find
@@ -199,48 +222,54 @@ class Family(ABC):
         return tuple(value - in_ring(ring, c.rhs) for value, c in zip(values, conditions, strict=True))
 
     def principal_residuals(self, method: Method, ring: Ring, order: int) -> tuple[Element, ...]:
-        """Return the residuals of one order whose 2-norm measures a method's error.
+        """Return the residuals of one order whose 2-norm measures the error of a method.
 
-        By default these are the
-        residuals of the independent conditions.
+        By default these are the residuals of the independent conditions.
         """
         return self.residuals(method, ring, self.conditions(order))
 
     # Tableaux
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the method of a tableau in a format of this family, or None."""
+        """Return the method of a tableau if the family reads the format of the tableau, else None."""
         return tableau.read_as(self.formats)
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method that is not a member of the family."""
+        """Raise :class:`~orderconds.errors.InputError` if the method does not belong to the family."""
         return
 
+    def converted(self, convert: Callable[[Element], Element]) -> Family:
+        """Return the family with its own coefficients converted; most families have none."""
+        return self
+
     def for_method(self, method: Method) -> Family:
-        """Return the family in which a file without claims is checked, if its format has the name of this
-        family."""
+        """Return the family in which ``check`` evaluates a file that claims no order. It is called on the
+        family whose name is the name of the file's format."""
         return self
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family with the options in which a file of this tableau should claim an order, or None.
+        """Return this family, with its options, if a file with this tableau should claim an order in it, else
+        None.
 
-        By default it returns None: a file may claim an order, but need not.
+        By default it returns None: a file may claim an order in the family, but need not.
         """
         return None
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of this order in a tableau file."""
+        """Return the claim of this order as an entry of a tableau file."""
         from orderconds.tableau.claims import OrderClaim
 
         return OrderClaim(self.label(), None, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants of this family in which a complete file claims an order, by rising cost."""
+        """Return the variants of this family, in order of increasing cost, in which a complete file claims an
+        order."""
         return (self,)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return the field evaluations, exponentials and brackets of a step, or None if they are not counted.
+        """Return the numbers of field evaluations, exponentials and brackets in one step, or None if they are
+        not known.
 
         By default only the evaluations are counted.
         """
@@ -260,56 +289,59 @@ class Family(ABC):
         return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of the methods with ``stages`` stages.
+        """Return the coefficients of the methods with ``stages`` stages, as unknowns of a search.
 
-        Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by
-        stages alone.
+        Raises :class:`~orderconds.errors.InputError` if the number of stages does not determine the
+        coefficients of the family.
         """
         from orderconds.tableau.formats import FORMATS, RungeKuttaFile
 
         if FORMATS.get(self.formats[0]) is RungeKuttaFile:
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
-            f"family {self.label()} is not determined by the number of stages",
+            f"the number of stages does not determine the coefficients of family {self.label()}",
             where="--stages",
-            expected="a family whose coefficients are numbered by stages, as rk, sprk, cg, vcg or splitting",
+            expected="a family whose coefficients follow from the number of stages, such as rk or splitting",
             hint="leave --stages out",
         )
 
     # Theorems
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order that theorems derive from ``orders`` in other families, by label;
-        or 0.
+        """Return a lower bound of the order that theorems derive from the orders in other families, or 0.
 
-        Families that name this one in :attr:`implies` need not be considered here.
+        ``orders`` contains these orders by the label of the family. A family that names this family in
+        :attr:`implies` need not be considered here.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order by a theorem about the coefficients, without trees; or 0."""
+        """Return a lower bound of the order by a theorem about the coefficients, or 0; no trees are
+        evaluated."""
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the step of this family is proved to be symmetric."""
+        """Whether a step of the method in this family is proved to be symmetric."""
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return a family with fewer conditions that imply the conditions of this family for this method, or
-        None."""
+        """Return a family with fewer conditions, if these imply the conditions of this family for this
+        method, else None."""
         return None
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the first condition that all members violate if no member of the family has this order, else
-        None."""
+        """If no method of the family has this order, return the first condition that every method violates;
+        else return None."""
         return None
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return the trees on which the cut of dexpinv has no effect; None for a family without a cut."""
+        """Return a description of the conditions that the truncation of dexpinv does not change; None if
+        dexpinv is not truncated."""
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions for a method; ``orders`` are its proved orders in other families, by label.
+        """Return the reductions for a method. ``orders`` contains its proved orders in other families, by
+        label.
 
         >>> from orderconds.families import get
         >>> from orderconds.ring import QQ
@@ -325,19 +357,20 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family whose conditions suffice for a symmetric ``method``, or None.
+        """Return a family that has fewer conditions and suffices for a symmetric ``method``, or None.
 
-        If the result is None, the caller uses the family with the name of the format.
+        If the result is None, the caller uses the family with the name of the method's format.
         """
         return None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return the orders, by label, of a symmetric method that satisfies the conditions up to
-        ``order``."""
+        """Return pairs (label of a family, order): the orders of a symmetric method that satisfies the
+        conditions of this family up to ``order``."""
         return ((self.label(), order),)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of the family whose conditions a search solves; ``nystroem`` is option --rkn."""
+        """Return the label of the family whose conditions a search solves. ``nystroem`` is true if the option
+        --rkn is set."""
         return self.label()
 
 
@@ -354,15 +387,15 @@ _UNWRAPPED = Memo(_unwrapped)
 
 
 def expect(method: Method, kind: type[Kind]) -> Kind:
-    """Return ``method`` if it is of type ``kind``; otherwise raise TypeError.
+    """Return ``method`` unchanged if it is of type ``kind``; otherwise raise TypeError.
 
     >>> from orderconds.tableau import Composition, RungeKutta
     >>> expect(Composition("symmetric-2", (1,)), RungeKutta)
     Traceback (most recent call last):
-    TypeError: a method of type Composition where RungeKutta is expected
+    TypeError: found a method of type Composition; expected RungeKutta
     """
     if not isinstance(method, kind):
-        raise TypeError(f"a method of type {type(method).__name__} where {kind.__name__} is expected")
+        raise TypeError(f"found a method of type {type(method).__name__}; expected {kind.__name__}")
     return method
 
 
@@ -377,7 +410,7 @@ def in_ring(ring: Ring, q: Fraction) -> Element:
 
 
 def all_nonzero(weights: Sequence[Element], ring: Ring) -> bool:
-    """Whether every weight is proved to be non-zero.
+    """Whether all weights are proved to be non-zero.
 
     >>> from orderconds.ring import QQ
     >>> all_nonzero([QQ.one, QQ.zero], QQ)
@@ -387,7 +420,7 @@ def all_nonzero(weights: Sequence[Element], ring: Ring) -> bool:
 
 
 def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> None:
-    """Raise :class:`~orderconds.errors.ZeroWeight` unless every weight is known to be non-zero.
+    """Raise :class:`~orderconds.errors.ZeroWeight` unless all weights are proved to be non-zero.
 
     >>> from orderconds.ring import QQ
     >>> require_nonzero_weights("vcg", QQ, [QQ.one])
@@ -398,6 +431,6 @@ def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> Non
             raise ZeroWeight(
                 f"b_{i} = {ring.text(weight)}" + (", which may be zero" if vanishes is None else ""),
                 where=f"family {label}",
-                expected="every weight b_i to be non-zero, since the family divides by it",
+                expected="all weights b_i to be non-zero, because the family divides by them",
                 hint="choose another family, or a tableau without zero weights",
             )

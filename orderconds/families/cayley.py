@@ -1,10 +1,10 @@
-"""Cayley methods for Y' = A(t) Y on quadratic groups: Y_1 = cay(Omega) Y_0, cay(x) = (1 - x/2)^-1 (1 + x/2).
+"""Cayley methods Y_1 = cay(Omega) Y_0 for Y' = A(t) Y on quadratic groups; cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-Omega is a sum of brackets and of combinations of products with their reverses, as A_i A_j A_k + A_k A_j A_i.
-All of these terms are elements of the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n
-and of its reverse differ by the factor (-1)^(n+1). There is no other relation. Hence there is one condition
-for each pair of a word and its reverse, and one for each palindrome of odd length (Iserles, Found. Comput.
-Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
+Omega is a sum of brackets and of symmetric sums of products, such as A_i A_j A_k + A_k A_j A_i. All of these
+terms are elements of the algebra {X: X^T P + P X = 0}. The coefficients of a word of length n and of its
+reverse differ by the factor (-1)^(n+1). There is no other relation between the coefficients. Hence there is
+one condition for each pair (word, reverse word), and one condition for each palindrome of odd length
+(Iserles, Found. Comput. Math. 1 (2001) 129; Diele, Lopez and Peluso, Adv. Comput. Math. 8 (1998) 317).
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Methods cay(Omega), or products of Cayley transforms; omega_{ij...} is the coefficient of ... A_j A_i.
+    """Methods cay(Omega), or products of Cayley transforms. In printed conditions omega_{ij...} is the
+    coefficient of the product ... A_j A_i.
 
     >>> for condition in CayleyFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -47,7 +48,8 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the lesser of each word and its reverse, without palindromes of even length."""
+        """Return the words of this weight, one of each pair (word, reverse word), without the palindromes of
+        even length."""
         return tuple(
             word
             for word in self.words(order)
@@ -55,17 +57,18 @@ class CayleyFamily(MagnusFamily):
         )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient in the expansion of Omega for the flow."""
+        """Return the coefficient of a word in the Omega of the exact flow."""
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value on a word as a polynomial in the value on its reverse."""
+        """Return the value on a word as a polynomial in the value on the reverse word."""
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return one Cayley transform of random products, paired with their reverses, at random nodes."""
+        """Return random methods with one Cayley transform. Its argument is a random combination of products
+        and reverse products of A at random nodes."""
         terms = []
         for length in range(1, order + 1):
             for _ in range(2**order):

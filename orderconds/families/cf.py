@@ -1,9 +1,10 @@
-"""Commutator-free methods: each stage and the update is a product of exponentials of combinations of stages.
+"""Commutator-free methods: each stage and the update are products of exponentials of linear combinations of
+k_j.
 
 The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
-first. Stage i has the same form with alpha_iJj (Celledoni, Marthinsen and Owren, FGCS 19 (2003) 341). A stage
-that starts from another stage begins with the exponentials of that stage. In printed conditions b_j = sum_J
-beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
+first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
+341). A stage that starts from another stage begins with the exponentials of that stage. In printed conditions
+b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ Table = Sequence[Element] | Sequence[Sequence[Element]] | Sequence[Sequence[Sequ
 
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
-    """Commutator-free methods; a Runge-Kutta tableau is read with one stage in each exponential.
+    """Commutator-free methods. A Runge-Kutta tableau is interpreted with one k_j in each exponential.
 
     >>> for condition in CommutatorFreeFamily().conditions(3):
     ...     print(condition)
@@ -47,42 +48,45 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     name = "cf"
     description = (
-        "Commutator-free methods: each stage and the update is a product of exponentials of "
-        "combinations of stages."
+        "Commutator-free methods: each stage and the update are products of exponentials of "
+        "combinations of stage values."
     )
     formats = ("cf", "rk")
-    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a group"}
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a Lie group under addition"}
     default_series = True
     unknowns = "cf"
 
     def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
-        """Return the series of a step of a commutator-free method, or of a tableau (A, b)."""
+        """Return the Lie-Butcher series of one step of a commutator-free method or of a tableau (A, b)."""
         if isinstance(method, RungeKutta):
             return crouch_grossman_series(method, ring)
         *stages, update = [[sparse(ring, row) for row in rows] for rows in exponentials(method)]
         return ExponentialsSeries(ring, stages, update)
 
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of the scaled value on a forest."""
+        """Return the left-hand side of the condition of a forest as an index sum."""
         return _word(forest, lambda J, j: coefficient("beta", J, j), lambda j: coefficient("b", j), None)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for commutator-free methods. The order of a tableau (A, b) is that of ``cg``."""
+        """Return this family for a commutator-free method, else None. A tableau (A, b) claims its order in
+        ``cg``."""
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
+        symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return evaluations and exponentials."""
+        """Return the numbers of field evaluations and exponentials in one step."""
         return commutator_free_work(tableau)
 
 
 def exponentials(method: Method) -> list[Exponentials]:
-    """Return the exponentials from y0 to each stage and, as the last entry, to y1. Each exponential is a row
-    of coefficients of all stages.
+    """Return the lists of exponentials that lead from y0 to each stage and, in the last list, to y1.
+
+    Each exponential is a row that contains one coefficient for each stage.
 
     >>> from orderconds.tableau import Tableau, find
     >>> [len(rows) for rows in exponentials(Tableau.load(find("cf4")).method)]
@@ -99,8 +103,8 @@ def exponentials(method: Method) -> list[Exponentials]:
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
     """Return the coefficients that occur in formulas, with zeros for missing entries.
 
-    These are alpha_iJj
-    and beta_Jj, their sums over exponentials a_ij and b_j, and c_i = sum_j a_ij.
+    The coefficients are alpha_iJj and beta_Jj, their sums over J, which are a_ij and b_j, and c_i = sum_j
+    a_ij.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -134,7 +138,8 @@ def _word(
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None
-        # Exponentials of one letter commute: only the sum of their coefficients matters.
+        # Exponentials of multiples of one letter commute, so the value depends only on the sum of their
+        # coefficients.
         j = fresh()
         first = alone or index_sum((j,), (), product(row_total(j), _stage(letters[0], j)))
         return product(*([first] * len(letters)))

@@ -1,8 +1,8 @@
 """Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h).
 
-Letter k denotes X_k in A(t) = X_1 + t X_2 + ... and has weight k. The values of the exact flow are iterated
-integrals (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys. 230
-(2011) 5930).
+Letter k denotes X_k in A(t) = X_1 + t X_2 + ... and has weight k. The values of the exact flow on words are
+iterated integrals (Blanes and Moan, Appl. Numer. Math. 56 (2006) 1519; Alvermann and Fehske, J. Comput. Phys.
+230 (2011) 5930).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 @register
 class CommutatorFreeMagnusFamily(WordFamily):
-    """Products of exponentials of combinations of A at nodes.
+    """Products of exponentials of linear combinations of the values of A at nodes.
 
     >>> for condition in CommutatorFreeMagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -49,48 +49,50 @@ class CommutatorFreeMagnusFamily(WordFamily):
         "Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h)."
     )
     formats = ("magnus",)
-    implies: ClassVar[Mapping[str, str]] = {"magnus": "a product of exponentials"}
+    implies: ClassVar[Mapping[str, str]] = {"magnus": "the product is the exponential of its logarithm"}
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method with commutators or with another map."""
+        """Raise :class:`~orderconds.errors.InputError` if the method contains commutators or Cayley
+        transforms."""
         product = expect(method, Magnus)
         if product.transform != "exp" or not product.is_commutator_free(ring):
             raise InputError(
                 f'map = "{product.transform}"'
                 if product.transform != "exp"
-                else "an exponent with commutators",
+                else "an exponent that contains commutators",
                 where=f"family {self.name}",
-                expected="exponentials of combinations of nodes",
-                hint=f"ask for the family {'cayley' if product.transform != 'exp' else 'magnus'!r}",
+                expected="exponentials of linear combinations of A_i, without commutators",
+                hint=f"use the family {'cayley' if product.transform != 'exp' else 'magnus'!r}",
             )
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return nodes and exponentials."""
+        """Return the numbers of nodes and exponentials in one step."""
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the iterated integral."""
+        """Return the value of the exact flow on a word, an iterated integral."""
         return iterated_integral(word)
 
     def scale(self, word: Word) -> int:
-        """Return the factorial of the length."""
+        """Return the factorial of the length of a word, by which its condition is multiplied."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value over exponentials I, J, ... and nodes i, j, ...."""
+        """Return the left-hand side of the condition of a word as an index sum; indices I, J, ... run over
+        exponentials and i, j, ... over nodes."""
         return composition_formula(word, _exponential, "J")
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of a step on words."""
+        """Return the values of one step on words."""
         rows = exponent_values(ring, expect(method, Magnus))
         return ProductOfExponentials(ring, len(rows), lambda J, k: rows[J]((k,)))
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of ``order`` random exponentials over ``order`` random nodes."""
+        """Return products of ``order`` exponentials of random combinations of A at ``order`` random nodes."""
         return random_product(ring, generator, order, "exp")
 
 

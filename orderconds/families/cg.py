@@ -1,7 +1,7 @@
 """Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
-Stage i has the same form with a_ij instead of b_j. The exponential of the first stage acts first, in the
-stages and in the update. Exponentials with coefficient zero are left out.
+In stage i, a_ij replaces b_j. The exponential of the first stage acts first, in the stages and in the update.
+Exponentials with coefficient zero are omitted.
 """
 
 from __future__ import annotations
@@ -39,40 +39,42 @@ class CrouchGrossmanFamily(OrderedForestFamily):
 
     name = "cg"
     description = (
-        "Crouch-Grossman methods: exp(h b_s k_s) ... exp(h b_1 k_1) y0, stages alike with a_ij (HLW IV.8.1)."
+        "Crouch-Grossman methods: exp(h b_s k_s) ... exp(h b_1 k_1) y0; in stage i, a_ij replaces b_j "
+        "(HLW IV.8.1)."
     )
     formats = ("rk",)
     illustrates = ("ordered", "forests", "lyndon")
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "a vector space is a group",
-        "cf": "one stage in each exponential",
+        "rk": "a vector space is a Lie group under addition",
+        "cf": "a commutator-free method with one k_j in each exponential",
     }
     unknowns = "rk"
 
     def series(self, method: Method, ring: Ring) -> ExponentialsSeries:
-        """Return the series of a step of a tableau (A, b)."""
+        """Return the Lie-Butcher series of one step of a tableau (A, b)."""
         return crouch_grossman_series(method, ring)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for tableaux (A, b)."""
+        """Return this family for a tableau (A, b), else None."""
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
+        symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return evaluations and exponentials."""
+        """Return the numbers of field evaluations and exponentials in one step."""
         return crouch_grossman_work(tableau)
 
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of the scaled value on a forest."""
+        """Return the left-hand side of the condition of a forest as an index sum."""
         return _word(forest, lambda i: coefficient("b", i), None)
 
 
 def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
-    """Return the series of a Runge-Kutta tableau read as a Crouch-Grossman method.
+    """Return the Lie-Butcher series of the Crouch-Grossman method with the given Runge-Kutta tableau.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -86,7 +88,7 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 
 
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
-    """Whether a tableau read as a Crouch-Grossman method is proved to be symmetric.
+    """Whether the Crouch-Grossman method of a tableau is proved to be symmetric.
 
     A variational method is symmetric if its discrete Lagrangian is symmetric, that is, if the products of
     exponentials that lead to the stages are symmetric.
@@ -105,7 +107,7 @@ def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) 
     """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
     letters = trees_of(word)
     if len(set(letters)) == 1:
-        # Exponentials of one letter commute. The coefficient of the word t^k is therefore the k-th power of
+        # Exponentials of multiples of t commute. Hence the coefficient of the word t^k is the k-th power of
         # the coefficient of t, divided by k!.
         i = fresh()
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None

@@ -1,9 +1,9 @@
-"""Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi.
+"""Compositions of a method Phi and its adjoint, or of symmetric methods. Conditions belong to words.
 
-Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the field itself. Letter k denotes X_k and has weight k. Its
-value is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint Phi*_{beta h}. The exact flow has the value
-1/n! on the word of n letters 1, and zero on all other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans.
-R. Soc. A 357 (1999) 1079).
+Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k denotes X_k and has
+weight k. The value of letter k is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint Phi*_{beta h}. The
+exact flow has the value 1/n! on the word of n letters 1, and zero on all other words (HLW III.3.1; Murua and
+Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -46,40 +46,39 @@ class CompositionFamily(WordFamily):
     """
 
     name = "composition"
-    description = (
-        "Compositions of a method Phi and its adjoint, or of symmetric methods: words over the fields of Phi."
-    )
+    description = "Compositions of a method Phi and its adjoint Phi*, or of symmetric methods."
     formats = ("composition",)
     illustrates: ClassVar[tuple[str, ...]] = ("graded",)
     implies: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(
             ("rk", "symplectic_rk", "sprk", "cg", "cf", "vcg", "vcf"),
-            "a composition of midpoints is one in each family (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
+            "a composition of midpoint rules belongs to this family (Bogfjellmo and Marthinsen, Lemma 3.5.4)",
         ),
-        "symmetric_composition": "a symmetric composition is a composition",
-        "splitting": "a composition of an adjoint pair is a splitting (McLachlan 1995)",
+        "symmetric_composition": "every symmetric composition is a composition",
+        "splitting": "composition with the adjoint is equivalent to splitting (McLachlan 1995)",
     }
     bounds_others = True
     unknowns = "composition"
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
         return tuple(words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return 1/n! for a word of n letters 1, else 0."""
+        """Return the value of the exact flow: 1/n! for a word of n letters 1, else 0."""
         return Fraction(1, factorial(len(word))) if set(word) == {1} else Fraction(0)
 
     def scale(self, word: Word) -> int:
-        """Return the factorial of the length."""
+        """Return the factorial of the length of a word, by which its condition is multiplied."""
         return factorial(len(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value over pairs (alpha_i, beta_i)."""
+        """Return the left-hand side of the condition of a word as an index sum; the sums run over pairs
+        (alpha_i, beta_i)."""
         return composition_formula(word, _pair)
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
-        """Return the values of a step on words."""
+        """Return the values of one step on words."""
         if isinstance(method, Composition):
             steps = method.gamma
             return ProductOfExponentials(
@@ -95,7 +94,8 @@ class CompositionFamily(WordFamily):
         return ProductOfExponentials(ring, len(both), letter)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the form of compositions of pairs (alpha_i, beta_i)."""
+        """Return the coefficients (alpha_i, beta_i) of compositions with this number of pairs, as unknowns of
+        a search."""
         refuse_explicit(self.label(), explicit)
         names = tuple((x, (str(i),)) for x in ("alpha", "beta") for i in range(1, stages + 1))
         return StageForm(
@@ -104,21 +104,21 @@ class CompositionFamily(WordFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for every composition."""
+        """Return this family for every composition; None for other formats."""
         return cls() if isinstance(tableau.method, Composition | AdjointComposition) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return the family of symmetric compositions for a composition of symmetric methods."""
+        """Return the family of symmetric compositions for a composition of symmetric methods, else None."""
         return get("symmetric_composition") if isinstance(method, Composition) else None
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the family of symmetric compositions, because a search considers only palindromic step
-        sizes."""
+        """Return the label of the family of symmetric compositions, because a search considers only
+        palindromic step sizes."""
         return "symmetric_composition"
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return compositions with random steps; the number of pairs is half the number of conditions up to
-        ``order``."""
+        """Return compositions with random step sizes; the number of pairs is half the number of conditions up
+        to ``order``."""
         pairs = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         alpha, beta = (tuple(ring.random(generator) for _ in range(pairs)) for _ in range(2))
         return AdjointComposition(alpha, beta)
@@ -138,14 +138,15 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""The value of r letters in one stage i: a formula and a divisor."""
+"""A function that maps (r, i) to the value of r letters in stage i, as a formula and an integer by which it
+is divided."""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
-    """Return the index sum of n! times the value on a word of n letters; ``block`` is the contribution of one
-    stage.
+    """Return the index sum of n! times the value on a word of n letters.
 
-    ``kind`` is lower-case for indices of stages, upper-case for indices of exponentials.
+    ``block`` is the contribution of one stage. ``kind`` is a lower-case letter for indices of stages, an
+    upper-case letter for indices of exponentials.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))
@@ -171,7 +172,7 @@ def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> For
 
 
 def _pair(letters: Word, i: str) -> tuple[Formula, int]:
-    """Return r! times the value of r letters in Phi_{alpha h} Phi*_{beta h}, and r!."""
+    """Return two values: r! times the value of r letters in Phi_{alpha h} Phi*_{beta h}, and r!."""
     r, terms = len(letters), []
     for m in range(r, -1, -1):
         late, early = sum(letters[r - m :]), letters[: r - m]

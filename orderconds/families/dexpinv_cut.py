@@ -1,11 +1,13 @@
-"""Families that cut the series of dexpinv after the power r, their option ``cutoff``; None: no cut.
+"""Families in which the series of dexpinv is truncated after the power r, their option ``cutoff``.
 
-Without a cut, RKMK and VRKMK are the Runge-Kutta method and its symplectic partitioned method in coordinates
-of the first kind, and have the orders of these methods (HLW IV.8, Theorem 8.4; Bogfjellmo and Marthinsen,
-Section 3.4.1). The error of the cut is of order h^(r+3). For even r >= 2, B_(r+1) = 0, so the cuts after r
-and after R = r + 1 are equal. For other r let R = r. The order is min(p, R + 2), where p is the order without
-the cut (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). A cut changes only the values of trees
-with long words.
+Without truncation, RKMK is the Runge-Kutta method, and VRKMK its symplectic partitioned extension, in
+coordinates of the first kind. The orders are therefore those of these classical methods (HLW IV.8, Theorem
+8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
+
+The truncation error is of order h^(r+3). For even r >= 2, B_(r+1) = 0, so truncation after r and truncation
+after R = r + 1 give the same method. For all other r let R = r. The order is min(p, R + 2), where p is the
+order without truncation (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). The truncation
+changes only the values of trees with long words.
 """
 
 from __future__ import annotations
@@ -24,13 +26,14 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The cut-offs for which a complete file claims orders, as long as the order rises with the cut-off."""
+"""The values of ``cutoff`` for which a complete file claims orders. A file claims a larger value only if the
+order is then higher."""
 
 
 class DexpinvCut(Family):
-    """A family with the option ``cutoff``.
+    """A family with the option ``cutoff``, the power of ad after which dexpinv is truncated.
 
-    Raises :class:`~orderconds.errors.InputError` for a negative cutoff.
+    Raises :class:`~orderconds.errors.InputError` for a negative ``cutoff``.
     """
 
     takes_cutoff = True
@@ -42,26 +45,28 @@ class DexpinvCut(Family):
 
     @abstractmethod
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word on whose value the value of a tree or forest depends."""
+        """Return the length of the longest word that contributes to the value of a tree or forest."""
 
     def label(self) -> str:
-        """Return ``rkmk(r)``, or ``rkmk`` when dexpinv is not cut."""
+        """Return ``rkmk(r)``, or ``rkmk`` if dexpinv is not truncated."""
         return self.name if self.cutoff is None else f"{self.name}({self.cutoff})"
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of this order for the cut-off."""
+        """Return the claim of this order for this value of ``cutoff``."""
         return OrderClaim(self.name, self.cutoff, order)
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return the variants with few brackets."""
+        """Return the variants with the values of ``cutoff`` in :data:`CLAIMED`."""
         return tuple(type(self)(cutoff) for cutoff in CLAIMED)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return evaluations, exponentials and the brackets of dexpinv applied stage by stage."""
+        """Return the numbers of field evaluations, exponentials and brackets in one step. The number of
+        brackets assumes that dexpinv is evaluated separately in each stage."""
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return min(p, R + 2), where p is the order of the method without brackets."""
+        """Return min(p, R + 2), where p is the order of the method on abelian groups. R is ``cutoff``, or
+        ``cutoff`` + 1 if it is even and at least 2."""
         without = orders.get(self.abelian, 0) if self.abelian is not None else 0
         return max(super().implied_order(orders), self._truncated(without))
 
@@ -72,15 +77,15 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return the order without the cut, and the length of the longest words that the cut does not
-        change."""
+        """Return the order without truncation, and the length of the longest words whose values the
+        truncation does not change."""
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
         return UnseenCut(orders.get(self.abelian, 0), longest_unseen(self.cutoff), self.longest_word)
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the length of the longest word whose value the cut does not change.
+    """Return the length of the longest words whose values the truncation does not change.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

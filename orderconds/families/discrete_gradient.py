@@ -1,8 +1,9 @@
 """Discrete gradient methods on groups: the tableau is a quadrature rule for the mean differential of H.
 
 The methods preserve the energy exactly (H. Marthinsen, *On symplectic integration in Lie groups and
-manifolds*, thesis, NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order two
-if also sum_i b_i c_i = 1/2. It has no higher order, because the bivector is evaluated at the midpoint.
+manifolds*, PhD thesis, NTNU Trondheim, 2014, Section 2.6). A step has order one if sum_i b_i = 1, and order
+two if also sum_i b_i c_i = 1/2. The order is never higher than two, because the bivector is evaluated at the
+midpoint.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ class DiscreteGradientFamily(Family):
     """
 
     name = "discrete_gradient"
-    description = "Discrete gradient methods, which keep the energy: a quadrature rule, of order two at most."
+    description = "Discrete gradient methods of order at most two, which preserve the energy exactly."
     formats = ("rk",)
     order_bound = 2
     trees = "rooted"
@@ -38,15 +39,15 @@ class DiscreteGradientFamily(Family):
     keeps_energy = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the condition on the quadrature rule.
+        """Return the condition of this order on the quadrature rule.
 
-        Raises :class:`~orderconds.errors.InputError` beyond order two.
+        Raises :class:`~orderconds.errors.InputError` for orders above two.
         """
         if order > self.order_bound:
             raise InputError(
-                f"conditions of order {order}",
+                f"there are no conditions of order {order}",
                 where=f"family {self.name}",
-                expected="order 1 or 2: no discrete gradient method has a higher one",
+                expected="order 1 or 2, because no discrete gradient method has a higher order",
             )
         return tree_conditions(tuple(rooted_trees(order)), self.name)
 

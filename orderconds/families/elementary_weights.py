@@ -1,6 +1,7 @@
-"""Elementary weights of rooted trees as index sums, and the conditions on them.
+"""Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``.
 
-In a tree with directed edges or coloured vertices, an edge has one of two kinds, for a_ij and ahat_ij.
+If a tree has directed edges or coloured vertices, each edge has one of two kinds: its coefficient is a_ij or
+ahat_ij.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ MATRICES = ("a", "ahat")
 WEIGHTS = ("b", "bhat")
 
 kept_branches = lru_cache(maxsize=1 << 16)(branches)
-"""The branches of a tree, cached."""
+"""A tree with a cached list of its branches."""
 
 
 def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list[Element]]:
@@ -38,7 +39,8 @@ def conjugate(A: Sequence[Sequence[Element]], b: Sequence[Element]) -> list[list
 
 
 def weight(tree: DirectedTree, weights: str = "b") -> Formula:
-    r"""Return sum_i b_i tau_tree(i) as an index sum; ``weights`` names the weights at the root.
+    r"""Return sum_i b_i tau_tree(i) as an index sum. ``weights`` is the name of the weights, ``b`` or
+    ``bhat``.
 
     >>> from orderconds.formula import named
     >>> named(weight(b"\0\2\3")).text()
@@ -50,8 +52,10 @@ def weight(tree: DirectedTree, weights: str = "b") -> Formula:
 def elementary_weight(
     tree: TreeT, below: Callable[[TreeT], Iterable[tuple[int, TreeT]]], weights: str
 ) -> Formula:
-    r"""Return the elementary weight of a tree in any encoding with ``len``; ``below`` returns edge kinds and
-    subtrees.
+    r"""Return the elementary weight of a tree.
+
+    The tree may have any encoding whose ``len`` is the number of vertices; ``below`` returns the pairs (kind
+    of edge, subtree) at its root.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children
@@ -69,8 +73,8 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree; with ``switching``, dependent conditions have
-    relations.
+    """Return the condition ``weight = 1/gamma`` of each tree. If ``switching`` is given, dependent conditions
+    contain their relations.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -103,10 +107,10 @@ def _summed(
     tree: TreeT,
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
-    """Return the sum over ``indices`` of ``factors`` times the stage value of a tree at the last index.
+    """Return an index sum. The summand is the product of ``factors`` and the stage value of ``tree`` at the
+    last of ``indices``.
 
-    The
-    formula is built directly: equal subtrees have equal factors.
+    The formula needs no simplification, because equal subtrees are collected in powers.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)
@@ -121,7 +125,7 @@ def _multiply(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> None:
     counted: dict[tuple[int, TreeT], int] = {}
-    # Factors of leaves come first, as usual in print: b_i c_i a_ij c_j.
+    # The factors of leaves come first, as is usual in the literature: b_i c_i a_ij c_j.
     for branch in sorted(below(tree), key=lambda x: len(x[1]) > 1):
         counted[branch] = counted.get(branch, 0) + 1
     for (kind, child), times in counted.items():

@@ -1,7 +1,7 @@
-"""Exponents of methods for Y' = A(t) Y as series of words, from A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k.
+"""Exponents of methods for Y' = A(t) Y, expanded in words.
 
-Letter k denotes X_k, the coefficient of t^(k-1) in A, and has weight k. The letters of a word are in the
-order of action.
+The values of A at the nodes are A_i = h A(c_i h) = sum_k c_i^(k-1) h^k X_k. Letter k denotes X_k, the
+coefficient of t^(k-1) in A, and has weight k. The letters of a word are in the order of action.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from orderconds.words.shuffle import Word
 
 
 def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Element]:
-    """Return the function (i, n) -> c_i^n, each power computed once.
+    """Return the function (i, n) -> c_i^n, which computes each power once.
 
     >>> from orderconds.ring import QQ
     >>> node_powers(QQ, [QQ.rational(1, 2)])(0, 3)
@@ -32,11 +32,11 @@ def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Elemen
 
 
 def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
-    """Return the values of each exponent of a method on non-empty words; the exponent that acts first comes
-    first.
+    """Return the values of each exponent of a method on non-empty words, in the order in which the exponents
+    act.
 
-    Brackets are not expanded in products of nodes. The value of a bracket on a word is a sum over all
-    divisions of the word into two parts, and each value is computed once.
+    Brackets are not expanded in products of the A_i. Instead, the value of a bracket on a word is a sum over
+    all divisions of the word into two parts. Each value is computed once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse
@@ -50,7 +50,7 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     extent = extents(elements)
 
     def sum_over_cuts(first: Term, then: Term, word: Word) -> Element:
-        """Return the value of the product then * first, in which ``first`` acts first."""
+        """Return the value on a word of the product ``then * first``, in which ``first`` acts first."""
         result = ring.zero
         (least, most), (low, high) = extent(first), extent(then)
         for k in range(max(least, len(word) - high), min(most, len(word) - low) + 1):

@@ -1,10 +1,11 @@
-"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), with F_1 = sum_i b_i A_i, which acts last.
+"""Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i acts last.
 
 Conditions on single letters are the conditions of a quadrature rule for F_1. Conditions on longer Lyndon
-words compare F_2 = sum_{ij} phi_ij A_j A_i + ..., the logarithm of the other factors, with the logarithm of
-exp(-F_1) Y (Fer 1958; Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 4.3;
-Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). F_2 contains only brackets. Up to order six it is
-equal to Fer's F_2, since F_3 begins with weight seven.
+words compare F_2 = sum_{ij} phi_ij A_j A_i + ... with the logarithm of exp(-F_1) Y; here F_2 is the logarithm
+of all factors except exp(F_1) (Fer 1958; Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000)
+215, Section 4.3; Blanes, Casas, Oteo and Ros, J. Phys. A 31 (1998) 259). F_2 contains only brackets. Up to
+order six it is equal to the F_2 of Fer's expansion, because the F_3 of that expansion begins with weight
+seven.
 """
 
 from __future__ import annotations
@@ -45,45 +46,49 @@ class FerFamily(MagnusFamily):
 
     name = "fer"
     description = (
-        "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), F_1 = sum_i b_i A_i acting last and F_2 made "
-        "of brackets."
+        "Fer methods for Y' = A(t) Y: exp(F_1) exp(F_2), where F_1 = sum_i b_i A_i and F_2 contains "
+        "only brackets."
     )
-    implies: ClassVar[Mapping[str, str]] = {"magnus": "a Fer step is a product of exponentials"}
+    implies: ClassVar[Mapping[str, str]] = {"magnus": "the step of a Fer method is a product of exponentials"}
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order is that of ``magnus``."""
+        """Return None: a file need not claim an order in this family, because it equals the order in
+        ``magnus``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method that is not a product of this form."""
+        """Raise :class:`~orderconds.errors.InputError` if the method is not a product exp(F_1) exp(F_2) of
+        this form."""
         super().require(method, ring)
         *others, last = expect(method, Magnus).extents()
         if last[1] > 1 or any(least == 1 for least, _ in others):
             raise InputError(
-                "commutators in the last exponent, or nodes alone in another",
+                "the last exponent contains commutators, or another exponent has terms without commutators",
                 where=f"family {self.name}",
-                expected="brackets in all exponents but the last, none in the last, F_1",
-                hint="ask for the family 'magnus'",
+                expected="no commutators in the last exponent F_1, only commutators in all earlier exponents",
+                hint="use the family 'magnus'",
             )
 
     def exact(self, word: Word) -> Fraction:
-        """Return 1/k for the letter k, else the coefficient of log(exp(-F_1) Y)."""
+        """Return the value of the exact flow: 1/k for the letter k, else the coefficient of the word in
+        log(exp(-F_1) Y)."""
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the sum over nodes of b_i c_i^(k-1) for a letter k, else of phi_{ij...} c_i^(k_1-1) ...."""
+        """Return the sum over nodes of b_i c_i^(k-1) for a letter k, and of phi_{ij...} c_i^(k_1-1) ... for
+        longer words."""
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of F_1 on letters and of the logarithm of the rest on longer words."""
+        """Return the values of F_1 on letters, and of the logarithm of the other factors on longer words."""
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)
         return lambda word: last(word) if len(word) == 1 else rest(word)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return methods at random nodes: random brackets, nested to the left, act before a random
-        quadrature."""
+        """Return random methods at random nodes: exponentials of brackets, nested to the left, then a
+        quadrature exponential."""
         c = tuple(ring.random(generator) for _ in range(order))
         terms = []
         for depth in range(2, order + 1):

@@ -1,10 +1,10 @@
-"""Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h).
+"""Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the values A_i = h A(c_i h).
 
 Omega = sum_i omega_i A_i + sum_{ij} omega_ij A_j A_i + ...; in printed conditions omega_{ij...} is the
-coefficient of the product in which A_i acts first. With A(t) = X_1 + t X_2 + ..., the expansion of Omega in
-the X_k must agree with the Magnus expansion on every Lyndon word over letters k of weight k (Iserles,
-Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of exponentials, Omega
-is the logarithm.
+coefficient of the product in which A_i acts first. Let A(t) = X_1 + t X_2 + ... and let letter k, of weight
+k, denote X_k. The expansion of Omega in the X_k must agree with the Magnus expansion on every Lyndon word
+(Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215, Section 5). For a product of
+exponentials, Omega is the logarithm of the product.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 @register
 class MagnusFamily(WordFamily):
-    """Methods exp(Omega), or products of exponentials of Lie elements.
+    """Methods exp(Omega), or products of exponentials of several Lie elements.
 
     >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -51,45 +51,49 @@ class MagnusFamily(WordFamily):
     )
     formats = ("magnus",)
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
-        ("cf_magnus", "fer"), "the order of a product of exponentials does not depend on how it is written"
+        ("cf_magnus", "fer"),
+        "a product of exponentials has the same order as the exponential of its logarithm",
     )
     transform: ClassVar[str] = "exp"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a method that uses another map."""
+        """Raise :class:`~orderconds.errors.InputError` if the method uses another map from the algebra to the
+        group."""
         transform = expect(method, Magnus).transform
         if transform != self.transform:
             raise InputError(
                 f'map = "{transform}"',
                 where=f"family {self.name}",
                 expected=f'map = "{self.transform}"',
-                hint=f"ask for the family {self.for_method(method).name!r}",
+                hint=f"use the family {self.for_method(method).name!r}",
             )
 
     def for_method(self, method: Method) -> Family:
-        """Return ``magnus`` for methods with exponentials, ``cayley`` for methods with Cayley transforms."""
+        """Return ``magnus`` for a method with exponentials, ``cayley`` for a method with Cayley
+        transforms."""
         return get("magnus" if expect(method, Magnus).transform == "exp" else "cayley")
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for methods that use its map from the algebra to the group."""
+        """Return this family for a method that uses the same map from the algebra to the group, else None."""
         method = tableau.method
         return cls() if isinstance(method, Magnus) and method.transform == cls.transform else None
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return nodes, exponentials and commutators."""
+        """Return the numbers of nodes, exponentials and commutators in one step."""
         return magnus_work(tableau)
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
         return tuple(expansions.words_of_weight(order))
 
     def exact(self, word: Word) -> Fraction:
-        """Return the coefficient in the Magnus expansion."""
+        """Return the coefficient of a word in the Magnus expansion."""
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the sum of omega_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over nodes."""
+        """Return the left-hand side of the condition of a word: the sum of omega_{ij...} c_i^(k_1 - 1)
+        c_j^(k_2 - 1) ... over nodes."""
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -98,11 +102,11 @@ class MagnusFamily(WordFamily):
         return linear_in_lyndon_words(word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of Omega on words."""
+        """Return the values of Omega, the logarithm of one step, on words."""
         return product_logarithm(ring, exponent_values(ring, expect(method, Magnus)), self.transform)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return products of ``order`` random exponentials over ``order`` random nodes."""
+        """Return products of ``order`` exponentials of random combinations of A at ``order`` random nodes."""
         return random_product(ring, generator, order, self.transform)
 
 
@@ -119,7 +123,9 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return the linear part of a word's polynomial in Lyndon words, which is the value of a Lie element.
+    """Return the linear part of a word's polynomial in Lyndon words.
+
+    For a Lie element, products of values vanish, so this linear part is its value on the word.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}
@@ -128,7 +134,8 @@ def linear_in_lyndon_words(word: Word) -> Polynomial:
 
 
 def random_product(ring: Residues, generator: np.random.Generator, size: int, transform: str) -> Magnus:
-    """Return the product of ``size`` exponentials of random combinations of A at as many random nodes.
+    """Return the product of ``size`` exponentials (or other transforms) of random combinations of A at
+    ``size`` random nodes.
 
     >>> import numpy as np
     >>> from orderconds.ring import Residues

@@ -1,7 +1,7 @@
-"""A memo of the series of one method.
+"""A cache for the series of a method.
 
-A check evaluates orders 1, 2, ... of one method. Values on larger trees are computed from values on smaller
-trees.
+A check evaluates orders 1, 2, ... of one method. The cached series computes the values on larger trees from
+the values on smaller trees.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ Result = TypeVar("Result")
 
 
 class Memo(Generic[Result]):
-    """The results of ``compute(method, ring)`` for the last two methods, such as one method over an exact
-    ring and over balls.
+    """A cache of ``compute(method, ring)`` for the last two pairs of method and ring.
 
-    Methods are compared by identity.
+    For example, one method may be evaluated over an exact ring and over balls. Methods are compared by
+    identity.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Composition
@@ -34,7 +34,7 @@ class Memo(Generic[Result]):
         self._latest: list[tuple[Method, Ring, Result]] = []
 
     def __call__(self, method: Method, ring: Ring) -> Result:
-        """Return the result for this method."""
+        """Return ``compute(method, ring)``, from the cache if possible."""
         for known, of_ring, result in self._latest:
             if known is method and of_ring is ring:
                 return result

@@ -1,8 +1,8 @@
-"""Families on ordered forests: conditions are the values on Lyndon words of ordered trees.
+"""Families whose conditions are indexed by Lyndon words of ordered trees, that is, by ordered forests.
 
-The step of a Lie group method and the exact flow are group-like, so their values on Lyndon words generate all
-others by shuffles (see ``words.lyndon``). Letters are ordered by decreasing size; letters of equal size are
-in the order of enumeration.
+The step of a Lie group method and the exact flow are group-like: their values on words satisfy the shuffle
+relations. The values on Lyndon words therefore determine all other values (see ``words.lyndon``). The letters
+of a word are ordered trees, sorted by decreasing size; trees of equal size are in the order of enumeration.
 
 Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
 branches at each vertex. For example, sum_i b_i c_i^2 = 1/3 is printed and not 1/2 sum_i b_i c_i^2 = 1/6.
@@ -29,7 +29,7 @@ from orderconds.words.lyndon import lyndon_words
 
 
 class OrderedForestFamily(Family):
-    """A family whose step has a Lie-Butcher series."""
+    """A family in which each step has a Lie-Butcher series."""
 
     trees = "forests"
     search_limit = 7
@@ -40,19 +40,21 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the values of one step of ``method`` on ordered forests, elements of ``ring``."""
+        """Return the Lie-Butcher series of one step: the values of ``method`` on ordered forests, elements of
+        ``ring``."""
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of ``scale(forest)`` times the value on a forest."""
+        """Return the left-hand side of the condition of a forest as an index sum: ``scale(forest)`` times the
+        value of the method."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order, one for each Lyndon word over ordered trees."""
         return self._of(lyndon_forests(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one for each ordered forest, dependent ones with their
-        relations."""
+        """Return the conditions of this order, one for each ordered forest. A dependent condition contains
+        its relation to independent conditions."""
         return with_relations(
             self._of(tuple(ordered_forests(order))), lambda forest: in_lyndon_words(forest, scale), text
         )
@@ -64,7 +66,8 @@ class OrderedForestFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the step's values on the words of ``conditions``, each times its scale."""
+        """Return the values of one step on the forests of ``conditions``, each multiplied by :func:`scale` of
+        its forest."""
         series = self._memo(method, ring)
         return tuple(series(condition.key) * scale(condition.key) for condition in conditions)
 
@@ -84,8 +87,8 @@ class OrderedForestFamily(Family):
 
 @lru_cache(maxsize=1 << 16)
 def scale(forest: Forest) -> int:
-    r"""Return the factorial of the number of trees, times the factorials of the numbers of branches at
-    vertices.
+    r"""Return the factorial of the number of trees, times the factorial of the number of branches at each
+    vertex.
 
     >>> scale(b"\0\1\1\0")
     4
@@ -106,8 +109,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word of branches in a forest; the forest itself counts as such a
-    word.
+    r"""Return the length of the longest word of trees in a forest: the forest itself, or the branches at one
+    vertex.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

@@ -1,7 +1,7 @@
 """Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
 III.2.2).
 
-A single tableau is read as a pair of two equal tableaux.
+A single tableau is used for both parts of the system.
 """
 
 from __future__ import annotations
@@ -46,36 +46,36 @@ class PartitionedFamily(Family):
 
     name = "prk"
     description = (
-        "Partitioned Runge-Kutta methods: one condition a rooted tree with vertices of two colours (HLW "
-        "III.2.2)."
+        "Partitioned Runge-Kutta methods: one condition for each rooted tree with "
+        "vertices of two colours (HLW III.2.2)."
     )
     formats = ("prk", "rk")
     trees = "bicoloured"
     illustrates: ClassVar[tuple[str, ...]] = ("bicoloured",)
     search_limit = 7
     over_rationals = True
-    implies: ClassVar[Mapping[str, str]] = {"rk": "a system with one part"}
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a system of one part is a partitioned system"}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order; all are independent (HLW III.2, Theorem 2.5)."""
+        """Return the conditions of this order. All of them are independent (HLW III.2, Theorem 2.5)."""
         trees = tuple(bicoloured.bicoloured_rooted_trees(order))
         return weight_conditions(self.name, trees, bicoloured.text, rooted_weight)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[BicolouredTree, Callable[[], OrderCondition]]]:
-        """Yield the trees of this order."""
+        """Yield the trees of this order, each with a function that returns its condition."""
         for tree in bicoloured.bicoloured_rooted_trees(order):
             yield tree, partial(weight_condition, self.name, tree, bicoloured.text, rooted_weight)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return elementary weights of a pair of tableaux."""
+        """Return the elementary weights of a pair of tableaux, in the order of ``conditions``."""
         return rooted_weights(as_pair(method), ring, conditions)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for a pair that is not symplectic; other families have the conditions of
-        symplectic pairs."""
+        """Return this family for a pair of tableaux that is not symplectic, else None. For symplectic pairs,
+        other families have the same order and fewer conditions."""
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None
@@ -86,8 +86,8 @@ class PartitionedFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family of free trees, with the method, for a symplectic pair with b = bhat, all non-zero
-        (HLW VI.7, Theorem 7.4)."""
+        """Return the family of free trees for a symplectic pair with b = bhat, all non-zero, else None (HLW
+        VI.7, Theorem 7.4)."""
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))
@@ -98,7 +98,7 @@ class PartitionedFamily(Family):
 
 
 def as_pair(method: Method) -> PartitionedRungeKutta:
-    """Return a pair of tableaux; a single tableau is repeated.
+    """Return a pair of tableaux; a single tableau becomes a pair of two equal tableaux.
 
     >>> as_pair(RungeKutta(((0,),), (1,))).b_hat
     (1,)
@@ -109,7 +109,8 @@ def as_pair(method: Method) -> PartitionedRungeKutta:
 
 
 def rooted_weight(tree: BicolouredTree) -> Formula:
-    r"""Return a coloured tree's elementary weight as an index sum, with b or bhat for the colour of the root.
+    r"""Return the elementary weight of a coloured tree as an index sum. The colour of the root selects b or
+    bhat.
 
     >>> from orderconds.formula import named
     >>> named(rooted_weight(b"\1\2")).text()

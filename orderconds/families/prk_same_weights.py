@@ -1,4 +1,5 @@
-"""Partitioned Runge-Kutta methods with b = bhat: the colour of the root does not matter (HLW III.2.2)."""
+"""Partitioned Runge-Kutta methods with b = bhat: conditions do not depend on the colour of the root (HLW
+III.2.2)."""
 
 from __future__ import annotations
 
@@ -29,7 +30,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     name = "prk_same_weights"
     description = (
-        "Partitioned Runge-Kutta methods with b = bhat: the colour of the root does not matter (HLW III.2.2)."
+        "Partitioned Runge-Kutta methods with b = bhat: one condition for both root colours (HLW III.2.2)."
     )
     trees = "directed-rooted"
     illustrates = ("directed-rooted",)
@@ -40,13 +41,14 @@ class SameWeightsFamily(PartitionedFamily):
         return weight_conditions(self.name, directed.directed_rooted_trees(order), directed.text)
 
     def decisive_in_turn(self, order: int) -> Iterator[tuple[DirectedTree, Callable[[], OrderCondition]]]:
-        """Yield the trees of this order."""
+        """Yield the trees of this order, each with a function that returns its condition."""
         for tree in directed.directed_rooted_trees_in_turn(order):
             yield tree, partial(weight_condition, self.name, tree, directed.text)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order is that in the family of all pairs."""
+        """Return None: a file need not claim an order in this family, because it equals the order in
+        ``prk``."""
         return None
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -64,7 +66,7 @@ class SameWeightsFamily(PartitionedFamily):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return elementary weights of a pair of tableaux."""
+        """Return the elementary weights of a pair of tableaux, in the order of ``conditions``."""
         pair = as_pair(method)
         weights = ElementaryWeights[DirectedTree](ring, (pair.A, pair.A_hat), pair.b, kept_branches)
         return tuple(weights(condition.key) for condition in conditions)

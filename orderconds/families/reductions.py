@@ -1,15 +1,17 @@
-"""Conditions that need not be evaluated, because theorems derive them from earlier results of a check.
+"""Reductions: theorems by which a check needs to evaluate fewer conditions of one order.
 
 ``check`` evaluates orders 1, 2, .... When it evaluates order n, all conditions of lower order hold. Then
 
 - *symmetry*: a symmetric method of odd order n - 1 has order n (HLW II.3, Theorem 3.2);
-- *substitution*: the conditions of another family may imply all of order n and cost less. For a symplectic
-  pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all rooted
-  trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
-- *a cut of dexpinv* changes only values of trees with long words (:mod:`orderconds.families.dexpinv_cut`).
+- *substitution*: the conditions of another family may imply all conditions of order n and cost less. For a
+  symplectic pair with b = bhat, the conditions of free trees with directed edges imply the conditions of all
+  rooted trees of two colours (Abia and Sanz-Serna 1993; HLW VI.7, Theorem 7.4);
+- *truncation of dexpinv* changes only values of trees with long words
+  (:mod:`orderconds.families.dexpinv_cut`).
 
-The assumptions of a reduction are verified exactly for each tableau. For tableaux over balls only the last
-reduction is used, and only for proved solutions. It never improves a certificate.
+The assumptions of a reduction are verified exactly for each tableau. If the coefficients are balls, only the
+last reduction is used, and only if the balls are proved to contain a solution. A reduction never improves a
+certificate.
 """
 
 from __future__ import annotations
@@ -27,19 +29,19 @@ if TYPE_CHECKING:
 
 
 class Substitute(Struct, frozen=True):
-    """Another family whose conditions imply the required ones for a method, and the method in the format of
-    that family."""
+    """A family whose conditions imply the conditions that a check requires, and the method in a format of
+    this family."""
 
     family: Family
     method: Method
 
 
 class UnseenCut(Struct, frozen=True):
-    """The conditions on which the cut of dexpinv has no effect.
+    """The conditions that the truncation of dexpinv does not change.
 
-    Without the cut the method has order ``order``. The cut does not change values on words up to the length
-    ``longest``. ``length`` returns the length of the longest word on whose value the value of a tree or
-    forest depends.
+    ``order`` is the order of the method without truncation. The truncation does not change the values on
+    words of length at most ``longest``. The function ``length`` returns the length of the longest word that
+    contributes to the value of a tree or forest.
     """
 
     order: int
@@ -50,7 +52,7 @@ class UnseenCut(Struct, frozen=True):
 class Reductions(Struct, frozen=True):
     """The reductions that apply to one method in one family.
 
-    ``even`` is true if the method is symmetric; its order is then even.
+    ``even`` is true if the method is symmetric. The order of a symmetric method is even.
 
     >>> from orderconds.ring import QQ
     >>> [Reductions(QQ, even=True).order_follows(n) for n in (3, 4)]
@@ -67,8 +69,8 @@ class Reductions(Struct, frozen=True):
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Whether all conditions of order n hold because those of the substitute do; this method evaluates
-        the latter."""
+        """Whether the substitute satisfies its conditions of order n, which are evaluated here. They imply
+        all conditions of order n."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method
@@ -76,5 +78,6 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Whether the condition of order n of a tree or forest holds because the cut has no effect on it."""
+        """Whether the condition of order n with this key holds because the truncation of dexpinv does not
+        change it."""
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

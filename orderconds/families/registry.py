@@ -37,10 +37,12 @@ BUILT_IN = {
     "cayley": "orderconds.families.cayley",
     "taylor": "orderconds.families.taylor",
 }
-"""The module of each built-in family, in the order of ``orderconds list families``."""
+"""The modules of the built-in families, by the name of the family, in the order of ``orderconds list
+families``."""
 
 ENTRY_POINT_GROUP = "orderconds.families"
-"""The entry-point group in which other packages offer families: name = "module:Class"."""
+"""The entry-point group in which other packages register families. An entry has the form name =
+"module:Class"."""
 
 _NAME = re.compile(r"[a-z][a-z0-9_]*")
 _LABEL = re.compile(r"\s*([a-z][a-z0-9_-]*)\s*(?:\(\s*(\d{1,3})\s*\))?\s*")
@@ -50,11 +52,11 @@ FamilyClass = TypeVar("FamilyClass", bound=type[Family])
 
 
 def register(family: FamilyClass) -> FamilyClass:
-    """Make a family known to every command and to claims in tableau files; return the class.
+    """Make a family available to every command and to claims in tableau files; return the class.
 
-    It may be used as a decorator. An installed package uses the entry-point group ``orderconds.families``
-    instead. Raises :class:`~orderconds.errors.InputError` for a class without name, description or formats,
-    and for a name that another family has.
+    The function may be used as a decorator. An installed package uses the entry-point group
+    ``orderconds.families`` instead. Raises :class:`~orderconds.errors.InputError` for a class without name,
+    description or formats, and if another family already has the same name.
 
     >>> from orderconds import check, derive
     >>> from orderconds.families.rk import RungeKuttaFamily
@@ -88,7 +90,9 @@ def register(family: FamilyClass) -> FamilyClass:
     same = known is None or (known.__module__, known.__qualname__) == (family.__module__, family.__qualname__)
     if home != family.__module__ or not same:
         raise InputError(
-            f"the name {family.name!r} is taken", where=f"family {family.__name__}", expected="another name"
+            f"another family has the name {family.name!r}",
+            where=f"family {family.__name__}",
+            expected="a new name",
         )
     _registered[family.name] = family
     return family
@@ -99,15 +103,15 @@ def unregister(name: str) -> None:
 
     >>> unregister("rk")
     Traceback (most recent call last):
-    orderconds.errors.InputError: family rk is built in; expected a family that was registered
+    orderconds.errors.InputError: family rk is built in; expected the name of a family that register() added
     """
     if name in BUILT_IN:
-        raise InputError(f"family {name} is built in", expected="a family that was registered")
+        raise InputError(f"family {name} is built in", expected="the name of a family that register() added")
     _registered.pop(name, None)
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of the built-in families, then of those that were registered.
+    """Return the names of the built-in families, followed by the names of families added by :func:`register`.
 
     >>> names()[:3]
     ('rk', 'prk', 'prk_same_weights')
@@ -116,7 +120,7 @@ def names() -> tuple[str, ...]:
 
 
 def installed_names() -> tuple[str, ...]:
-    """Return :func:`names`, then the names of families that installed packages offer.
+    """Return :func:`names`, followed by the names of families in installed packages.
 
     >>> set(names()) <= set(installed_names())
     True
@@ -129,7 +133,7 @@ def installed_names() -> tuple[str, ...]:
 
 
 def position(name: str) -> int:
-    """Return the place of a family among :func:`names`.
+    """Return the index of a family in :func:`names`.
 
     >>> position("rk")
     0
@@ -138,9 +142,10 @@ def position(name: str) -> int:
 
 
 def family_class(name: str) -> type[Family]:
-    """Return the class of a family by its name; entry points are scanned only for unknown names.
+    """Return the class of the family with this name. Entry points are read only if the name is not
+    registered.
 
-    Raises :class:`~orderconds.errors.UnknownName` for any other name.
+    Raises :class:`~orderconds.errors.UnknownName` if no family has this name.
 
     >>> family_class("vcg").needs_nonzero_weights
     True
@@ -162,8 +167,8 @@ def family_class(name: str) -> type[Family]:
 
 
 def _installed(name: str) -> type[Family] | None:
-    """Register the family ``name`` of an installed package and return its class; None if there is no such
-    family."""
+    """Register the family ``name`` of an installed package and return its class, or None if no package has
+    this family."""
     from importlib import metadata
 
     for entry in metadata.entry_points(group=ENTRY_POINT_GROUP, name=name):
@@ -174,17 +179,20 @@ def _installed(name: str) -> type[Family] | None:
             raise InputError(f"cannot load the family: {problem}", where=where) from problem
         if not (isinstance(loaded, type) and issubclass(loaded, Family) and loaded.name == name):
             raise InputError(
-                f"the entry point is {loaded!r}", where=where, expected=f"a Family with the name {name!r}"
+                f"the entry point is {loaded!r}",
+                where=where,
+                expected=f"a subclass of Family with the name {name!r}",
             )
         return register(loaded)
     return None
 
 
 def get(name: str, **options: int | None) -> Family:
-    """Return a family by name, ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``; ``-`` reads as ``_``.
+    """Return a family by name and options: ``get("rkmk", cutoff=1)`` or ``get("rkmk(1)")``. In names ``-`` is
+    equivalent to ``_``.
 
-    Raises :class:`~orderconds.errors.UnknownName` for a name that is not registered and
-    :class:`~orderconds.errors.InputError` for an option the family does not have.
+    Raises :class:`~orderconds.errors.UnknownName` if the name is not registered, and
+    :class:`~orderconds.errors.InputError` if the family has no such option.
 
     >>> get("rkmk(1)").label(), get("vcg").needs_nonzero_weights
     ('rkmk(1)', True)
@@ -194,7 +202,7 @@ def get(name: str, **options: int | None) -> Family:
     family = family_class(base.replace("-", "_"))
     accepted = tuple(inspect.signature(family).parameters)
     if argument is not None and not accepted:
-        raise InputError(f"family {base} takes no argument, found {name!r}", expected=base)
+        raise InputError(f"family {base} has no options, found {name!r}", expected=base)
     if argument is not None:
         options = {accepted[0]: int(argument), **options}
     for option in options:

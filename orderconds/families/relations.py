@@ -1,9 +1,10 @@
-"""Relations of dependent conditions: polynomials in the left-hand sides of independent ones.
+"""Relations of dependent conditions: each left-hand side is a polynomial in left-hand sides of independent
+conditions.
 
-Two laws make conditions dependent. For a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u), which
-moves the root of a tree across an edge (HLW VI.7.1). The values of a group-like series on words multiply by
-shuffles, a(u) a(v) = a(u sh v). Values on Lyndon words therefore determine all others (Reutenauer, Free Lie
-Algebras, Thm 6.1).
+Two laws make conditions dependent. First, for a symplectic method, phi(u o v) = phi(u) phi(v) - phi(v o u);
+this equation relates two trees that differ in the position of the root (HLW VI.7.1). Second, the values of a
+group-like series on words satisfy the shuffle relations a(u) a(v) = a(u sh v), so the values on Lyndon words
+determine all other values (Reutenauer, Free Lie Algebras, Thm 6.1).
 """
 
 from __future__ import annotations
@@ -21,15 +22,16 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import shuffle
 
 Polynomial = dict[tuple[Any, ...], Fraction]
-"""A polynomial in left-hand sides: coefficients by monomial. A monomial is the sorted tuple of its factors'
-encodings."""
+"""A polynomial in left-hand sides: a map from monomials to coefficients. A monomial is the sorted tuple of
+the keys of its factors."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""For each edge at the root of a tree u o v: u, v and v o u."""
+"""A function that returns, for each edge at the root of a tree u o v, the trees u, v and v o u."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
-    r"""Return a polynomial as text, with ``<tree>`` for the left-hand side of a condition and products last.
+    r"""Return a polynomial as text. ``<tree>`` denotes the left-hand side of the condition of a tree;
+    products come last.
 
     >>> spell({(b"\0", b"\0"): Fraction(1, 2), (b"\0\1",): Fraction(-1)}, str)
     "-<b'\\x00\\x01'> + 1/2 <b'\\x00'> <b'\\x00'>"
@@ -45,7 +47,7 @@ def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
 
 
 def add(x: Polynomial, y: Polynomial, scale: Fraction | int = 1) -> Polynomial:
-    """Return x + scale y.
+    """Return the polynomial x + scale y.
 
     >>> add({(b"t",): Fraction(1)}, {(b"t",): Fraction(1)}, -1)
     {}
@@ -57,7 +59,7 @@ def add(x: Polynomial, y: Polynomial, scale: Fraction | int = 1) -> Polynomial:
 
 
 def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
-    """Return x y.
+    """Return the product x y of two polynomials.
 
     >>> multiply({(b"u",): Fraction(2)}, {(b"t",): Fraction(3)})
     {(b't', b'u'): Fraction(6, 1)}
@@ -71,7 +73,8 @@ def multiply(x: Polynomial, y: Polynomial) -> Polynomial:
 
 
 class RootSwitching:
-    """The weights of rooted trees of a symplectic method as polynomials in the weights of ``independent(n)``.
+    """The weights of rooted trees of a symplectic method, as polynomials in the weights of the trees in
+    ``independent(n)``.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING
     >>> from orderconds.trees.levels import parse, text
@@ -84,7 +87,7 @@ class RootSwitching:
         self._known: dict[bytes, Polynomial] = {}
 
     def __call__(self, tree: bytes) -> Polynomial:
-        """Return the polynomial that equals phi(tree)."""
+        """Return the polynomial whose value is phi(tree)."""
         if tree not in self._known:
             self._known[tree] = self._reduced(tree)
         return self._known[tree]
@@ -93,7 +96,7 @@ class RootSwitching:
         goals = frozenset(self._independent(len(tree)))
         waiting: list[tuple[bytes, int, Polynomial]] = [(tree, 1, {})]
         seen = {tree}
-        for root, sign, so_far in waiting:  # the list grows during the loop
+        for root, sign, so_far in waiting:  # the loop appends to this list
             if root in goals:
                 return add(so_far, {(root,): Fraction(1)}, sign)
             for u, v, moved in self._moves(root):
@@ -103,7 +106,7 @@ class RootSwitching:
                 if moved not in seen:
                     seen.add(moved)
                     waiting.append((moved, -sign, add(so_far, both, sign)))
-        raise ValueError("no rooting of the tree is among the independent ones, and none is superfluous")
+        raise ValueError("no rooting of the tree is independent or superfluous")
 
 
 def with_relations(
@@ -111,7 +114,7 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions; each dependent one has a relation.
+    """Return the conditions. Each dependent condition gets its relation to independent conditions.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -127,7 +130,8 @@ def with_relations(
 
 
 def letter_key(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of trees as letters: decreasing size, then the order of enumeration.
+    """Return the sort key of a tree as a letter. Larger trees come first; trees of equal size are in the
+    order of enumeration.
 
     >>> from orderconds.trees.levels import parse, text
     >>> [text(tree) for tree in sorted(map(parse, (".", "[..]", "[[.]]")), key=letter_key)]
@@ -141,7 +145,7 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle of the factors is a multiple of their concatenation, plus smaller words.
+    # The shuffle product of the factors is a multiple of their concatenation, plus smaller words.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}
@@ -160,8 +164,10 @@ def _shuffled(words: dict[tuple[Tree, ...], int], factor: tuple[Tree, ...]) -> d
 
 
 def in_lyndon_words(forest: Forest, scale: Callable[[Forest], int]) -> Polynomial:
-    r"""Return the scaled value of a group-like series on a word of trees as a polynomial in its scaled values
-    on Lyndon words.
+    r"""Return the value of a group-like series on a word of trees as a polynomial in its values on Lyndon
+    words.
+
+    ``scale`` returns the factor by which the value on a word is multiplied.
 
     >>> in_lyndon_words(b"\0\0", lambda forest: 1)
     {(b'\x00', b'\x00'): Fraction(1, 2)}

@@ -1,4 +1,4 @@
-"""Runge-Kutta methods: one condition, elementary weight = 1/gamma, for each rooted tree (HLW III.1, Thm
+"""Runge-Kutta methods. For each rooted tree, the condition is: elementary weight = 1/gamma (HLW III.1, Thm
 1.5)."""
 
 from __future__ import annotations
@@ -34,15 +34,16 @@ class RungeKuttaFamily(Family):
 
     name = "rk"
     description = (
-        "Runge-Kutta methods: one condition a rooted tree, its elementary weight = 1/gamma (HLW III.1, "
-        "Thm 1.5)."
+        "Runge-Kutta methods: for each rooted tree, elementary weight = 1/gamma (HLW III.1, Thm 1.5)."
     )
     formats = ("rk",)
     trees = "rooted"
     illustrates: ClassVar[tuple[str, ...]] = ("rooted",)
     search_limit = 12
     over_rationals = True
-    implies: ClassVar[Mapping[str, str]] = {"symplectic_rk": "a symplectic method is a Runge-Kutta method"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "symplectic_rk": "every symplectic_rk method is a Runge-Kutta method"
+    }
     low_order = "rk"
     bounds_others = True
     default_series = True
@@ -51,8 +52,8 @@ class RungeKuttaFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of this order, one for each rooted tree; they are independent (HLW III.1, Ex.
-        5)."""
+        """Return the conditions of this order, one for each rooted tree. The conditions are independent (HLW
+        III.1, Ex. 5)."""
         return _conditions(self.name, order)
 
     @cached_property
@@ -62,22 +63,23 @@ class RungeKuttaFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return elementary weights of a tableau (A, b)."""
+        """Return the elementary weights of a tableau (A, b), in the order of ``conditions``."""
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the tableau (A, b); for other formats, the tableau of the method on an abelian group."""
+        """Return the tableau (A, b). For other formats, return the tableau to which the method reduces on an
+        abelian group."""
         return tableau.read_as(self.formats) or tableau.abelian()
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for Butcher tableaux, commutator-free methods and compositions of midpoint
-        rules."""
+        """Return this family for Butcher tableaux, commutator-free methods and compositions of midpoint
+        rules, else None."""
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the tableau is symmetric."""
+        """Whether the tableau is proved to be symmetric."""
         return symmetric_tableau(method, ring)
 
 
@@ -96,7 +98,7 @@ def symmetric_tableau(method: Method, ring: Ring) -> bool:
 
 
 def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
-    """Return the weights b_i of a tableau that reads as (A, b), or None for other formats.
+    """Return the weights b_i of a tableau that can be interpreted as (A, b), or None for other formats.
 
     >>> from orderconds.tableau import find
     >>> [str(x) for x in weights_of(Tableau.load(find("rk4")))]
@@ -109,7 +111,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Whether a tableau reads as (A, b); with ``nonzero`` all weights are proved to be non-zero as well.
+    """Whether a tableau can be interpreted as (A, b). With ``nonzero``, all weights must also be proved to be
+    non-zero.
 
     >>> from orderconds.tableau import find
     >>> cg4 = Tableau.load(find("cg4"))
@@ -131,7 +134,8 @@ def _conditions(family: str, order: int) -> tuple[OrderCondition, ...]:
 
 
 def tree_conditions(trees: Sequence[Tree], family: str = "rk") -> tuple[OrderCondition, ...]:
-    r"""Return the conditions of some trees, weight = 1/gamma (HLW III.1, Theorem 1.5), for a family's label.
+    r"""Return the conditions ``weight = 1/gamma`` of the given trees (HLW III.1, Theorem 1.5). ``family`` is
+    the label of their family.
 
     >>> print(*tree_conditions([b"\0\1\1"]))
     sum_i b_i c_i^2 = 1/3

@@ -1,8 +1,9 @@
-"""Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``. Without r there is no cut.
+"""Runge-Kutta-Munthe-Kaas methods: ``rkmk(r)`` truncates dexpinv after the power r, ``rkmk`` does not
+truncate it.
 
-The left-hand sides are values of the series of the method on Lyndon words; no theorem on the order is
-assumed. The computed order is min(p, R + 2), where p is the Runge-Kutta order and R = r for r = 0 and odd r,
-R = r + 1 for even r >= 2, since B_{r+1} = 0.
+The left-hand sides of conditions are values of the series of the method on Lyndon words. They do not use any
+theorem about the order. The computed order is min(p, R + 2), where p is the Runge-Kutta order and R = r for r
+= 0 and odd r, R = r + 1 for even r >= 2, since B_{r+1} = 0.
 """
 
 from __future__ import annotations
@@ -47,7 +48,7 @@ if TYPE_CHECKING:
 
 
 RANKED = 8
-"""The highest order at which essential conditions are computed; the ranks take seconds."""
+"""The highest order at which essential conditions are computed. At higher orders the ranks take too long."""
 
 
 @register
@@ -63,43 +64,45 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
     name = "rkmk"
     description = (
-        "Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``rkmk(r)``; without r it "
-        "is not cut."
+        "Runge-Kutta-Munthe-Kaas methods; ``rkmk(r)`` truncates dexpinv after the power r, ``rkmk`` "
+        "does not truncate it."
     )
     formats = ("rk",)
-    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a group"}
+    implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a Lie group under addition"}
     unknowns = "rk"
     minimal_brackets = 6
 
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the series of a step of a tableau (A, b)."""
+        """Return the Lie-Butcher series of one step of a tableau (A, b)."""
         tableau = expect(method, RungeKutta)
         return DexpinvSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for tableaux (A, b)."""
+        """Return this family for a tableau (A, b), else None."""
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word of branches in a forest."""
+        """Return the length of the longest word of trees in a forest: the forest itself, or the branches at
+        one vertex."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .``, the first that a cut of dexpinv changes."""
+        """Return the condition of the word ``[.] . ... .``, the first word whose value changes if dexpinv is
+        truncated."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions in :meth:`conditions` that do not follow from others of this or of lower
-        order.
+        """Return the conditions in :meth:`conditions` that do not follow from other conditions of this order
+        or from conditions of lower order.
 
         Their number is the number of rooted trees, 1, 1, 2, 4, 9, ..., because dexpinv transforms the problem
         to a vector space. At order R + 3 there is one more condition, which no tableau satisfies. Up to order
-        :data:`RANKED` they are computed by ranks (imports NumPy). Beyond this order all of :meth:`conditions`
-        are returned.
+        :data:`RANKED` the conditions are selected by ranks of matrices, which requires NumPy. Beyond this
+        order all of :meth:`conditions` are returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -107,25 +110,27 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self.conditions(order) if order > RANKED else self._of(_essential(self.cutoff, order)[-1])
 
     def remark(self, order: int) -> str:
-        """Return a remark on the conditions that are not essential."""
+        """Return a remark that explains why :meth:`conditions` contains more conditions than there are
+        essential ones."""
         if order < 3:
             return ""
         counts = ", ".join(str(len(lyndon_forests(n))) for n in range(1, min(order, RANKED) + 1))
         beyond = (
-            f" Beyond order {RANKED} all conditions of Lyndon words are listed." if order > RANKED else ""
+            f" Above order {RANKED} the conditions of all Lyndon words are listed." if order > RANKED else ""
         )
         return (
-            f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ...: a generating set "
-            f"for every method on a group. For {self.label()} the conditions printed here imply the rest of "
-            f"that set.{beyond}"
+            f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ..., "
+            f"which are sufficient for every method on a group. For {self.label()} methods the listed "
+            f"conditions imply all of these.{beyond}"
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return the highest order that this cut of dexpinv allows, R + 2, but at most ``limit``.
+        """Return R + 2, the highest order that is possible with this truncation of dexpinv, but at most
+        ``limit``.
 
         At the next order the values of every tableau satisfy a relation that the values of the exact flow
-        violate. There is then one essential condition more than there are rooted trees. The order is computed
-        by ranks (imports NumPy).
+        violate. At this order there is one essential condition more than there are rooted trees. The number
+        of essential conditions is computed by ranks of matrices, which requires NumPy.
 
         >>> [MuntheKaasFamily(cutoff).highest_order(5) for cutoff in (0, 1, 2)]
         [2, 3, 5]
@@ -136,12 +141,12 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return limit
 
     def formula(self, forest: Forest) -> Formula:
-        """Return the index sum of the scaled value on a forest."""
+        """Return the left-hand side of the condition of a forest as an index sum."""
         return total((scale(forest), _Words(self.cutoff).exponential(None, trees_of(forest))))
 
 
 class _Words:
-    """The index sums of coefficients of words; i is a stage, or None for the step."""
+    """The coefficients of words as index sums; i is the index of a stage, or None for the step."""
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff
@@ -193,7 +198,8 @@ class _Words:
                 behind = len(word) - 1 - place
                 # u^0 = 1 has a non-zero coefficient only on the empty word.
                 if m <= place and n <= behind and bool(m) is bool(place) and bool(n) is bool(behind):
-                    # As in the series, the word of u^m comes first in u^(k-m) x u^m.
+                    # As in the series, the letters of u^m precede the letters of u^(k-m) in a word of u^(k-m)
+                    # x u^m.
                     first, last = self._power(j, m, word[:place]), self._power(j, n, word[place + 1 :])
                     value = self.exponential(j, trees_of(branches(tree)))
                     terms.append((q, product(first, value, last)))

@@ -1,10 +1,12 @@
-"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, for which some brackets vanish.
+"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. Some brackets of T and V
+vanish.
 
-The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone therefore commute.
-These are V, [V,[T,V]] and all iterates of x o y = [x,[T,y]] on V. The relation of lowest weight is
-[V,[V,[V,T]]] = 0. Conditions are the combinations of words over T and V that vanish on the ideal of these
-commutators. Their numbers at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci.
-Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone, which have degree
+0, therefore commute. V and [V,[T,V]] are functions of q alone, as are all iterates of the product x o y =
+[x,[T,y]] on V. The resulting relation of lowest weight is [V,[V,[V,T]]] = 0. Conditions belong to the linear
+combinations of words over T and V that vanish on the ideal of these commutators. The numbers of conditions at
+order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151;
+McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -44,7 +46,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings T + V for which ``rkn`` names V; a condition is a combination of words over T and V.
+    """Splittings T + V of files in which the key ``rkn`` names V. A condition belongs to a combination of
+    words over T and V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -54,20 +57,20 @@ class NystroemFamily(Family):
 
     name = "rkn"
     description = (
-        "Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, where brackets vanish."
+        "Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, so [V,[V,[V,T]]] = 0."
     )
     formats = ("splitting",)
     unknowns = "splitting"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a splitting whose file does not name the part
-        V."""
+        """Raise :class:`~orderconds.errors.InputError` for a splitting in whose file the key ``rkn`` is
+        missing."""
         if expect(method, Splitting).rkn is None:
             raise InputError(
-                "a splitting without rkn",
+                "a splitting without the key rkn",
                 where=f"family {self.name}",
-                expected='rkn = "V", V the part with [V,[V,[V,T]]] = 0',
-                hint="ask for the family 'splitting'",
+                expected='rkn = "V", where V is the name of the part with [V,[V,[V,T]]] = 0',
+                hint="use the family 'splitting'",
             )
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -75,13 +78,15 @@ class NystroemFamily(Family):
         return tuple(map(self._condition, independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of a basis of all combinations, dependent ones with their relations."""
+        """Return the conditions of a basis of all combinations. A dependent condition contains its relation
+        to independent conditions."""
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the step's values on combinations of words, each times its scale."""
+        """Return the values of one step on the combinations of words in ``conditions``, each multiplied by
+        the factor of its printed condition."""
         self.require(method, ring)
         splitting = expect(method, Splitting)
         swap = splitting.rkn == T
@@ -96,20 +101,21 @@ class NystroemFamily(Family):
         return tuple(results)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the form of splittings T + V."""
+        """Return the coefficients of splittings T + V with this number of stages, as unknowns of a search."""
         form = SplittingFamily().in_stages(stages, explicit=explicit)
         return StageForm(form.names, lambda values, ring: _nystroem(form.method(values, ring)))
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for splittings whose file names the part V."""
+        """Return this family for a splitting whose file names the part V, else None."""
         method = tableau.method
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return the same order in this family, and at most order 4 as a general splitting.
+        """Return ``order`` in this family and min(order, 4) for a general splitting.
 
-        The relation [V,[V,[V,T]]] = 0 concerns only words of four or more letters, and the order is even.
+        The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence the order of a
+        general splitting is at least 3, and it is even because the method is symmetric.
         """
         return ((self.label(), order), ("splitting", min(order, 4)))
 
@@ -118,7 +124,7 @@ class NystroemFamily(Family):
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return splittings with random steps."""
+        """Return splittings with random step sizes."""
         return _nystroem(SplittingFamily().random_method(ring, generator, order))
 
     def _condition(self, functional: Functional) -> OrderCondition:
@@ -139,7 +145,7 @@ def _nystroem(method: Method) -> Splitting:
 
 
 def text(functional: Functional) -> str:
-    """Return a combination of words as text.
+    """Return a linear combination of words as text.
 
     >>> text((((0, 1, 1, 1), 1), ((1, 1, 1, 0), 1)))
     'TVVV + VVVT'
@@ -153,8 +159,8 @@ def text(functional: Functional) -> str:
 
 
 def formula(functional: Functional) -> Formula:
-    """Return the index sum of the scaled combination, with steps a_i of T, b_i of V, and c_i = a_1 + ... +
-    a_i.
+    """Return the left-hand side of the condition of a combination as an index sum; a_i are the steps of T,
+    b_i the steps of V, and c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
@@ -165,14 +171,15 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the least factor that clears the denominators of the words' formulas."""
+    """Return the smallest factor that clears the denominators in the formulas of the words of a
+    combination."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
 
 @lru_cache(maxsize=32)
 def functionals(order: int) -> tuple[Functional, ...]:
-    """Return a basis of the combinations of words of this length that vanish on the ideal.
+    """Return a basis of the linear combinations of words of length ``order`` that vanish on the ideal.
 
     >>> [len(functionals(n)) for n in (1, 2, 3, 4)]
     [2, 4, 8, 15]
@@ -192,7 +199,7 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the iterates of x o y = [x,[T,y]] on V with this weight, as words."""
+    """Return the iterates of x o y = [x,[T,y]] on V that have this weight, as words."""
     if weight == 1:
         return (expand(V),)
     potentials = []
@@ -206,7 +213,7 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return the commutators of two iterates of :func:`_potentials`, of weight at most ``order``."""
+    """Return the commutators of two results of :func:`_potentials`, of total weight at most ``order``."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket
@@ -243,7 +250,10 @@ def _relation(functional: Functional) -> tuple[tuple[tuple[Functional, ...], Fra
 
 
 def relation(functional: Functional) -> Polynomial:
-    """Return a scaled combination as a polynomial in scaled independent combinations, by linear algebra.
+    """Return the left-hand side of a combination as a polynomial in left-hand sides of independent
+    combinations.
+
+    The coefficients are the solution of a linear system.
 
     >>> relation((((1, 0), 1),))
     {((((0,), 1),), (((1,), 1),)): Fraction(1, 1), ((((0, 1), 1),),): Fraction(-1, 1)}
@@ -256,7 +266,7 @@ def relation(functional: Functional) -> Polynomial:
 
 
 def _monomials(order: int, heaviest: int) -> list[tuple[Functional, ...]]:
-    """Return the products of at least two independent combinations with this total weight."""
+    """Return the products of two or more independent combinations whose weights add up to ``order``."""
     known = [f for n in range(heaviest, 0, -1) for f in independent(n)]
 
     def extend(left: int, start: int) -> list[tuple[Functional, ...]]:

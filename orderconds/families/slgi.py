@@ -1,8 +1,8 @@
-"""Symplectic Lie group integrators of Marthinsen's thesis, Section 2.5. With one stage they are
+"""Symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. The methods with one stage are
 theta-methods.
 
-The methods are equal to ``vrkmk(0)``, that is, VRKMK without brackets in dexpinv. Their order is at most two
-(H. Marthinsen, *On symplectic integration in Lie groups and manifolds*, thesis, NTNU Trondheim, 2014).
+The family is equal to ``vrkmk(0)``, that is, VRKMK without brackets in dexpinv. The order is at most two (H.
+Marthinsen, *On symplectic integration in Lie groups and manifolds*, PhD thesis, NTNU Trondheim, 2014).
 """
 
 from __future__ import annotations
@@ -26,7 +26,9 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
     """
 
     name = "slgi"
-    description = "Symplectic Lie group integrators: VRKMK without brackets; one stage is the theta-method."
+    description = (
+        "Symplectic Lie group integrators: VRKMK without brackets; theta-methods if there is one stage."
+    )
     takes_cutoff = False
 
     def __init__(self) -> None:
@@ -37,18 +39,20 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return self.name
 
     def claim(self, order: int) -> OrderClaim:
-        """Return the claim of this order."""
+        """Return the claim of this order in a tableau file."""
         return OrderClaim(self.name, None, order)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: the order is that of ``vrkmk(0)``."""
+        """Return None: a file need not claim an order in this family, because it equals the order in
+        ``vrkmk(0)``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return only the family itself."""
+        """Return this family as the only variant."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order in ``vrkmk(0)``, or the bound that follows from the order without brackets."""
+        """Return a lower bound of the order: the larger of the order in ``vrkmk(0)`` and the bound of the
+        base class."""
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

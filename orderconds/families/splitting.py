@@ -1,8 +1,8 @@
-"""Splittings: products of the flows of fields A, B, ... with sum A + B + ...; conditions belong to words over
-A, B, ...
+"""Splittings: products of the flows of fields A, B, ... whose sum is the field of the problem.
 
-One step is ... exp(b_1 h B) exp(a_1 h A), where A acts first in each stage. The exact flow exp(h (A + B)) has
-the value 1/n! on every word of n letters (HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
+Conditions belong to words over A, B, .... One step is ... exp(b_1 h B) exp(a_1 h A), where A acts first in
+each stage. The exact flow exp(h (A + B + ...)) has the value 1/n! on every word of n letters (HLW III.5;
+McLachlan and Quispel, Acta Numerica 11 (2002) 341).
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ MAX_PARTS = 6
 
 @register
 class SplittingFamily(WordFamily):
-    """Splittings in ``parts`` parts; letters 0, 1, ... denote the parts A, B, ... in the order of the file.
+    """Splittings into ``parts`` parts; letters 0, 1, ... denote the parts A, B, ... in the order of the file.
 
     >>> for condition in SplittingFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -48,13 +48,13 @@ class SplittingFamily(WordFamily):
 
     name = "splitting"
     description = (
-        "Splittings: products of the flows of A, B, ... whose sum is the field; conditions are words "
-        "over A, B, ..."
+        "Splittings: products of the flows of A, B, ... whose sum is the field; conditions belong to "
+        "words over A, B, ..."
     )
     formats = ("splitting",)
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is one"}
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting in two parts"}
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:
@@ -67,76 +67,79 @@ class SplittingFamily(WordFamily):
         return self.name if self.parts == 2 else f"{self.name}({self.parts})"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a splitting in another number of parts."""
+        """Raise :class:`~orderconds.errors.InputError` for a splitting with a different number of parts."""
         parts = expect(method, Splitting).parts
         if len(parts) != self.parts:
             right = SplittingFamily(len(parts)).label()
             raise InputError(
-                f"a splitting in {len(parts)} parts: {', '.join(parts)}",
+                f"a splitting into {len(parts)} parts: {', '.join(parts)}",
                 where=f"family {self.label()}",
                 expected=f"{self.parts} parts",
-                hint=f"ask for the family {right!r}",
+                hint=f"use the family {right!r}",
             )
 
     def weigh(self, letter: int) -> int:
-        """Return 1: every part is a field of weight one."""
+        """Return 1, because every part is a field of weight one."""
         return 1
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this length."""
+        """Return all words of this length."""
         return tuple(tuples(range(self.parts), repeat=order))
 
     def text(self, word: Word) -> str:
-        """Return a word as text, as ``AAB``."""
+        """Return a word as text, such as ``AAB``."""
         return "".join(chr(ord("A") + letter) for letter in word)
 
     def exact(self, word: Word) -> Fraction:
-        """Return 1/n!."""
+        """Return 1/n!, the value of the exact flow on a word of n letters."""
         return Fraction(1, factorial(len(word)))
 
     def scale(self, word: Word) -> int:
-        """Return the product of the factorials of the lengths of runs of one letter."""
+        """Return the product of the factorials of the run lengths of a word."""
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value; a_i, b_i, ... are the steps of A, B, ... in stage i.
+        """Return the left-hand side of the condition of a word as an index sum; a_i, b_i, ... are the steps
+        of A, B, ... in stage i.
 
-        For two parts, c_i = a_1 + ... + a_i replaces sums over a.
+        For two parts, the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
         """
         return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
     def for_method(self, method: Method) -> Family:
-        """Return the family for the number of parts of a splitting."""
+        """Return the member of this family with the number of parts of the given splitting."""
         return SplittingFamily(len(expect(method, Splitting).parts))
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for splittings, and for compositions of an adjoint pair."""
+        """Return this family for splittings, and for compositions of a method and its adjoint; else None."""
         method = tableau.method
         if isinstance(method, AdjointComposition):
             return cls()
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order as a Runge-Kutta-Nystroem splitting, but at most 3: brackets vanish only from
-        order 4 on."""
+        """Return the order as a Runge-Kutta-Nystroem splitting, but at most 3, because the additional
+        relations begin at order 4."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None for a splitting: the cost of a flow depends on the problem."""
+        """Return None for a splitting, because the cost of a flow depends on the problem."""
         return None if isinstance(tableau.method, Splitting) else super().work(tableau)
 
     def solved_as(self, nystroem: bool) -> str:
-        """Return the label of Nystroem splittings if the option --rkn is set."""
+        """Return the label of Nystroem splittings if the option --rkn is set, else the label of this
+        family."""
         return "rkn" if nystroem else self.label()
 
     def series(self, method: Method, ring: Ring) -> ProductOfExponentials:
-        """Return the values of a step on words."""
+        """Return the values of one step on words."""
         steps = expect(method, Splitting).steps
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the form of splittings in which every stage has all parts."""
+        """Return the coefficients of splittings in which every stage contains all parts, as unknowns of a
+        search."""
         refuse_explicit(self.label(), explicit)
         letters = "abcdef"[: self.parts]
         names = tuple((x, (str(i),)) for i in range(1, stages + 1) for x in letters)
@@ -148,14 +151,16 @@ class SplittingFamily(WordFamily):
         return StageForm(names, method)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
-        """Return splittings with random steps; there is one stage more than conditions of ``order``."""
+        """Return splittings with random steps. The number of stages exceeds the number of conditions of
+        ``order`` by one."""
         stages = 1 + sum(len(self.independent(n)) for n in range(1, order + 1)) // self.parts
         steps = [(part, ring.random(generator)) for _ in range(stages) for part in range(self.parts)]
         return Splitting(tuple(map(self.text, self.words(1))), tuple(steps))
 
 
 def splitting_formula(word: Word) -> Formula:
-    """Return the index sum of the value on a word, times the factorials of its runs.
+    """Return the value on a word as an index sum, multiplied by the factorials of the run lengths of the
+    word.
 
     >>> from orderconds.formula import named
     >>> named(splitting_formula((0, 1, 0))).text()
@@ -168,7 +173,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # A acts before B in each stage. An A and a later B may therefore belong to the same stage.
+            # A acts before B in each stage. A letter A and a later letter B may therefore come from the same
+            # stage.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -180,8 +186,8 @@ def splitting_formula(word: Word) -> Formula:
 
 
 def two_part_formula(word: Word) -> Formula:
-    """Return the index sum for two parts, with c_i = a_1 + ... + a_i; A between b_i and b_j has the factor
-    c_j - c_i.
+    """Return the index sum for two parts, with c_i = a_1 + ... + a_i. A letter A between b_i and b_j has the
+    factor c_j - c_i.
 
     >>> from orderconds.formula import named
     >>> named(two_part_formula((0, 0, 1, 0, 1))).text()
@@ -191,7 +197,7 @@ def two_part_formula(word: Word) -> Formula:
         i = fresh()
         return product(*[index_sum((i,), (), coefficient("a", i))] * len(word))
     *gaps, tail = "".join("AB"[letter] for letter in word).split("B")
-    runs: list[tuple[int, int]] = []  # pairs (gap, length): A^gap, then B^length
+    runs: list[tuple[int, int]] = []  # pairs (gap, length): ``gap`` letters A, then ``length`` letters B
     for gap in map(len, gaps):
         if gap or not runs:
             runs.append((gap, 1))
@@ -200,7 +206,7 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # Only the first block of a run of B has A before it.
+        # Only the first block of a run of B has letters A before it.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)
@@ -222,8 +228,8 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield the divisions of runs of these lengths into blocks of one stage, each with its multinomial
-    factor."""
+    """Yield the divisions of runs of these lengths into blocks, one block for each stage, with the
+    multinomial factor."""
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 
@@ -231,7 +237,7 @@ def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ..
 def stage_tables(method: Splitting, ring: Ring) -> dict[str, list[Element]]:
     """Return the coefficients a, b, ... that occur in formulas, with zeros for missing parts of a stage.
 
-    For two parts, ``c`` has the sums a_1 + ... + a_i.
+    For two parts, the entry ``c`` contains the sums a_1 + ... + a_i.
 
     >>> from orderconds.ring import QQ
     >>> strang = Splitting(("T", "V"), ((1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))))

@@ -1,8 +1,8 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
-The relation b_i ahat_ij = b_i b_j - b_j a_ji moves the root of a tree across an edge, up to products of
-conditions of lower order. Conditions therefore belong to free trees with directed edges (Abia and Sanz-Serna
-1993; HLW VI.7).
+Suppose that the root of a tree moves across an edge. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
+weights of both trees add up to a product of weights of smaller trees. Conditions therefore belong to free
+trees with directed edges (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(directed_free_trees))
 
 @register
 class SymplecticPartitionedFamily(Family):
-    """Symplectic partitioned Runge-Kutta methods, given by (A, b) with non-zero weights.
+    """Symplectic partitioned Runge-Kutta methods, given by a tableau (A, b) with non-zero weights.
 
     >>> [str(condition) for condition in SymplecticPartitionedFamily().conditions(3)]
     ['sum_i b_i c_i^2 = 1/3', 'sum_i b_i chat_i^2 = 1/3', 'sum_{i,j} b_i a_ij c_j = 1/6']
@@ -53,7 +53,7 @@ class SymplecticPartitionedFamily(Family):
     needs_nonzero_weights = True
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "a Hamiltonian linear in the momentum has the flow of any field"
+        "rk": "a Hamiltonian linear in the momentum has the flow of a given field"
     }
     low_order = "rk"
     bounds_others = True
@@ -64,13 +64,14 @@ class SymplecticPartitionedFamily(Family):
         return weight_conditions(self.name, directed_free_trees(order), text)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with directed edges, with their relations."""
+        """Return the conditions of all rooted trees with directed edges. A dependent condition contains its
+        relation."""
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return elementary weights of a tableau (A, b), over a ring with division."""
+        """Return the elementary weights of a tableau (A, b), over a ring with division."""
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 
@@ -85,20 +86,21 @@ class SymplecticPartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for tableaux (A, b) without zero weights."""
+        """Return this family for a tableau (A, b) without zero weights, else None."""
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the tableau is symmetric; the conjugate is then also symmetric."""
+        """Whether the tableau is proved to be symmetric. The conjugate (ahat, b) is then also symmetric."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order, from the order p in ``rk`` and simplifying assumptions.
+        """Return a lower bound of the order, derived from simplifying assumptions and from the order p in
+        ``rk``.
 
         If ahat = a, the order is p. Otherwise suppose B(2m), and C(m), D(m) for a. By the definition of ahat,
-        C(m) and D(m) then hold for ahat, and c = chat. Trees with edges of both kinds therefore simplify like
-        trees with one kind in Butcher's theorem, and the order is at least min(p, 2m + 1) (Jay 1996, for
-        Lobatto pairs).
+        C(m) and D(m) then hold for ahat, and c = chat. Butcher's theorem uses these assumptions to reduce
+        trees with one kind of edges. The same proof applies to both kinds of edges. Hence the order is at
+        least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

@@ -1,8 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
-Only trees occur in which neighbouring vertices differ in colour. The relation b_i ahat_ij + bhat_j a_ji = b_i
-bhat_j moves the root of a tree across an edge. Conditions therefore belong to free trees (Abia and Sanz-Serna
-1993; HLW VI.7.2). The weights b and bhat may differ, as in pairs that are equivalent to splittings.
+Conditions contain only trees in which neighbouring vertices differ in colour. The relation b_i ahat_ij +
+bhat_j a_ji = b_i bhat_j allows the root of a tree to move across an edge. Conditions therefore belong to free
+trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b and bhat may differ, as in pairs that are
+equivalent to splittings.
 """
 
 from __future__ import annotations
@@ -55,7 +56,8 @@ class SeparableFamily(Family):
         return weight_conditions(self.name, alternating_free_trees(order), text, rooted_weight)
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees with alternating colours, with relations."""
+        """Return the conditions of all rooted trees with alternating colours. A dependent condition contains
+        its relation."""
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
 
@@ -67,7 +69,7 @@ class SeparableFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return elementary weights of a pair, or of a single tableau and its conjugate.
+        """Return the elementary weights of a pair of tableaux, or of a single tableau and its conjugate.
 
         Raises :class:`~orderconds.errors.ZeroWeight` for a single tableau whose conjugate does not exist.
         """
@@ -80,7 +82,7 @@ class SeparableFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for symplectic pairs."""
+        """Return this family for a symplectic pair of tableaux, else None."""
         method = tableau.method
         pair = isinstance(method, PartitionedRungeKutta) and symplectic_pair(method, tableau.ring)
         return cls() if pair else None
@@ -90,14 +92,16 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the form of single tableaux; the computation of their conjugates divides by weights."""
+        """Return the coefficients of single tableaux, as unknowns of a search. Their conjugates require
+        division by weights."""
         return tableau_form(stages, explicit, divides=True)
 
 
 def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Ring) -> None:
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
-    Differences that are balls around zero are accepted; the relation then holds to the given digits.
+    If the coefficients are balls, the difference of the two sides must be a ball that contains zero. The
+    relation then holds to the given digits.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -112,5 +116,5 @@ def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Rin
                     f"b_{i + 1} bhat_{j + 1} by {ring.approximate(defect, 6)}",
                     where=f"family {label}",
                     expected="a symplectic method",
-                    hint="choose family rk or prk",
+                    hint="use the family rk or prk",
                 )

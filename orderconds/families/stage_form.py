@@ -1,4 +1,4 @@
-"""The coefficients of a method with a fixed number of stages: their names, and a function that builds the
+"""The coefficients of a method with a fixed number of stages, by name, and the function that builds the
 method."""
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from orderconds.tableau.methods import RungeKutta
 from orderconds.tableau.products import Method
 
 Name = tuple[str, tuple[str, ...]]
-"""The name of a coefficient: its letter and its indices, as ``("a", ("2", "1"))``."""
+"""The name of a coefficient: a letter and indices, such as ``("a", ("2", "1"))``."""
 
 
 class StageForm(Struct, frozen=True):
-    """Names of coefficients, and a function from their values in a ring to the method.
+    """The names of coefficients, and a function that builds the method from their values in a ring.
 
-    ``divides`` is true if the family divides by the coefficients b.
+    ``divides`` is true if the family divides by the weights b_i.
     """
 
     names: tuple[Name, ...]
@@ -28,7 +28,8 @@ class StageForm(Struct, frozen=True):
 
 
 def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> StageForm:
-    """Return the form of Butcher tableaux: full, or strictly lower triangular with ``explicit``.
+    """Return the coefficients of Butcher tableaux: full, or strictly lower triangular if ``explicit`` is
+    true.
 
     >>> tableau_form(2, explicit=True).names
     (('b', ('1',)), ('b', ('2',)), ('a', ('2', '1')))
@@ -46,14 +47,14 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is given for a family without tableaux (A,
-    b).
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true; used by families without tableaux
+    (A, b).
 
     >>> refuse_explicit("splitting", False)
     """
     if explicit:
         raise InputError(
-            f"family {label} has no tableau that could be explicit",
+            f"family {label} has no explicit methods, because its coefficients are not a tableau (A, b)",
             where="--explicit",
             expected="a family whose coefficients are a_ij and b_i",
             hint="leave --explicit out",

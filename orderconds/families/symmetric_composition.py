@@ -1,7 +1,8 @@
-"""Symmetric compositions of a symmetric method of order two: words over letters 1, 3, 5, ... of odd weight.
+"""Symmetric compositions of a symmetric method of order two.
 
-A step is equal to its adjoint. Its logarithm therefore has only terms of odd weight, and conditions of even
-order follow from conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+A step is equal to its adjoint. The logarithm of the step therefore has only terms of odd weight. Hence
+conditions belong to words over the letters 1, 3, 5, ..., and conditions of even order follow from conditions
+of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -50,17 +51,16 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     name = "symmetric_composition"
     description = (
-        "Symmetric compositions of a symmetric method of order two: words over letters 1, 3, 5, ... of "
-        "odd weight."
+        "Symmetric compositions of a symmetric method of order two; conditions belong to words of odd weight."
     )
     illustrates = ()
-    implies: ClassVar[Mapping[str, str]] = {"composition": "a symmetric composition of this order"}
+    implies: ClassVar[Mapping[str, str]] = {"composition": "every symmetric composition is a composition"}
     bounds_others = False
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` unless the basic method and the step sizes are
-        symmetric."""
-        expected = "base symmetric-2 and steps that read the same backwards"
+        """Raise :class:`~orderconds.errors.InputError` unless the basic method is symmetric and the step
+        sizes are a palindrome."""
+        expected = 'base = "symmetric-2", and step sizes that form a palindrome'
         if not isinstance(method, Composition):
             raise InputError("base adjoint-pair", where=f"family {self.name}", expected=expected)
         for i, (x, y) in enumerate(zip(method.gamma, method.gamma[::-1], strict=True)):
@@ -69,11 +69,11 @@ class SymmetricCompositionFamily(CompositionFamily):
                     f"gamma[{i + 1}] and gamma[{method.s - i}] differ",
                     where=f"family {self.name}",
                     expected=expected,
-                    hint="ask for the family 'composition'",
+                    hint="use the family 'composition'",
                 )
 
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word over odd letters of this weight."""
+        """Return all words over odd letters with this total weight."""
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
@@ -85,12 +85,12 @@ class SymmetricCompositionFamily(CompositionFamily):
         return dict(_polynomial(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of the scaled value over steps gamma_i."""
+        """Return the left-hand side of the condition of a word as an index sum over the steps gamma_i."""
         return composition_formula(word, _step)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the form of symmetric compositions; the coefficients are the first half of the step
-        sizes."""
+        """Return the first half of the step sizes as unknowns of a search; the second half follows by
+        symmetry."""
         refuse_explicit(self.label(), explicit)
         names = tuple(("gamma", (str(i),)) for i in range(1, (stages + 1) // 2 + 1))
         return StageForm(
@@ -99,18 +99,19 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for compositions of symmetric methods with palindromic step sizes."""
+        """Return this family for compositions of symmetric methods with palindromic step sizes, else None."""
         method = tableau.method
         if not isinstance(method, Composition):
             return None
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None: no format has the name of this family."""
+        """Return None, because no format has the name of this family."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return symmetric compositions with random steps, at least as many as conditions up to ``order``."""
+        """Return symmetric compositions with random steps; the number of steps is at least the number of
+        conditions up to ``order``."""
         steps = 1 + sum(len(self.independent(n)) for n in range(1, order + 1))
         half = [ring.random(generator) for _ in range(steps)]
         return Composition("symmetric-2", (*half, *half[:-1][::-1]))
@@ -133,7 +134,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # At even weight the logarithm vanishes: sum over cuts of (-1)^(m+1)/m prod of values = 0.
+    # At even weight the logarithm vanishes. It is the sum over all divisions of the word into m parts of
+    # (-1)^(m+1)/m times the product of the values of the parts.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

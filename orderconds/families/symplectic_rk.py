@@ -1,6 +1,6 @@
 """Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Conditions belong to free trees.
 
-A free tree is superfluous, and has no condition, if an edge divides it into two equal halves (Sanz-Serna and
+If an edge divides a free tree into two equal halves, the condition of the tree is superfluous (Sanz-Serna and
 Abia 1991; HLW VI.7.1, Theorem 7.3).
 """
 
@@ -23,7 +23,8 @@ from orderconds.trees.levels import Tree, text
 from orderconds.trees.rooted import rooted_trees
 
 SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(essential_free_trees))
-"""The weight of every rooted tree as a polynomial in the weights of free trees that are not superfluous."""
+"""The weight of every rooted tree as a polynomial in the weights of free trees whose conditions are not
+superfluous."""
 
 
 @register
@@ -46,11 +47,13 @@ class SymplecticFamily(Family):
     unknowns = "rk"
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the independent conditions of this order, one for each free tree that is not superfluous."""
+        """Return the independent conditions of this order, one for each free tree that no edge divides into
+        equal halves."""
         return _conditions(essential_free_trees(order))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all rooted trees, dependent ones with their relations."""
+        """Return the conditions of all rooted trees. A dependent condition contains its relation to
+        independent conditions."""
         return with_relations(_conditions(tuple(rooted_trees(order))), SWITCHING, text)
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -62,7 +65,7 @@ class SymplecticFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return elementary weights of a tableau (A, b)."""
+        """Return the elementary weights of a tableau (A, b), in the order of ``conditions``."""
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
 

@@ -1,8 +1,9 @@
-"""Variational commutator-free methods: VCG with several stages in one exponential.
+"""Variational commutator-free methods: each exponential may combine the velocities of several stages.
 
 The discrete Lagrangian is ``h sum_i b_i l(Q_i, xi_i)`` with ``Q_i = exp(X_im) ... exp(X_i1) q0`` and ``X_iJ =
-h sum_j alpha_iJj xi_j``. The update has the same form with beta_Jj, and ``b_i = sum_J beta_Ji``. Section 3.5
-of Bogfjellmo and Marthinsen suggests this generalisation. Order 3 is possible without negative weights.
+h sum_j alpha_iJj xi_j``. In the update, the coefficients beta_Jj replace alpha_iJj, and ``b_i = sum_J
+beta_Ji``. Section 3.5 of Bogfjellmo and Marthinsen suggests this generalisation of variational
+Crouch-Grossman methods (VCG). These methods can have order 3 without negative weights.
 """
 
 from __future__ import annotations
@@ -27,25 +28,27 @@ from orderconds.tableau.work import Work, commutator_free_work
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
 class VariationalCommutatorFree(ActionFamily):
-    """The family ``vcf``; ``update`` and ``stage`` are the numbers of exponentials of the random methods that
-    determine which conditions are independent. By default these numbers are so large that there is one
-    independent condition for each elementary Hamiltonian. A Runge-Kutta tableau is read with one stage in
-    each exponential.
+    """The family ``vcf``.
+
+    Independent conditions are selected by ranks at random methods. ``update`` and ``stage`` are the numbers
+    of exponentials in the update and in each stage of these methods. The default numbers are large enough to
+    give one independent condition for each elementary Hamiltonian. A Runge-Kutta tableau is interpreted with
+    one velocity in each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
     """
 
     name = "vcf"
-    description = "Variational commutator-free methods: VCG with several stages in one exponential."
+    description = "Variational commutator-free methods: several stage velocities in one exponential."
     formats = ("cf", "rk")
     implies: ClassVar[Mapping[str, str]] = {
-        "cf": "a Hamiltonian linear in the momentum has the flow of any field on G"
+        "cf": "a Hamiltonian linear in the momentum has the flow of a given field on G"
     }
     unknowns = "cf"
     equal_abscissae = True
@@ -65,8 +68,9 @@ class VariationalCommutatorFree(ActionFamily):
             ring, [tuple(sparse(ring, row) for row in rows) for rows in exponentials(method)]
         )
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the series of random methods; every stage enters each of their exponentials."""
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the series of random methods. Each exponential of these methods combines the velocities of
+        all stages."""
         stages = max(order - 1, 2)
         numbers = [self.stage or max(2, order - 3)] * stages + [self.update or max(3, order - 2)]
         rows = [
@@ -76,22 +80,23 @@ class VariationalCommutatorFree(ActionFamily):
         return CommutatorFreeSeries(ring, rows)
 
     def formula(self) -> ActionFormula:
-        """Return the writer of index sums over alpha, beta, b, c."""
+        """Return the object that writes conditions as index sums over alpha, beta, b and c."""
         return CommutatorFreeFormula()
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return the family for commutator-free methods without zero weights. The order of a tableau is that
-        of ``vcg``."""
+        """Return this family for a commutator-free method without zero weights, else None. A tableau (A, b)
+        claims its order in ``vcg``."""
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
+        symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return evaluations and exponentials."""
+        """Return the numbers of field evaluations and exponentials in one step."""
         return commutator_free_work(tableau)

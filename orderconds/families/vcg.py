@@ -1,7 +1,8 @@
-"""Variational Crouch-Grossman methods: a Butcher tableau on T*G, one exponential for each coefficient.
+"""Variational Crouch-Grossman methods: a Butcher tableau on T*G, with one exponential for each coefficient
+a_ij and b_i.
 
 Equations (3.18) and (3.19) of Bogfjellmo and Marthinsen define the method. The six conditions of order 3 are
-in their Proposition 3.5.7. The action series yields the conditions of every order.
+in their Proposition 3.5.7. The conditions of every order are computed from the action series.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from orderconds.tableau.work import Work, crouch_grossman_work
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
@@ -45,9 +46,9 @@ class VariationalCrouchGrossman(ActionFamily):
     formats = ("rk",)
     illustrates = ("action",)
     implies: ClassVar[Mapping[str, str]] = {
-        "cg": "a Hamiltonian linear in the momentum has the flow of any field on G",
-        "sprk": "a vector space is a group",
-        "vcf": "one stage in each exponential",
+        "cg": "a Hamiltonian linear in the momentum has the flow of a given field on G",
+        "sprk": "a vector space is a Lie group under addition",
+        "vcf": "a commutator-free method with one velocity in each exponential",
     }
     abelian = "sprk"
     unknowns = "rk"
@@ -60,20 +61,22 @@ class VariationalCrouchGrossman(ActionFamily):
         require_nonzero_weights(self.label(), ring, tableau.b)
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the series of random full tableaux; with order - 1 stages the ranks are already maximal."""
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the series of random full tableaux with order - 1 stages; more stages do not increase the
+        ranks."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
 
     def formula(self) -> ActionFormula:
-        """Return the writer of index sums over a, b, c."""
+        """Return the object that writes conditions as index sums over a, b and c."""
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric."""
+        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
+        symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return evaluations and exponentials."""
+        """Return the numbers of field evaluations and exponentials in one step."""
         return crouch_grossman_work(tableau)

@@ -1,8 +1,9 @@
-"""Variational Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``vrkmk(r)``.
+"""Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``.
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method. The order is computed from the series of the
-method. It is min(p, R + 2), where p is the order as a symplectic partitioned method and R is defined as for
-RKMK. This result is sharper than Theorem 3.5.3; the tests confirm it.
+method. It is min(p, R + 2), where p is the order as a symplectic partitioned Runge-Kutta method, and R is r
+for r = 0 and odd r, r + 1 for even r >= 2. For some r this order is higher than the bound in Theorem 3.5.3 of
+Bogfjellmo and Marthinsen. The tests verify the order.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from orderconds.tableau.products import Method
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
@@ -39,10 +40,10 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
 
     name = "vrkmk"
     description = (
-        "Variational Runge-Kutta-Munthe-Kaas methods with dexpinv cut after the power r: ``vrkmk(r)``."
+        "Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``."
     )
     formats = ("rk",)
-    implies: ClassVar[Mapping[str, str]] = {"sprk": "a vector space is a group"}
+    implies: ClassVar[Mapping[str, str]] = {"sprk": "a vector space is a Lie group under addition"}
     abelian: ClassVar[str | None] = "sprk"
     unknowns: ClassVar[str | None] = "rk"
 
@@ -53,23 +54,24 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return MuntheKaasActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word in an action tree."""
+        """Return the length of the longest word that contributes to the value of an action tree."""
         assert isinstance(key, Velocity)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the tree ``o(o|L(o ... o))``, the first that a cut of dexpinv changes."""
+        """Return the condition of the tree ``o(o|L(o ... o))``, the first tree whose value changes if dexpinv
+        is truncated."""
         if self.cutoff is None or order < 3:
             return None
         leaf = velocity()
         return self.condition(velocity((leaf,), (transport((leaf,) * (order - 2)),)))
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the series of random full tableaux."""
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the action series of random full tableaux."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return MuntheKaasActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
-        """Return the writer of index sums over a, b, c."""
+        """Return the object that writes conditions as index sums over a, b and c."""
         return MuntheKaasFormula(self.cutoff)

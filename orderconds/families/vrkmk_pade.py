@@ -1,8 +1,8 @@
-"""VRKMK with the inverse of a truncated dexp, instead of a truncated dexp^{-1}: ``vrkmk_pade(r)``.
+"""VRKMK with the inverse of a truncated dexp, instead of a truncated dexpinv: ``vrkmk_pade(r)``.
 
 The stage velocities solve dexp_(r),X_i v_i = xi_i (Marthinsen's thesis, Section 3.4.1, alternative approach).
-Conditions have the same form as in every variational family. The left-hand sides are computed from the action
-series of this method.
+Conditions are indexed by action trees, as in every variational family, and evaluated by the action series of
+this method.
 """
 
 from __future__ import annotations
@@ -25,14 +25,14 @@ from orderconds.tableau.record import Tableau
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
-    """The family of tableaux (A, b), all b_i non-zero, with dexp cut after the power ``cutoff``.
+    """The family of tableaux (A, b), all b_i non-zero; dexp is truncated after the power ``cutoff``.
 
-    Without a cut-off, dexp is inverted exactly, and the family is equal to ``vrkmk`` without a cut-off.
+    Without ``cutoff``, dexp is not truncated, and the family is equal to ``vrkmk`` without ``cutoff``.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss = Tableau.load(find("gauss1"))
@@ -42,7 +42,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
     """
 
     name = "vrkmk_pade"
-    description = "VRKMK with dexp cut after the power r, and inverted: ``vrkmk_pade(r)``."
+    description = "VRKMK with the inverse of dexp truncated after the power r: ``vrkmk_pade(r)``."
 
     def series(self, method: Method, ring: Ring) -> ActionSeries:
         """Return the action series of a tableau (A, b)."""
@@ -52,8 +52,8 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         require_nonzero_weights(self.label(), ring, tableau.b)
         return PadeActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the series of random full tableaux."""
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
+        """Return the action series of random full tableaux."""
         if self.cutoff is None:
             return super().random_series(ring, generator, order)
         stages = max(order - 1, 2)
@@ -61,22 +61,23 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return PadeActionSeries(ring, rows[:-1], rows[-1], self.cutoff)
 
     def formula(self) -> ActionFormula:
-        """Return the writer of index sums over a, b, c."""
+        """Return the object that writes conditions as index sums over a, b and c."""
         return super().formula() if self.cutoff is None else PadeFormula(self.cutoff)
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: an order may be claimed, but no file needs to claim one."""
+        """Return None: a file may claim an order in this family, but need not."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return only the family itself."""
+        """Return this family as the only variant."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order, but at most 2: no theorem about the cut of dexp is used for higher orders."""
+        """Return the order in ``rk``, but at most 2, because no theorem about the truncation of dexp is
+        used."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None: no theorem about the cut of dexp is used."""
+        """Return None, because no theorem about the truncation of dexp is used."""
         return None

@@ -1,8 +1,8 @@
-"""Families whose conditions are values on words over a graded alphabet.
+"""Families whose conditions are indexed by words over a graded alphabet.
 
-The values of a group-like series on words multiply by shuffles. Values on Lyndon words therefore determine
-all others, and are independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The letters of a word
-are in the order of action.
+The values of a group-like series on words satisfy the shuffle relations. The values on Lyndon words therefore
+determine all other values, and are independent (Radford 1979; Reutenauer, Free Lie Algebras, Thm 6.1). The
+letters of a word are in the order of action.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class WordFamily(Family):
 
     @abstractmethod
     def words(self, order: int) -> tuple[Word, ...]:
-        """Return every word of this weight."""
+        """Return all words whose letters have this total weight."""
 
     @abstractmethod
     def exact(self, word: Word) -> Fraction:
@@ -46,16 +46,17 @@ class WordFamily(Family):
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
-        """Return the index sum of ``scale(word)`` times the method's value on a word."""
+        """Return the left-hand side of the condition of a word as an index sum: ``scale(word)`` times the
+        value of the method."""
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of one step of ``method`` on words, elements of ``ring``."""
+        """Return the values of one step of ``method`` on words, as elements of ``ring``."""
 
     @abstractmethod
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
-        """Return random members, one for each sample, with enough coefficients for all conditions up to
-        ``order``."""
+        """Return random methods of the family, one for each sample, with enough coefficients to distinguish
+        all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
         """Return the words of this weight whose conditions are independent and imply all others."""
@@ -63,11 +64,11 @@ class WordFamily(Family):
         return tuple(lyndon_words(letters, order, self.weigh))
 
     def weigh(self, letter: int) -> int:
-        """Return the weight of a letter: letter k is a field of weight k."""
+        """Return the weight of a letter. By default letter k is a field of weight k."""
         return letter
 
     def scale(self, word: Word) -> int:
-        """Return the factor by which the printed condition is multiplied."""
+        """Return the factor by which the condition of a word is multiplied before it is printed."""
         return 1
 
     def text(self, word: Word) -> str:
@@ -83,7 +84,8 @@ class WordFamily(Family):
         return tuple(map(self._condition, self.independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of all words of exactly this order, dependent ones with their relations."""
+        """Return the conditions of all words of exactly this order. A dependent condition contains its
+        relation."""
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
     @cached_property
@@ -93,12 +95,13 @@ class WordFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the step's values on the words of ``conditions``, each times its scale."""
+        """Return the values of one step on the words of ``conditions``, each multiplied by :meth:`scale` of
+        its word."""
         series = self._memo(method, ring)
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return :meth:`polynomial` for scaled left-hand sides."""
+        """Return :meth:`polynomial`, converted to left-hand sides that are multiplied by :meth:`scale`."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

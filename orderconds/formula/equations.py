@@ -1,4 +1,4 @@
-r"""Equations in LaTeX for a page: one ``align*`` environment, long left-hand sides broken between terms."""
+r"""Equations in LaTeX: one ``align*`` environment. Long left-hand sides are broken between terms."""
 
 from __future__ import annotations
 
@@ -6,15 +6,16 @@ import re
 from collections.abc import Iterable
 
 LINE = 60
-"""The largest width of a line in characters, about the text width of an article."""
+"""The largest width of a line in characters; it is about the text width of an article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
 
 def aligned(equations: Iterable[tuple[str, str, str]]) -> str:
-    r"""Return an ``align*`` environment (package amsmath) of (comment, left-hand side, right-hand side).
+    r"""Return an ``align*`` environment (package amsmath) of equations, each given as (comment, left-hand
+    side, right-hand side).
 
-    The signs of equality are aligned, unless a line is broken; then every line starts at the left.
+    The signs of equality are aligned. If any line is broken, all lines are aligned at the left instead.
 
     >>> print(aligned([("order 1", r"\sum_{i} b_{i}", "1")]))
     \begin{align*}
@@ -35,7 +36,8 @@ def aligned(equations: Iterable[tuple[str, str, str]]) -> str:
 
 
 def broken(latex: str, line: int = LINE) -> list[str]:
-    r"""Break a formula into lines about ``line`` wide, at signs inside as few brackets as possible.
+    r"""Break a formula into lines about ``line`` characters wide. Breaks are at plus and minus signs inside
+    as few brackets as possible.
 
     >>> broken("a_{1} + b_{2} - c_{3}", line=7)
     ['a_{1} + b_{2}', '- c_{3}']
@@ -57,7 +59,7 @@ def broken(latex: str, line: int = LINE) -> list[str]:
 
 
 def _terms(latex: str, within: int) -> list[str]:
-    """Split before plus and minus signs inside at most ``within`` brackets and no braces."""
+    """Split before plus and minus signs that are inside at most ``within`` brackets and outside braces."""
     terms, brackets, braces = [""], 0, 0
     for token in _TOKEN.findall(latex):
         braces += (token == "{") - (token == "}")

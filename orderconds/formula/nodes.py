@@ -1,7 +1,8 @@
 """The syntax tree of index sums, its text, and functions that build and simplify formulas.
 
-Bound indices must have unique names while a formula is being built (:func:`fresh` gives them); :func:`named`
-then renames them readably. Upper-case indices run over exponentials, others over stages.
+Bound indices must have unique names while a formula is being built; :func:`fresh` returns such names. At the
+end :func:`named` replaces them by readable names. Upper-case indices run over exponentials, lower-case
+indices over stages.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ class Formula(Struct, frozen=True):
     """A node of the syntax tree: Coefficient, Product, Power, Total or IndexSum."""
 
     def text(self) -> str:
-        """Return the formula in ASCII, as ``sum_{i,j} b_i a_ij c_j``."""
+        """Return the formula in ASCII, such as ``sum_{i,j} b_i a_ij c_j``."""
         return _rendered(self, TEXT)
 
     def latex(self) -> str:
@@ -42,27 +43,27 @@ class Formula(Struct, frozen=True):
 
 
 class Coefficient(Formula, frozen=True):
-    """A coefficient of the method, as ``a_ij``: name ``a``, indices ``("i", "j")``."""
+    """A coefficient of the method, such as ``a_ij``: name ``a``, indices ``("i", "j")``."""
 
     name: str
     indices: tuple[str, ...]
 
 
 class Product(Formula, frozen=True):
-    """A product of factors; the empty product is the number one."""
+    """A product of factors. The empty product is the number one."""
 
     factors: tuple[Formula, ...]
 
 
 class Power(Formula, frozen=True):
-    """A power ``base^exponent``; a negative exponent divides."""
+    """A power ``base^exponent``. The exponent may be negative."""
 
     base: Formula
     exponent: int
 
 
 class Total(Formula, frozen=True):
-    """A sum of rational multiples of formulas; the empty sum is zero."""
+    """A sum of rational multiples of formulas. The empty sum is zero."""
 
     terms: tuple[tuple[Fraction, Formula], ...]
 
@@ -103,8 +104,9 @@ def coefficient(name: str, *indices: str) -> Formula:
 
 
 def product(*factors: Formula) -> Formula:
-    """Multiply: flatten products, move numbers to the front, collect equal factors in powers. Factors are
-    equal if they differ only by the names of bound indices; a zero factor gives zero.
+    """Return the product: nested products are flattened, numbers come first, and equal factors become powers.
+
+    Factors are equal if they differ only in the names of bound indices. A zero factor gives zero.
 
     >>> c = coefficient("c", "i")
     >>> product(coefficient("b", "i"), c, c).text()
@@ -122,7 +124,7 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Only sums can be equal up to names, so a single sum needs no comparison.
+    # Only sums can differ in the names of bound indices alone, so a single sum needs no comparison.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -135,7 +137,9 @@ def product(*factors: Formula) -> Formula:
 
 
 def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
-    """Add rational multiples: flatten totals, collect terms equal up to the names of bound indices.
+    """Return the sum of rational multiples: nested sums are flattened, and equal terms are collected.
+
+    Terms are equal if they differ only in the names of bound indices.
 
     >>> c = coefficient("c", "i")
     >>> total((1, c), (Fraction(-3, 2), c), (1, one())).text()
@@ -158,7 +162,8 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 
 
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
-    """Sum over indices; sums among the factors of ``body`` and numbers are moved to the front.
+    """Return the sum of ``body`` over indices. Sums among the factors of ``body``, and numbers, are moved to
+    the front.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
     >>> index_sum(("j",), (("i", "<", "j"),), product(a, c)).text()
@@ -183,7 +188,8 @@ def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formu
 
 
 def fresh(kind: str = "i") -> str:
-    """Return an index name that no other formula has; upper-case ``kind`` for exponentials.
+    """Return an index name that no other formula contains. ``kind`` is upper-case for an index of
+    exponentials.
 
     >>> fresh() != fresh()
     True
@@ -192,9 +198,10 @@ def fresh(kind: str = "i") -> str:
 
 
 def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
-    """Return the formula with new names for its bound indices; free ones are renamed by ``names``.
+    """Return the formula with new names for its bound indices. Free indices are renamed as ``names``
+    specifies.
 
-    Thus one formula can occur several times in a product whose sums are merged.
+    Several copies of one formula can then be factors of one product, and their sums can be merged.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
@@ -217,9 +224,10 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
 
 
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
-    """Name bound indices in reading order: i, j, k ... for stages, I, J, K ... for exponentials.
+    """Return the formula with readable names of bound indices, in reading order: i, j, k ... for stages, I,
+    J, K ... for exponentials.
 
-    A free index is renamed if ``names`` has an entry for it. Sums that differ only by the names of bound
+    A free index is renamed if ``names`` has an entry for it. Sums that differ only in the names of bound
     indices become identical.
 
     >>> i = fresh()
@@ -227,7 +235,7 @@ def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
     'sum_i b_i'
     """
     names = names or {}
-    # Free indices that keep their names must not be captured.
+    # A bound index must not get the name of a free index.
     return _named(formula, names, tuple(x for x in free_indices(formula) if x not in names))
 
 
@@ -272,7 +280,7 @@ def coefficients(formula: Formula) -> Iterator[Coefficient]:
 
 
 def free_indices(formula: Formula) -> tuple[str, ...]:
-    """Return the indices that no sum binds, in reading order.
+    """Return the indices that are not bound by a sum, in reading order.
 
     >>> free_indices(index_sum(("j",), (), coefficient("a", "i", "j")))
     ('i',)
@@ -303,10 +311,10 @@ def _powers(factors: Iterable[Formula]) -> list[tuple[Formula, int]]:
 
 
 def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
-    """Return a key that is equal for two formulas iff they differ only by the names of bound indices.
+    """Return a key that is equal for two formulas iff they differ only in the names of bound indices.
 
-    Bound indices are numbered from the outside to the inside; tuples of numbers and strings are compared
-    much faster than formulas.
+    In the key, bound indices are numbers, counted from the outermost sum inwards. The key contains only
+    numbers and strings, because tuples of these are compared much faster than formulas.
     """
     match formula:
         case Coefficient(name, indices):

@@ -8,7 +8,7 @@ from fractions import Fraction
 from msgspec import Struct
 
 Relation = tuple[str, str, str]
-"""``("i", "<", "j")`` or ``("i", "<=", "j")``: a restriction on two indices of one sum."""
+"""A relation ``("i", "<", "j")`` or ``("i", "<=", "j")`` between two indices of one sum."""
 
 HATS = {"ahat": r"\hat{a}", "bhat": r"\hat{b}", "chat": r"\hat{c}", "alpha": r"\alpha", "beta": r"\beta"}
 HATS |= {name: f"\\{name}" for name in ("gamma", "omega", "phi")}
@@ -54,7 +54,7 @@ def joined(indices: Sequence[str]) -> str:
 
 
 def subscript(written: str, notation: Notation) -> str:
-    """Return a subscript, in braces unless ASCII can do without.
+    """Return a subscript. In ASCII, braces are omitted if the subscript is clear without them.
 
     >>> subscript("ij", TEXT), subscript("i,j1", TEXT), subscript("ij", LATEX)
     ('_ij', '_{i,j1}', '_{ij}')
@@ -64,10 +64,10 @@ def subscript(written: str, notation: Notation) -> str:
 
 
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
-    """Write indices below a summation sign, relations joined in chains where they can be: ``i<j<k,l``.
+    """Return the text below a summation sign. Relations are joined in chains if possible: ``i<j<k,l``.
 
-    A chain above an index that this sum does not bind is written downwards, ``k>j>i``, so that a summed index
-    always comes first.
+    If the largest index of a chain is not bound by this sum, the chain is written in decreasing order,
+    ``k>j>i``, so that the first index is always bound by the sum.
 
     >>> chains(["i", "j"], [("i", "<", "j")], TEXT)
     'i<j'

@@ -1,6 +1,7 @@
 """Formulas as SymPy expressions: coefficients become ``IndexedBase`` entries, index sums become ``Sum``.
 
-This is the only module of the symbolic side that imports SymPy at load time; it is loaded on demand.
+This is the only module of ``orderconds`` that imports SymPy at the top. The module itself is imported on
+demand.
 """
 
 from __future__ import annotations
@@ -13,14 +14,15 @@ from orderconds.formula.nodes import Coefficient, Formula, IndexSum, Power, Prod
 from orderconds.formula.notation import Relation
 
 Limit = tuple[sympy.Symbol, sympy.Expr, sympy.Expr]
-"""A summation index with its first and its last value."""
+"""A summation index with its lower and its upper limit."""
 
 STAGES = sympy.Symbol("s", integer=True, positive=True)
 EXPONENTIALS = sympy.Symbol("m", integer=True, positive=True)
 
 
 def export(formula: Formula) -> sympy.Expr:
-    """Return the SymPy expression; indices count from 1, lower-case ones to ``s``, upper-case ones to ``m``.
+    """Return the SymPy expression of a formula. Indices start at 1. Lower-case indices end at ``s``,
+    upper-case indices at ``m``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> export(index_sum(("i",), (), coefficient("b", "i")))
@@ -47,10 +49,12 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the limits: ``i < j`` restricts i to 1..j-1 in a sum over j; if i is free, j starts at i+1."""
+    """Return the summation limits. ``i < j`` limits i to 1..j-1 in a sum over j. If i is free, j starts at
+    i+1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # SymPy's innermost limit comes first: take an index that bounds no remaining index.
+        # In SymPy the innermost limit comes first. Therefore choose an index that occurs in no limit of the
+        # remaining indices.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )
@@ -68,7 +72,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
 
 
 def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> sympy.Expr:
-    """Expand the sums of an exported expression for a number of stages (SymPy's ``doit`` stops at ``i < j``).
+    """Return an exported expression with its sums expanded for a number of stages. (SymPy's ``doit`` does not
+    expand sums with ``i < j``.)
 
     >>> from orderconds.formula import coefficient, index_sum, product
     >>> body = product(coefficient("b", "i"), coefficient("c", "j"))

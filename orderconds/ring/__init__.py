@@ -1,8 +1,8 @@
-"""Scalars behind one protocol: rationals, algebraic numbers, balls, power series, residues, polynomials.
+"""Scalars with a common interface: rationals, algebraic numbers, balls, power series, residues, polynomials.
 
-The algorithms use only :class:`Ring` and run over all of them. Other packages import
-python-flint only where the import contract in pyproject.toml allows it. The names below load on first use
-(PEP 562), so that a rational tableau loads nothing else.
+The algorithms use only the interface :class:`Ring`, so they run over all of these scalars. Other packages may
+import python-flint only in the modules that the import contract in pyproject.toml lists. The names below are
+imported on first use (PEP 562), so that a rational tableau imports no other rings.
 """
 
 from __future__ import annotations

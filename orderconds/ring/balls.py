@@ -1,7 +1,8 @@
-"""Certified real balls (Arb) of a fixed working precision.
+"""Real balls (Arb) with a fixed working precision: rigorous enclosures of real numbers.
 
 A ball encloses one unknown real number. A ball that does not contain zero proves that the number is not zero.
-Only the exact point zero proves that the number is zero, so structural zeros of a tableau stay zeros.
+Only the ball with midpoint and radius zero proves that the number is zero. Exact zeros of a tableau therefore
+remain exact zeros.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from orderconds.ring.roots import isolate
 
 
 class Balls:
-    """The ring of real balls computed with ``bits`` of precision; rings with equal ``bits`` are equal.
+    """The ring of real balls with ``bits`` bits of precision. Two rings with equal ``bits`` are equal.
 
     >>> R = Balls(128)
     >>> third = R.rational(1, 3)
@@ -42,7 +43,7 @@ class Balls:
         return self.bits
 
     def rational(self, p: int, q: int = 1) -> Ball:
-        """Return a ball around p/q, exact where p/q fits the precision."""
+        """Return a ball around p/q. It is exact if p/q can be represented at the precision."""
         with precision(self.bits):
             return Ball(arb(fmpq(p, q)), self.bits)
 
@@ -57,44 +58,51 @@ class Balls:
         return self.around(centre, radius)
 
     def root(self, x: Ball, index: int) -> Ball:
-        """Return the real root of x; ValueError for an even root of a ball that reaches below zero."""
+        """Return the real root of x with this index.
+
+        Raises ValueError for an even root of a ball that contains negative numbers.
+        """
         with precision(self.bits):
             if x.value >= 0:
                 return Ball(x.value.root(index), self.bits)
             if index % 2 == 0:
-                raise ValueError("an even root of a number that is not known to be positive")
+                raise ValueError("an even root of a number that is not proved to be positive")
             if x.value < 0:
                 return Ball(-((-x.value).root(index)), self.bits)
-        raise ValueError("a root of a number whose sign is not known")
+        raise ValueError("a root of a number whose sign is not proved")
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Ball:
-        """Return the one real root of ``minpoly`` within ``unit`` of ``near``, else raise ValueError."""
+        """Return the only real root of ``minpoly`` within ``unit`` of ``near``; raise ValueError if there is
+        no such root or more than one."""
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return the size of the binary exponent of x; mantissas are bounded by the precision."""
+        """Return the number of bits in the binary exponent of x. (The precision already limits the size of
+        mantissas.)"""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
-        """Take a flint ball into this ring."""
+        """Return a flint ball as an element of this ring."""
         return Ball(x, self.bits)
 
     def is_zero(self, x: Ball) -> bool | None:
-        """Return False where zero lies outside x, True for the exact point zero, else None."""
+        """Return False if x does not contain zero, True if x is the exact number zero, else None."""
         if not x.value.contains(0):
             return False
         return True if x.value.is_zero() else None
 
     def sign(self, x: Ball) -> int | None:
-        """Return -1 or 1 where the whole ball has that sign, 0 for the exact point zero, else None."""
+        """Return -1 or 1 if all numbers in the ball have this sign, 0 if x is the exact number zero, else
+        None."""
         if x.value.contains(0):
             return 0 if x.value.is_zero() else None
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Return x as a tableau coefficient: a point exactly, any other ball as a decimal with ``~``.
+        """Return x as a coefficient in a tableau file: an exact number as it is, any other ball as a decimal
+        with ``~``.
 
         The sign ``~`` means an error of at most one unit in the last digit.
 
@@ -115,12 +123,12 @@ class Balls:
         return f"{sign}{body[:-places]}.{body[-places:]}~"
 
     def key(self, x: Ball) -> tuple[int, ...]:
-        """Return the exact end points as integers."""
+        """Return the exact end points of the ball as integers."""
         low, high = endpoints(x.value)
         return int(low.p), int(low.q), int(high.p), int(high.q)
 
     def approximate(self, x: Ball, digits: int = 20) -> str:
-        """Return the midpoint as a decimal; :meth:`radius` bounds its error."""
+        """Return the midpoint as a decimal. :meth:`radius` returns a bound of its error."""
         low, high = endpoints(x.value)
         return rational_decimal((low + high) / 2, digits)
 
@@ -135,16 +143,17 @@ class Balls:
         return rational_decimal((high - low) / 2, digits)
 
     def ball(self, x: Ball, bits: int) -> arb:
-        """Return the ball itself; its precision is fixed."""
+        """Return the ball unchanged; ``bits`` is ignored because the precision is fixed."""
         return x.value
 
 
 class Enclosures:
-    """The ring of real balls with flint's own balls as elements; the caller sets the working precision once.
+    """The ring of real balls whose elements are objects of python-flint. The caller sets the working
+    precision.
 
-    Elements are ``arb``, which have no precision of their own. Inside ``with precision(bits)`` each operation
-    gives the same ball as in :class:`Balls`, but faster. Division by a ball that contains zero gives a ball
-    that is not finite, whereas :class:`Ball` raises an error.
+    Elements have the type ``arb``, which does not store a precision. In a block ``with precision(bits)`` each
+    operation returns the same ball as in :class:`Balls`, but takes less time. Division by a ball that
+    contains zero returns a ball that is not finite; in :class:`Balls` it raises an error.
 
     >>> with precision(128):
     ...     R = Enclosures(128)
@@ -160,21 +169,21 @@ class Enclosures:
         self.one = arb(1)
 
     def rational(self, p: int, q: int = 1) -> arb:
-        """Return a ball around p/q, exact where p/q fits the working precision."""
+        """Return a ball around p/q. It is exact if p/q can be represented at the working precision."""
         return arb(fmpq(p, q))
 
     def is_zero(self, x: arb) -> bool | None:
-        """Return False where zero lies outside x, True for the exact point zero, else None."""
+        """Return False if x does not contain zero, True if x is the exact number zero, else None."""
         if x.is_zero():
             return True
         return None if x.contains(0) else False
 
     def text(self, x: arb) -> str:
-        """Return the text of :meth:`Balls.text`."""
+        """Return the same text as :meth:`Balls.text`."""
         return Balls(self.bits).text(Ball(x, self.bits))
 
     def key(self, x: arb) -> tuple[int, ...]:
-        """Return the exact end points as integers."""
+        """Return the exact end points of the ball as integers."""
         return Balls(self.bits).key(Ball(x, self.bits))
 
     def approximate(self, x: arb, digits: int = 20) -> str:
@@ -183,23 +192,25 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # x is exact and must stay so: arithmetic, even abs, would round it to flint's current precision.
+    # x is exact and must remain exact. Any arithmetic, even abs, would round it to the current precision of
+    # flint.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 
 
 def _supported_places(radius: fmpq) -> int:
-    """Return the most decimal places d with radius + half a unit <= one unit, that is 10^-d >= 2 radius."""
+    """Return the largest number d of decimal places with radius + half a unit <= one unit, that is, 10^-d >=
+    2 radius."""
     places = len(str(radius.q)) - len(
         str(radius.p)
-    )  # flint converts integers of any length, Python only up to 4300 digits
+    )  # flint converts integers of any length; Python converts at most 4300 digits
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
     return places
 
 
 class Ball:
-    """A real number enclosed by the flint ball ``value``; arithmetic runs at ``bits`` of precision."""
+    """A real number enclosed by the flint ball ``value``. Arithmetic uses ``bits`` bits of precision."""
 
     __slots__ = ("bits", "value")
 
@@ -264,7 +275,8 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Whether two balls are the same enclosure; :meth:`Balls.is_zero` compares the numbers."""
+        """Whether two balls are equal as enclosures. Whether the enclosed numbers are equal is decided by
+        :meth:`Balls.is_zero`."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:
@@ -275,7 +287,7 @@ class Ball:
 
 
 def _finite(x: arb, bits: int) -> Ball:
-    """Raise ZeroDivisionError for division by a ball that contains zero."""
+    """Return a finite flint ball as a :class:`Ball`; raise ZeroDivisionError if it is not finite."""
     if not x.is_finite():
         raise ZeroDivisionError("division by a ball that contains zero")
     return Ball(x, bits)

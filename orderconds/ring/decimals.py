@@ -1,7 +1,8 @@
 """Exact numbers as decimals and doubles, rounded once and correctly.
 
-A number is given as a rational or as an enclosure that can be asked for more bits. The enclosure is refined
-until both of its ends round to the same answer. So the result never depends on a working precision.
+A number is given as a rational number or as an enclosure that can be computed to any precision. The precision
+is increased until both end points of the enclosure round to the same result. Hence the result is correct and
+does not depend on a working precision.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A real number as a function from bits of precision to a ball that contains it."""
+"""A real number, as a function that returns for each number of bits a ball that contains it."""
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:
-    """Return the exact lower and upper ends of a finite ball.
+    """Return the exact lower and upper end points of a finite ball.
 
     >>> endpoints(arb("0.75"))
     (3/4, 3/4)
@@ -33,7 +34,8 @@ def _dyadic(x: arb) -> fmpq:
 
 
 def rational_decimal(x: fmpq, digits: int) -> str:
-    """Return x with ``digits`` significant digits, ties to even; an exact decimal drops its trailing zeros.
+    """Return x with ``digits`` significant digits, ties to even. If the result is exact, trailing zeros are
+    removed.
 
     >>> rational_decimal(fmpq(2, 3), 5), rational_decimal(fmpq(-1, 8), 20)
     ('0.66667', '-0.125')
@@ -43,9 +45,8 @@ def rational_decimal(x: fmpq, digits: int) -> str:
     p, q = abs(int(x.p)), int(x.q)
     if p == 0:
         return "0"
-    exponent = len(_figures(p)) - len(
-        _figures(q)
-    )  # 10^exponent <= p/q < 10^(exponent+1), up to the correction below
+    # After the correction by one, 10^exponent <= p/q < 10^(exponent+1).
+    exponent = len(_figures(p)) - len(_figures(q))
     if p * 10 ** max(-exponent, 0) < q * 10 ** max(exponent, 0):
         exponent -= 1
     shift = digits - 1 - exponent
@@ -61,12 +62,13 @@ def rational_decimal(x: fmpq, digits: int) -> str:
 
 
 def _figures(n: int) -> str:
-    """Return the decimal digits of n; Python refuses more than 4300, flint does not."""
+    """Return the decimal digits of n. Python converts at most 4300 digits; flint has no limit."""
     return str(fmpz(n))
 
 
 def _place_point(figures: str, exponent: int) -> str:
-    """Insert the decimal point: plain notation for numbers near one, scientific notation for others."""
+    """Return a decimal as text: plain notation for numbers near one, scientific notation for all other
+    numbers."""
     if -5 <= exponent < 0:
         return "0." + "0" * (-exponent - 1) + figures
     if 0 <= exponent < 25:
@@ -78,7 +80,7 @@ def _place_point(figures: str, exponent: int) -> str:
 
 
 def decimal(enclosure: Enclosure, digits: int) -> str:
-    """Return an irrational number, known through its enclosures, correctly rounded to ``digits`` digits.
+    """Return an irrational number, given by enclosures, correctly rounded to ``digits`` digits.
 
     >>> from orderconds.ring.precision import precision
     >>> def root(bits):
@@ -92,7 +94,7 @@ def decimal(enclosure: Enclosure, digits: int) -> str:
 
 
 def nearest_float(enclosure: Enclosure) -> float:
-    """Return the double nearest to a number known through its enclosures.
+    """Return the double nearest to a number that is given by enclosures.
 
     >>> from orderconds.ring.precision import precision
     >>> def root(bits):

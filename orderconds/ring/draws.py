@@ -1,7 +1,7 @@
-"""Pseudorandom numbers from a digest of a description: SHA-256 in counter mode.
+"""Pseudorandom numbers computed from the SHA-256 digest of a description, in counter mode.
 
-A test at random points, or modulo a random prime, is valid only if the object is fixed before the points are
-chosen. Therefore the points come from a digest of the object itself.
+A randomised test, at random points or modulo a random prime, is valid only if the tested object does not
+depend on the random numbers. Therefore the random numbers are computed from a digest of the object itself.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from flint import fmpz
 
 
 class Draws:
-    """Numbers drawn from a digest of ``described``, one for each name.
+    """Pseudorandom numbers computed from a digest of ``described``, one for each name.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)
@@ -24,7 +24,7 @@ class Draws:
         self._digest = sha256("\0".join(described).encode()).digest()
 
     def number(self, name: str, bits: int) -> int:
-        """Return the number of this name, uniform below 2^bits."""
+        """Return the number for this name, uniformly distributed below 2^bits."""
         blocks = -(-bits // 256)
         drawn = b"".join(
             sha256(self._digest + block.to_bytes(4, "big") + name.encode()).digest()
@@ -33,9 +33,10 @@ class Draws:
         return int.from_bytes(drawn, "big") >> (256 * blocks - bits)
 
     def primes(self, bits: int, avoided: Iterable[int] = ()) -> Iterator[int]:
-        """Yield different primes of ``bits`` bits, 3 modulo 4, that divide none of the numbers ``avoided``.
+        """Yield different primes of ``bits`` bits that are 3 modulo 4 and divide none of the numbers
+        ``avoided``.
 
-        Modulo such a prime p, the power (p + 1)/4 of a square is a square root.
+        For such a prime p, a square root of a square x modulo p is x^((p + 1)/4).
 
         >>> next(Draws("one file").primes(61)).bit_length()
         61

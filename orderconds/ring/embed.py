@@ -1,4 +1,5 @@
-"""The natural maps between rings: Q into every ring, number fields into balls, rings into power series."""
+"""Maps from one ring to another: Q into every ring, number fields into balls, rings into their power
+series."""
 
 from __future__ import annotations
 
@@ -11,7 +12,9 @@ from orderconds.ring.rationals import Rationals
 
 
 def embedding(source: Ring, target: Ring) -> Callable[[Element], Element]:
-    """Return the map that takes elements of ``source`` into ``target``; TypeError where there is none.
+    """Return the map of elements of ``source`` to elements of ``target``.
+
+    Raises TypeError if there is no such map.
 
     >>> from orderconds.ring import QQ, PowerSeries
     >>> R = PowerSeries(QQ, 2)
@@ -36,5 +39,5 @@ def embedding(source: Ring, target: Ring) -> Callable[[Element], Element]:
 
 def _ball(source: Ring, x: Element, bits: int) -> Element:
     if not hasattr(source, "ball"):
-        raise TypeError(f"no enclosures of elements of {source.name}")
+        raise TypeError(f"the elements of {source.name} have no enclosures")
     return source.ball(x, bits)

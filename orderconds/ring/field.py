@@ -1,9 +1,9 @@
-"""Real number fields: exact algebraic numbers that decide zero.
+"""Real number fields: exact algebraic numbers, for which equality with zero is decidable.
 
 A field Q(a) is represented by a monic irreducible polynomial and enclosures of its real root a. An element is
 a polynomial in a of lower degree; it is zero iff this polynomial is zero.
-:class:`orderconds.ring.tower.Tower` builds fields, one root at a time. In arithmetic, an element of a smaller
-field of a tower is lifted to the larger field automatically.
+:class:`orderconds.ring.tower.Tower` constructs fields by adjoining one root after another. If the operands
+belong to different fields of a tower, the element of the smaller field is lifted to the larger field.
 """
 
 from __future__ import annotations
@@ -21,18 +21,19 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""From this degree on, division solves a linear system."""
+"""The degree from which on division solves a linear system."""
 
 REMEMBERED = 1000
-"""The largest number of elements of smaller fields whose lifts a field caches."""
+"""The largest number of elements of smaller fields for which a field caches the lifted elements."""
 
 
 class Generator(Struct, frozen=True):
-    """A root adjoined to a field: its symbol, the index n of a radical (0 for a named root), its enclosure.
+    """A root that is adjoined to a field: its symbol, the index n of a radical (0 for a named root), and its
+    enclosure.
 
     The symbol of a radical ``radicand^(1/index)`` is its radicand; the symbol of a named root is its name.
-    ``degree`` is the degree of the field over the preceding field. Named roots keep their ``minpoly``,
-    because a tableau file states it.
+    ``degree`` is the degree of the field over the preceding field. Named roots store their ``minpoly``,
+    because a tableau file contains it.
     """
 
     symbol: str
@@ -42,7 +43,7 @@ class Generator(Struct, frozen=True):
     minpoly: fmpq_poly | None = None
 
     def power(self, n: int) -> str:
-        """Return the n-th power as text, n > 0."""
+        """Return the n-th power as text, for n > 0."""
         if self.index == 0:
             return self.symbol if n == 1 else f"{self.symbol}^{n}"
         if self.index == 2 and n == 1:
@@ -55,8 +56,8 @@ class NumberField:
     """The real field Q[x]/(modulus) with the embedding that sends x to the enclosed root.
 
     ``generators`` are the adjoined roots; ``images`` are these roots as polynomials in x. ``parent`` is the
-    field before the last root was adjoined; ``parent_image`` is the parent's primitive element as a
-    polynomial in x. ``reciprocals`` is a cache, because a method divides by the same few weights, and one
+    field to which the last root was adjoined; ``parent_image`` is the primitive element of the parent as a
+    polynomial in x. ``reciprocals`` is a cache of inverses. A method divides only by a few weights, and one
     division costs as much as many products.
     """
 
@@ -86,7 +87,7 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """The generators with the enclosed roots, in order: equal fields have equal keys."""
+        """The generators with the enclosed roots, in order. Equal fields have equal keys."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -98,7 +99,7 @@ class NumberField:
         return hash(self.name)
 
     def enclosure(self, bits: int) -> arb:
-        """Return a ball around the primitive element, of relative radius about 2^-bits."""
+        """Return a ball around the primitive element, with relative radius about 2^-bits."""
         if bits not in self._enclosed:
             self._enclosed[bits] = self._enclosure(bits)
         return self._enclosed[bits]
@@ -108,15 +109,15 @@ class NumberField:
         return Algebraic(self, fmpq_poly([fmpq(p, q)]))
 
     def is_zero(self, x: Algebraic) -> bool:
-        """Decide x = 0."""
+        """Whether x = 0, decided exactly."""
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
-        """Return an element of a smaller field of the same tower as an element of this one."""
+        """Return an element of a smaller field of the same tower as an element of this field."""
         if x.field == self:
             return x
         if self.parent is None or self.parent_image is None or x.field.height >= self.height:
-            raise TypeError(f"{x.field} is no subfield of {self} by construction")
+            raise TypeError(f"{x.field} is not a subfield of {self} in the same tower")
         known = self._lifts.get(id(x))
         if known is not None and known[0] is x:
             return known[1]
@@ -127,7 +128,7 @@ class NumberField:
         for basis, c in zip(self._parent_powers, below.coeffs(), strict=False):
             image = image + basis * c
         lifted = Algebraic(self, image)
-        # Reading a file lifts the same few numbers again and again.
+        # While a file is read, the same few numbers are lifted many times.
         if len(self._lifts) >= REMEMBERED:
             self._lifts.clear()
         self._lifts[id(x)] = (x, lifted)
@@ -144,7 +145,7 @@ class NumberField:
 
     @property
     def named_roots(self) -> tuple[tuple[str, tuple[str, ...], str], ...]:
-        """(name, minimal polynomial, isolating decimal) of the generators that have a name."""
+        """The generators that have a name, as triples (name, minimal polynomial, isolating decimal)."""
         return tuple(
             (g.symbol, tuple(str(c) for c in g.minpoly.coeffs()), isolating(g.minpoly, g.enclosure))
             for g in self.generators
@@ -153,7 +154,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """Exponents of the generators whose products are a basis of the field, lowest first."""
+        """The exponents of the generators, for the products that form a basis of the field, lowest exponents
+        first."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -174,7 +176,7 @@ class NumberField:
         return tuple((self._to_monomials * _columns([polynomial], self.degree)).entries())
 
     def text(self, x: Algebraic) -> str:
-        """Return x as text in the generators, in the grammar of tableau files.
+        """Return x as text in terms of the generators, in the grammar of tableau files.
 
         >>> from orderconds.ring.tower import Tower
         >>> tower = Tower()
@@ -191,11 +193,11 @@ class NumberField:
         return "-" + text[2:] if text.startswith("- ") else text or "0"
 
     def key(self, x: Algebraic) -> Key:
-        """Return the coefficients of the representing polynomial."""
+        """Return the coefficients of the polynomial that represents x."""
         return tuple((int(c.p), int(c.q)) for c in x.polynomial.coeffs())
 
     def ball(self, x: Algebraic, bits: int) -> arb:
-        """Return a ball around x of relative radius at most 2^-bits."""
+        """Return a ball around x with relative radius at most 2^-bits."""
         x = self.lift(x)
         if self.is_zero(x):
             return arb(0)
@@ -209,7 +211,7 @@ class NumberField:
             working *= 2
 
     def sign(self, x: Algebraic) -> int:
-        """Return -1, 0 or 1."""
+        """Return the sign of x: -1, 0 or 1."""
         return 0 if self.is_zero(x) else 1 if self.ball(x, 8) > 0 else -1
 
     def approximate(self, x: Algebraic, digits: int = 20) -> str:
@@ -226,7 +228,7 @@ class NumberField:
 
 
 class Algebraic:
-    """An element of a number field: ``polynomial`` in the primitive element, reduced.
+    """An element of a number field: a reduced ``polynomial`` in the primitive element.
 
     Operands may be elements of fields of the same tower, fmpq or int.
     """
@@ -246,12 +248,12 @@ class Algebraic:
 
     @property
     def rational_value(self) -> fmpq:
-        """The value of a rational element."""
+        """The value of an element that is a rational number."""
         return self.polynomial[0]
 
     @property
     def minimal_polynomial(self) -> fmpq_poly:
-        """The monic irreducible polynomial over Q with this root.
+        """The monic irreducible polynomial over Q that has this number as a root.
 
         >>> from orderconds.ring.tower import Tower
         >>> tower = Tower()
@@ -259,7 +261,7 @@ class Algebraic:
         >>> x.minimal_polynomial
         x^4 + (-10)*x^2 + 1
         """
-        # multiplication by x has a power of the minimal polynomial as characteristic polynomial
+        # the characteristic polynomial of multiplication by x is a power of the minimal polynomial
         factor = _columns(self._multiples(), self.field.degree).charpoly().factor()[1][0][0]
         return factor / factor.leading_coefficient()
 
@@ -275,7 +277,7 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        if type(other) is Algebraic and other.field is self.field:  # in almost every sum
+        if type(other) is Algebraic and other.field is self.field:  # This case occurs in almost every sum.
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
             return NotImplemented
@@ -309,7 +311,7 @@ class Algebraic:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Algebraic:
-        """Return 1/x; ZeroDivisionError for x = 0."""
+        """Return 1/x; raise ZeroDivisionError for x = 0."""
         if self.polynomial.is_zero():
             raise ZeroDivisionError("division by an algebraic number that is zero")
         key = str(self.polynomial)
@@ -323,13 +325,15 @@ class Algebraic:
         return self.polynomial.xgcd(self.field.modulus)[1]
 
     def _solved(self) -> fmpq_poly:
-        """Return y with x y = 1 by linear algebra, because Euclid's algorithm has long coefficients."""
+        """Return y with x y = 1 by linear algebra. Euclid's algorithm is slower, because its intermediate
+        coefficients are long."""
         degree = self.field.degree
         unit = fmpq_mat(degree, 1, [1] + [0] * (degree - 1))
         return fmpq_poly(_columns(self._multiples(), degree).solve(unit).entries())
 
     def _multiples(self) -> list[fmpq_poly]:
-        """Return x a^k for the primitive element a: the columns of the matrix of multiplication by x."""
+        """Return x a^k for all powers of the primitive element a. These are the columns of the matrix of
+        multiplication by x."""
         columns, image = [], self.polynomial
         for _ in range(self.field.degree):
             columns.append(image)
@@ -353,7 +357,7 @@ class Algebraic:
     def __eq__(self, other: object) -> bool:
         try:
             pair = self._pair(other)
-        except TypeError:  # fields of different towers have no elements in common by construction
+        except TypeError:  # numbers in fields of different towers are not comparable
             return False
         return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
 

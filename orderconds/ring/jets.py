@@ -1,7 +1,7 @@
-"""Balls with gradients: values and first derivatives of any formula, enclosed together.
+"""Balls with gradients: rigorous enclosures of the value and of the first derivatives of a formula.
 
-This is automatic differentiation in forward mode. The caller sets the precision with ``with
-precision(bits)``. The enclosures of the value and of all partial derivatives are rigorous.
+The method is automatic differentiation in forward mode. The caller sets the precision in a block ``with
+precision(bits)``.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from orderconds.ring.protocol import Element
 
 
 class Jets:
-    """The ring of functions of ``width`` variables near a point or on a box, to first order.
+    """The ring of functions of ``width`` variables, given by value and gradient at a point or on a box.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(64):
@@ -38,11 +38,11 @@ class Jets:
         return self.name
 
     def variable(self, place: int, value: arb) -> Jet:
-        """Return the variable with index ``place``, enclosed by ``value``."""
+        """Return the variable with index ``place``. Its value is enclosed by ``value``."""
         return Jet(value, self.width, arb_mat(1, self.width, [int(k == place) for k in range(self.width)]))
 
     def constant(self, value: arb) -> Jet:
-        """Return a constant, a number with zero gradient."""
+        """Return a constant: a number with gradient zero."""
         return Jet(value, self.width)
 
     def rational(self, p: int, q: int = 1) -> Jet:
@@ -50,19 +50,22 @@ class Jets:
         return Jet(arb(fmpq(p, q)), self.width)
 
     def root(self, x: Jet, index: int) -> Jet:
-        """Return the real root; ValueError where x may be zero, or negative with an even index."""
+        """Return the real root of x with this index.
+
+        Raises ValueError if x may be zero, or negative for an even index.
+        """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
-            raise ValueError("a root of a number whose sign is not known")
+            raise ValueError("a root of a number whose sign is not proved")
         value = -((-x.value).root(index)) if negative else x.value.root(index)
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
-        """Return the one real root of ``minpoly`` within ``unit`` of ``near``, a constant."""
+        """Return, as a constant, the only real root of ``minpoly`` within ``unit`` of ``near``."""
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 
     def is_zero(self, x: Jet) -> bool | None:
-        """Return True for the constant zero, False if the enclosure excludes zero, else None."""
+        """Return True for the constant zero, False if the enclosure does not contain zero, else None."""
         if not x.value.contains(0):
             return False
         flat = x.slopes is None or all(g.is_zero() for g in x.gradient)
@@ -73,7 +76,7 @@ class Jets:
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
-        """Return the enclosures as text."""
+        """Return the text of all enclosures, which identifies an element."""
         return (str(x.value), *map(str, x.gradient))
 
     def approximate(self, x: Jet, digits: int = 20) -> str:
@@ -82,9 +85,9 @@ class Jets:
 
 
 class Jet:
-    """A value and its gradient, all flint balls; ``slopes`` None means that the gradient is zero.
+    """A value and its gradient, both as flint balls. If ``slopes`` is None, the gradient is zero.
 
-    The gradient is a matrix of one row, so that one flint call computes with all its entries.
+    The gradient is a matrix of one row, so that one flint operation computes all entries.
     """
 
     __slots__ = ("slopes", "value", "width")
@@ -125,7 +128,7 @@ class Jet:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Jet:
-        """Return 1/x; ZeroDivisionError where x may be zero."""
+        """Return 1/x; raise ZeroDivisionError if x may be zero."""
         if self.value.contains(0):
             raise ZeroDivisionError("division by a ball that contains zero")
         value = 1 / self.value

@@ -1,8 +1,8 @@
-"""Laurent polynomials over Q, which can be divided by monomials such as the weights b_i.
+"""Laurent polynomials over Q. They can be divided by monomials such as the weights b_i.
 
-Families that divide by b_i (SPRK, VCG) are expanded for a fixed number of stages over this ring. An element
-is a fraction in lowest terms, a flint polynomial over a monomial. So equal elements have equal numerators and
-equal denominators.
+This ring is used to expand conditions for a fixed number of stages, in families that divide by b_i (SPRK,
+VCG). An element is a flint polynomial divided by a monomial, in lowest terms. Hence equal elements have equal
+numerators and equal denominators.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Exponents = tuple[int, ...]
 
 
 class LaurentPolynomials:
-    """The ring Q[names, 1/names], terms in degree-lexicographic order of their numerators.
+    """The ring Q[names, 1/names]. Terms are in degree-lexicographic order of the numerators.
 
     >>> R = LaurentPolynomials(["b1", "b2"])
     >>> b1, b2 = R.generators
@@ -41,22 +41,23 @@ class LaurentPolynomials:
         return Laurent(self, self._context.constant(fmpq(p, q)), self.unit)
 
     def monomial(self, exponents: Exponents, scale: Element = 1) -> fmpq_mpoly:
-        """Return scale times the product of the variables to these powers, none of them negative."""
+        """Return scale times the product of the variables to the powers ``exponents``, which must not be
+        negative."""
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
-        """Decide x = 0."""
+        """Whether x = 0."""
         return bool(x.numerator.is_zero())
 
     def terms(self, x: Laurent) -> tuple[tuple[Exponents, fmpq], ...]:
-        """Return ((exponents, coefficient), ...), leading term first."""
+        """Return pairs (exponents, coefficient), the leading term first."""
         return tuple(
             (tuple(int(e) - d for e, d in zip(exponents, x.denominator, strict=True)), c)
             for exponents, c in x.numerator.terms()
         )
 
     def text(self, x: Laurent) -> str:
-        """Return x expanded as text, leading term first."""
+        """Return x as text in expanded form, the leading term first."""
         return " + ".join(self._render(*term) for term in self.terms(x)).replace("+ -", "- ") or "0"
 
     def key(self, x: Laurent) -> Key:
@@ -64,7 +65,7 @@ class LaurentPolynomials:
         return tuple((exponents, int(c.p), int(c.q)) for exponents, c in self.terms(x))
 
     def approximate(self, x: Laurent, digits: int = 20) -> str:
-        """Return x as text, with its rational coefficients unchanged."""
+        """Return x as text. The rational coefficients are not rounded."""
         return self.text(x)
 
     def _render(self, exponents: Exponents, c: fmpq) -> str:
@@ -74,7 +75,8 @@ class LaurentPolynomials:
 
 
 class Laurent:
-    """An element numerator / x^denominator of ``ring``, in lowest terms."""
+    """An element numerator / x^denominator of ``ring``, in lowest terms; ``denominator`` contains one
+    exponent for each variable."""
 
     __slots__ = ("denominator", "numerator", "ring")
 
@@ -135,13 +137,13 @@ class Laurent:
     __rmul__ = __mul__
 
     def __truediv__(self, other: object) -> Laurent:
-        """Divide by a non-zero monomial; raise ZeroDivisionError for anything else."""
+        """Return the quotient by a non-zero monomial; raise ZeroDivisionError for any other divisor."""
         y = self._other(other)
         if y is None:
             return NotImplemented
         terms = self.ring.terms(y)
         if len(terms) != 1:
-            raise ZeroDivisionError(f"{y!r} is no unit of {self.ring}")
+            raise ZeroDivisionError(f"{y!r} has no inverse in {self.ring}")
         exponents, scale = terms[0]
         up = self.ring.monomial(tuple(max(0, -e) for e in exponents), 1 / scale)
         down = tuple(d + max(0, e) for d, e in zip(self.denominator, exponents, strict=True))

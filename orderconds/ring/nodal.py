@@ -1,14 +1,14 @@
-"""Vectors over the stages as polynomials in the nodes, for methods where these polynomials are rational.
+"""Vectors over the stages, represented by rational polynomials in the nodes.
 
-Let the nodes c_i of a method be the simple roots of one polynomial M over Q, as in Gauss, Radau and Lobatto
-methods. Each vector x over the stages is then p(c) for exactly one polynomial p modulo M. The componentwise
-product of vectors is the product of polynomials modulo M, and a matrix A is a linear map of polynomials. If A
-c^k is a *rational* polynomial in c and b.c^k a rational number for all k < s, all computations stay in Q. For
-example, five Radau nodes generate a field of degree 24, but a product costs one flint operation instead of
-five of degree 24.
+Suppose that the nodes c_1, ..., c_s of a method are the simple roots of one polynomial M over Q, as for
+Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for exactly one polynomial p
+modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
+linear map of polynomials. Suppose that for all k < s, A c^k is a polynomial in c with *rational*
+coefficients, and b.c^k is a rational number. Then all computations are done over Q. For example, five Radau
+nodes generate a field of degree 24, but a product costs one flint operation instead of five of degree 24.
 
-The rational polynomials are guessed from balls and then verified exactly in the field. ``A p`` is ``int_0^z
-p`` modulo M, plus corrections at a few powers; a collocation method has no corrections.
+The rational coefficients are guessed from balls and then verified exactly in the number field. ``A p`` is
+``int_0^z p`` modulo M, plus corrections at a few powers; a collocation method has no corrections.
 """
 
 from __future__ import annotations
@@ -24,16 +24,17 @@ from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
-"""The precision of the balls from which rational numbers are guessed."""
+"""The precision, in bits, of the balls from which rational numbers are guessed."""
 
 Matrix = Sequence[Sequence[Element]]
 
 
 class NodalAlgebra:
-    """Q[z]/M for the nodes of a method, with its matrices and weights as maps.
+    """The algebra Q[z]/M for the nodes of a method. The matrices and weights of the method are linear maps of
+    this algebra.
 
-    ``corrections[kind]`` holds pairs (k, polynomial), the non-zero differences of A z^k and the integral of
-    z^k. ``moments`` holds pairs (k, number), the non-zero differences b.c^k - 1/(k + 1). Vectors are
+    ``corrections[kind]`` contains pairs (k, polynomial): the non-zero differences of A z^k and the integral
+    of z^k. ``moments`` contains pairs (k, number): the non-zero differences b.c^k - 1/(k + 1). Vectors are
     ``fmpq_poly`` of degree below the number of stages.
 
     >>> from orderconds.tableau import Tableau, find
@@ -61,7 +62,7 @@ class NodalAlgebra:
         self.moments = [(k, q) for k, m in enumerate(functional) if (q := m - fmpq(1, k + 1))]
 
     def multiply(self, x: fmpq_poly, y: fmpq_poly) -> fmpq_poly:
-        """Return the componentwise product."""
+        """Return the componentwise product of two vectors."""
         return x * y % self.modulus
 
     def apply(self, kind: int, x: fmpq_poly) -> fmpq_poly:
@@ -72,14 +73,15 @@ class NodalAlgebra:
         return image
 
     def weigh(self, x: fmpq_poly) -> fmpq:
-        """Return b.x."""
+        """Return b^T x for the weights b."""
         total = x.integral()(1)
         for k, correction in self.moments:
             total = total + correction * x[k]
         return total
 
     def rational_maps(self) -> tuple[list[list[fmpq]], list[list[fmpq]]]:
-        """Return the matrices of A - 1 b^T and of A on polynomials in the nodes, for the first matrix A.
+        """Return the matrices of the maps A - 1 b^T and A on polynomials in the nodes, where A is the first
+        matrix.
 
         >>> from orderconds.tableau import Tableau, find
         >>> gauss2 = Tableau.load(find("gauss2"))
@@ -94,7 +96,10 @@ class NodalAlgebra:
 
 
 def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) -> NodalAlgebra | None:
-    """Return the algebra of the nodes c_i = sum_j a_ij of the first matrix; None if it is not rational.
+    """Return the algebra for the nodes c_i = sum_j a_ij of the first matrix.
+
+    The result is None if the field of the coefficients is Q, if two nodes are equal, or if some map is not
+    rational.
 
     >>> from orderconds.tableau import Tableau, find
     >>> crouzeix3 = Tableau.load(find("crouzeix3"))
@@ -107,7 +112,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key: coefficients compared by identity, so that the orders of one check share one algebra."""
+    """A cache key. Coefficients are compared by identity, so that all orders of one check use the same
+    algebra."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -155,7 +161,7 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """Guess the rational coefficients of a polynomial by interpolation at the nodes with balls."""
+    """The rational coefficients of a polynomial, guessed by interpolation at the nodes with balls."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)
@@ -170,7 +176,8 @@ class _Guess:
 
 
 def simplest(x: arb) -> fmpq:
-    """Return the rational number of least denominator in a ball, by the continued fractions of its ends.
+    """Return the rational number with the smallest denominator in a ball, by the continued fractions of its
+    end points.
 
     >>> with precision(64):
     ...     simplest(arb(22) / 7)
@@ -194,7 +201,8 @@ def simplest(x: arb) -> fmpq:
 def _rational_polynomial(
     values: Sequence[Algebraic], powers: Sequence[Sequence[Algebraic]], guess: _Guess, ring: NumberField
 ) -> fmpq_poly | None:
-    """Return the rational polynomial with these values at the nodes, None where there is none."""
+    """Return the rational polynomial with these values at the nodes, or None if there is no such
+    polynomial."""
     coefficients = guess(values)
     for i, value in enumerate(values):
         at_node = sum((power[i] * c for power, c in zip(powers, coefficients, strict=True)), ring.zero)

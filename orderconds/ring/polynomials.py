@@ -1,6 +1,7 @@
-"""Polynomials over Q in named variables: conditions expanded for a fixed number of stages.
+"""Polynomials over Q in named variables, used to expand conditions for a fixed number of stages.
 
-Elements are flint's fmpq_mpoly, unwrapped; variables and monomials are ordered as the names are given.
+Elements have python-flint's type ``fmpq_mpoly``. The order of the names defines the order of variables and of
+monomials.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from orderconds.ring.protocol import Key
 
 
 class Polynomials:
-    """The ring Q[names], degree-lexicographic.
+    """The ring Q[names] with the degree-lexicographic order of monomials.
 
     >>> R = Polynomials(["b1", "b2"])
     >>> b1, b2 = R.generators
@@ -40,7 +41,7 @@ class Polynomials:
         return hash(self.names)
 
     def generator(self, name: str) -> fmpq_mpoly:
-        """Return the variable of that name."""
+        """Return the variable with this name."""
         return self.generators[self.names.index(name)]
 
     def rational(self, p: int, q: int = 1) -> fmpq_mpoly:
@@ -48,15 +49,15 @@ class Polynomials:
         return self._context.constant(fmpq(p, q))
 
     def is_zero(self, x: fmpq_mpoly) -> bool:
-        """Decide x = 0."""
+        """Whether x = 0."""
         return bool(x.is_zero())
 
     def terms(self, x: fmpq_mpoly) -> tuple[tuple[tuple[int, ...], fmpq], ...]:
-        """Return ((exponents, coefficient), ...), leading term first."""
+        """Return pairs (exponents, coefficient), the leading term first."""
         return tuple((tuple(int(e) for e in exponents), c) for exponents, c in x.terms())
 
     def text(self, x: fmpq_mpoly) -> str:
-        """Return x expanded as text, leading term first."""
+        """Return x as text in expanded form, the leading term first."""
         return self._render(x, str)
 
     def key(self, x: fmpq_mpoly) -> Key:

@@ -1,4 +1,4 @@
-"""Whole powers by squaring, for elements of any ring; negative ones where the ring divides."""
+"""Integer powers by repeated squaring, for elements of any ring. Negative powers require division."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ T = TypeVar("T")
 
 
 def power(x: T, n: int, one: T) -> T:
-    """Return x^n; x^0 is ``one``. ZeroDivisionError where n < 0 and x is no unit.
+    """Return x^n, where x^0 is ``one``; raise ZeroDivisionError if n < 0 and x has no inverse.
 
     >>> power(3, 5, 1), power(2.0, -2, 1)
     (243, 0.25)

@@ -1,6 +1,7 @@
-"""Truncated power series in h over any base ring: h^0 ... h^order are kept, the rest is dropped.
+"""Truncated power series in h over any base ring. Terms above h^order are dropped.
 
-A step program that runs over this ring yields the exact Taylor coefficients of its local error.
+If a step program is evaluated over this ring, the result contains the exact Taylor coefficients of its local
+error.
 """
 
 from __future__ import annotations
@@ -43,17 +44,18 @@ class PowerSeries:
         return Series(self, (x, *self.zero.coefficients[1:]))
 
     def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:
-        """Return the series with the given first coefficients, truncated or filled with zeros."""
+        """Return the series with these first coefficients. Further coefficients are zero; coefficients above
+        the order are dropped."""
         kept = coefficients[: self.order + 1]
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
     def is_zero(self, x: Series) -> bool | None:
-        """Decide that every kept coefficient vanishes; None if the base ring cannot decide."""
+        """Whether all coefficients up to the order vanish; None if the base ring cannot decide."""
         verdicts = [self.base.is_zero(c) for c in x.coefficients]
         return False if False in verdicts else None if None in verdicts else True
 
     def text(self, x: Series) -> str:
-        """Return x as text by ascending powers of h; coefficients that are sums are put in parentheses."""
+        """Return x as text, in ascending powers of h. Coefficients that are sums are in parentheses."""
         terms = []
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is True:
@@ -69,7 +71,7 @@ class PowerSeries:
         return " + ".join(terms).replace("+ -", "- ") if terms else "0"
 
     def key(self, x: Series) -> Key:
-        """Return the keys of the coefficients."""
+        """Return the tuple of the keys of the coefficients."""
         return tuple(self.base.key(c) for c in x.coefficients)
 
     def approximate(self, x: Series, digits: int = 20) -> str:
@@ -77,7 +79,8 @@ class PowerSeries:
         return "[" + ", ".join(self.base.approximate(c, digits) for c in x.coefficients) + "]"
 
     def valuation(self, x: Series) -> int:
-        """Return the lowest power of h whose coefficient is not proved zero; order + 1 for zero."""
+        """Return the lowest power of h whose coefficient is not proved to be zero, or order + 1 if all
+        coefficients are zero."""
         for k, c in enumerate(x.coefficients):
             if self.base.is_zero(c) is not True:
                 return k
@@ -87,7 +90,7 @@ class PowerSeries:
 class Series:
     """A truncated power series; ``coefficients[k]`` multiplies h^k.
 
-    Operands may be series of the same ring, elements of the base ring, or ints.
+    Operands may be series of the same ring, elements of the base ring, or integers.
     """
 
     __slots__ = ("coefficients", "ring")
@@ -100,7 +103,7 @@ class Series:
         return f"Series({self.ring.text(self)})"
 
     def _constant(self, other: Element) -> Element:
-        """Return an operand that is no series as an element of the base ring."""
+        """Return an operand that is not a series as an element of the base ring."""
         return self.ring.base.rational(other) if isinstance(other, int) else other
 
     def _same(self, other: Series) -> tuple[Element, ...]:
@@ -147,10 +150,11 @@ class Series:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Series:
-        """Return 1/x for a unit x, by b_n = -b_0 sum_{k>=1} x_k b_{n-k}."""
+        """Return 1/x for a series x with invertible x_0, by the recurrence b_n = -b_0 sum_{k>=1} x_k
+        b_{n-k}."""
         unit = self.coefficients[0]
         if self.ring.base.is_zero(unit) is True:
-            raise ZeroDivisionError("division by a power series without constant term")
+            raise ZeroDivisionError("division by a power series whose constant term is zero")
         first = self.ring.base.one / unit
         result = [first]
         for n in range(1, self.ring.order + 1):

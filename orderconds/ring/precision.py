@@ -1,7 +1,8 @@
-"""The one place that touches flint's working precision, which is global to the process.
+"""The only module that changes the working precision of flint, which is global to the process.
 
-All other modules set the precision through this one, which restores the caller's precision afterwards. So two
-rings of different precision, or a user's own use of python-flint, do not affect each other.
+All other modules set the precision through this module, which restores the previous precision afterwards.
+Hence rings of different precision do not affect each other, and the user's own code with python-flint is not
+affected.
 """
 
 from __future__ import annotations
@@ -12,7 +13,8 @@ from flint import ctx
 
 
 class precision:  # noqa: N801 - reads as the statement it is: with precision(200): ...
-    """Run a block with ``bits`` of working precision for balls, then restore the old precision.
+    """A context manager that sets the working precision of balls to ``bits`` and restores the previous
+    precision at the end.
 
     >>> from flint import arb
     >>> with precision(200):

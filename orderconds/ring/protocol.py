@@ -1,20 +1,24 @@
 """The interface of scalar rings, so that one algorithm works over exact, certified, symbolic and numeric
 scalars.
 
-Elements carry their own arithmetic: ``+ - *`` among themselves and with Python ``int`` on either side, unary
-``-``, and ``/`` where the ring is a field. Everything else goes through the ring object.
+Elements define the arithmetic operators: ``+ - *`` with other elements and with Python ``int`` on either
+side, unary ``-``, and ``/`` if the ring is a field. All other operations are methods of the ring object.
 """
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    import numpy as np
 
 Element = Any
-"""An element of some ring, or a second operand. Rings are duck-typed, so objects of flint, mpmath and NumPy
-need no wrapper. Only this alias and :data:`Key` leave the types of a ring open."""
+"""An element of some ring, or the second operand of an arithmetic operation. The type is open, so that
+objects of flint, mpmath and NumPy can be elements without a wrapper. Only this alias and :data:`Key` are open
+types."""
 
 Key = tuple[Any, ...]
-"""A key by which elements of one ring are compared: hashable, and totally ordered within the ring."""
+"""A hashable sort key of an element. The keys of all elements of one ring can be compared with each other."""
 
 
 class Ring(Protocol):
@@ -28,16 +32,17 @@ class Ring(Protocol):
         """Return p/q in this ring."""
 
     def is_zero(self, x: Element) -> bool | None:
-        """Decide x = 0; None if the ring cannot decide (a ball that contains zero never proves zero)."""
+        """Return whether x = 0, or None if the ring cannot decide. (A ball that contains other numbers
+        besides zero never proves zero.)"""
 
     def text(self, x: Element) -> str:
-        """Return x as exact text, in the grammar of tableau files where the grammar can express x."""
+        """Return x as exact text, in the grammar of tableau files if this grammar can express x."""
 
     def key(self, x: Element) -> Key:
-        """Return a hashable, totally ordered key; equal elements of this ring have equal keys."""
+        """Return a hashable sort key. Equal elements of this ring have equal keys."""
 
     def approximate(self, x: Element, digits: int = 20) -> str:
-        """Return x as a decimal with that many significant digits, correctly rounded."""
+        """Return x as a decimal, correctly rounded to ``digits`` significant digits."""
 
 
 class RingWithRoots(Ring, Protocol):
@@ -48,7 +53,14 @@ class RingWithRoots(Ring, Protocol):
 
 
 class RealRing(Ring, Protocol):
-    """A ring of real numbers, each of which has a nearest double."""
+    """A ring of real numbers. Each element has a nearest double."""
 
     def nearest_float(self, x: Element) -> float:
         """Return the double nearest to x."""
+
+
+class RandomRing(Ring, Protocol):
+    """A ring with random elements."""
+
+    def random(self, generator: np.random.Generator) -> Element:
+        """Return a random element."""

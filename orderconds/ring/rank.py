@@ -1,4 +1,5 @@
-"""Linear dependences between the columns of a matrix modulo a prime, from its echelon form."""
+"""Linear dependences between the columns of a matrix modulo a prime, computed from the reduced echelon
+form."""
 
 from __future__ import annotations
 
@@ -11,11 +12,12 @@ from orderconds.ring.residues import Residue
 
 
 def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
-    """Return the places of the columns that are no combination of earlier columns: as many as the rank.
+    """Return the indices of the columns that are not linear combinations of earlier columns. Their number is
+    the rank.
 
-    Each column holds the values of one function, one sample in each row. With random samples the answer is
-    also correct for the functions, except with probability about (number of columns) / prime. The number of
-    pivots never exceeds the rank of the functions.
+    Each column contains the values of one function, one sample in each row. If the samples are random, the
+    result is also correct for the functions themselves, except with a probability of about (number of
+    columns) / prime. The number of pivots is never larger than the rank of the functions.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)
@@ -27,7 +29,8 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
 
 
 def combinations(columns: Sequence[Residue]) -> dict[int, dict[int, int]]:
-    """Return every other column as a combination of the pivot columns: column to {pivot column: residue}.
+    """Return each column that is not a pivot column as a combination of pivot columns: {column: {pivot
+    column: residue}}.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

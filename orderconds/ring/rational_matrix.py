@@ -11,7 +11,7 @@ Row = Sequence[Fraction | int]
 
 
 def rank(rows: Sequence[Row]) -> int:
-    """Return the rank of the matrix with these rows, all of one length.
+    """Return the rank of the matrix with these rows, which must have equal lengths.
 
     >>> rank([[1, 2], [Fraction(1, 2), 1]])
     1
@@ -20,10 +20,11 @@ def rank(rows: Sequence[Row]) -> int:
 
 
 def kernel(rows: Sequence[Row], width: int) -> Iterator[list[tuple[int, Fraction]]]:
-    """Yield a basis of the vectors x with ``rows`` x = 0, each as its non-zero entries (place, value).
+    """Yield a basis of the vectors x with ``rows`` x = 0. A vector is given by pairs (index, entry) of its
+    non-zero entries.
 
-    Pivots are taken from the left. Each basis vector has the entry 1 at one column that is no pivot, listed
-    first, and its other entries at pivot columns.
+    Pivot columns are chosen from the left. Each basis vector has the entry 1 at one column that is not a
+    pivot column; this entry comes first. All other entries are at pivot columns.
 
     >>> [[(place, str(x)) for place, x in vector] for vector in kernel([[1, 2, 0]], 3)]
     [[(1, '1'), (0, '-2')], [(2, '1')]]

@@ -1,4 +1,5 @@
-"""The field of rationals: elements are flint's fmpq, unwrapped, because nothing is faster."""
+"""The field of rational numbers. Elements have python-flint's type ``fmpq``, without a wrapper, because this
+is fastest."""
 
 from __future__ import annotations
 
@@ -27,7 +28,7 @@ class Rationals:
         return fmpq(p, q)
 
     def is_zero(self, x: fmpq) -> bool:
-        """Decide x = 0."""
+        """Whether x = 0."""
         return bool(x == 0)
 
     def text(self, x: fmpq) -> str:
@@ -39,7 +40,7 @@ class Rationals:
         return int(x.p), int(x.q)
 
     def approximate(self, x: fmpq, digits: int = 20) -> str:
-        """Return x as a decimal, correctly rounded, trailing zeros dropped where it is exact."""
+        """Return x as a decimal, correctly rounded. If the result is exact, trailing zeros are removed."""
         return rational_decimal(x, digits)
 
     def nearest_float(self, x: fmpq) -> float:
@@ -47,12 +48,12 @@ class Rationals:
         return rational_float(x)
 
     def ball(self, x: fmpq, bits: int) -> arb:
-        """Return a ball of relative radius about 2^-bits around x."""
+        """Return a ball around x with relative radius about 2^-bits."""
         with precision(bits):
             return arb(x)
 
     def sign(self, x: fmpq) -> int:
-        """Return -1, 0 or 1."""
+        """Return the sign of x: -1, 0 or 1."""
         return int(x > 0) - int(x < 0)
 
 

@@ -1,4 +1,4 @@
-"""Rational numbers from their residues modulo primes."""
+"""Reconstruction of rational numbers from their residues modulo primes."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from math import isqrt, prod
 
 
 def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
-    """Return the one fraction p/q with |p| and q at most sqrt(M/2), M the product of the primes.
+    """Return the unique fraction p/q with these residues and with |p| and q at most sqrt(M/2), where M is the
+    product of the primes.
 
-    It is found by Chinese remainders and then by Euclid's algorithm, stopped halfway (von zur Gathen and
-    Gerhard, *Modern Computer Algebra*, Section 5.10). Raises ArithmeticError if no such fraction exists.
+    The algorithm combines the residues by the Chinese remainder theorem, and then stops Euclid's algorithm
+    halfway (von zur Gathen and Gerhard, *Modern Computer Algebra*, Section 5.10). Raises ArithmeticError if
+    no such fraction exists.
 
     >>> primes = (10007, 10009)
     >>> print(rational_number([-5 * pow(12, -1, p) % p for p in primes], primes))

@@ -1,7 +1,8 @@
-"""Residues modulo a prime, many samples at once: the ring in which ranks of conditions are computed.
+"""Vectors of residues modulo a prime, one residue for each sample. Ranks of conditions are computed over this
+ring.
 
-An element is a vector of independent residues; a random vector represents one random tableau per entry. The
-prime is below 2^31, so that products fit in 64 bits.
+An element is a vector of independent residues. A random vector is the value of one coefficient in many random
+tableaux, one tableau for each entry. The prime is below 2^31, so that products fit in 64 bits.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ PRIMES = (2147483647, 2147483629)
 
 
 class Residues:
-    """The ring (Z/prime)^samples; it contains p/q if the prime does not divide q.
+    """The ring (Z/prime)^samples. It contains p/q only if the prime does not divide q.
 
     >>> R = Residues(101, 2)
     >>> R.text(R.rational(1, 2) * 2 + R.one)
@@ -42,10 +43,10 @@ class Residues:
         return hash((self.prime, self.samples))
 
     def rational(self, p: int, q: int = 1) -> Residue:
-        """Return p/q in every sample; ZeroDivisionError where the prime divides q."""
+        """Return p/q in every sample; raise ZeroDivisionError if the prime divides q."""
         p, q = int(p) % self.prime, int(q) % self.prime
         if q == 0:
-            raise ZeroDivisionError(f"denominator divisible by {self.prime}")
+            raise ZeroDivisionError(f"the denominator is divisible by the prime {self.prime}")
         value = p * pow(q, -1, self.prime) % self.prime
         return Residue(self, np.full(self.samples, value, dtype=np.int64))
 
@@ -58,7 +59,7 @@ class Residues:
         return Residue(self, generator.integers(0, self.prime, self.samples, dtype=np.int64))
 
     def is_zero(self, x: Residue) -> bool:
-        """Decide that every sample vanishes."""
+        """Whether all samples are zero."""
         return not x.values.any()
 
     def text(self, x: Residue) -> str:
@@ -70,7 +71,7 @@ class Residues:
         return tuple(int(v) for v in x.values)
 
     def approximate(self, x: Residue, digits: int = 20) -> str:
-        """Return the residues; they have no size to approximate."""
+        """Return the residues as text; a residue has no decimal approximation."""
         return self.text(x)
 
 
@@ -78,7 +79,7 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    __array_ufunc__ = None  # so that NumPy scalars on the left leave the operation to __radd__ etc.
+    __array_ufunc__ = None  # so that Python calls __radd__ etc. if the left operand is a NumPy scalar
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:
         self.ring, self.values = ring, values
@@ -112,7 +113,7 @@ class Residue:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Residue:
-        """Return 1/x by Fermat's x^(p-2); ZeroDivisionError where a sample is zero."""
+        """Return 1/x by Fermat's formula x^(p-2); raise ZeroDivisionError if a sample is zero."""
         if not self.values.all():
             raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
         result, square, n = self.ring.one, self, self.ring.prime - 2

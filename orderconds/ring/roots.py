@@ -1,4 +1,4 @@
-"""Real roots of rational polynomials, isolated by a decimal and enclosed to any precision."""
+"""Real roots of rational polynomials. A decimal identifies a root; balls enclose it to any precision."""
 
 from __future__ import annotations
 
@@ -13,9 +13,11 @@ from orderconds.ring.precision import precision
 
 
 def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, Enclosure]:
-    """Return the monic irreducible factor with the one real root in near +- unit, and that root.
+    """Return the monic irreducible factor that has the only real root in [near - unit, near + unit], and this
+    root.
 
-    ``coefficients`` ascend. Raises ValueError when the interval holds no root or more than one.
+    ``coefficients`` are in ascending order. Raises ValueError if the interval contains no root or more than
+    one.
 
     >>> factor, root = isolate([fmpq(-2), fmpq(0), fmpq(0), fmpq(1)], fmpq(126, 100), fmpq(1, 100))
     >>> factor, root(64).overlaps(arb(2).root(3))
@@ -26,10 +28,11 @@ def isolate(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_
 
 
 def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -> tuple[list[Fraction], int]:
-    """Return the monic irreducible factor with the one real root in near +- unit, and the root's place.
+    """Return the monic irreducible factor that has the only real root in [near - unit, near + unit], and the
+    index of the root.
 
-    Both polynomials have ascending coefficients; the place counts the real roots of the factor from 0, in
-    rising order. Raises ValueError when the interval holds no root or more than one.
+    The coefficients of both polynomials are in ascending order. The index counts the real roots of the factor
+    from 0, in rising order. Raises ValueError if the interval contains no root or more than one.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -45,7 +48,8 @@ def _rational(x: Fraction) -> fmpq:
 
 
 def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> tuple[fmpq_poly, int]:
-    """Return the monic factor with the one real root in near +- unit, and the place of that root."""
+    """Return the monic irreducible factor that has the only real root in [near - unit, near + unit], and the
+    index of this root."""
     polynomial = fmpq_poly(list(coefficients))
     if polynomial.degree() < 1:
         raise ValueError("a constant polynomial has no root")
@@ -59,7 +63,8 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 
 
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
-    """Return the shortest decimal, of at least 10 places, whose last unit isolates ``root`` from other roots.
+    """Return the shortest decimal, with at least 10 places, that identifies ``root``: no other root is within
+    one unit of its last place.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision
@@ -90,7 +95,7 @@ def _meets(x: arb, near: fmpq, unit: fmpq) -> bool:
 
 
 def real_roots(monic: fmpq_poly, bits: int) -> tuple[arb, ...]:
-    """Return balls around the real roots, ascending, so that an index denotes the same root at any precision.
+    """Return balls around the real roots in ascending order. An index denotes the same root at any precision.
 
     >>> [float(x) for x in real_roots(fmpq_poly([-1, 0, 4]), 64)]
     [-0.5, 0.5]

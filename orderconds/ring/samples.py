@@ -1,8 +1,9 @@
-"""Vectors of residues modulo a prime, without NumPy, whose import takes as long as a whole check.
+"""Vectors of residues modulo a prime, implemented without NumPy, because its import takes as long as a whole
+check.
 
 The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))): sample k is the
-value of a polynomial at z = k. One sum or product of polynomials thus computes all samples. The coefficients
-are an invertible linear map of the samples, so ranks can be computed from the coefficients.
+value of a polynomial at z = k. One sum or product of polynomials thus computes the result for all samples. An
+invertible linear map connects samples and coefficients, so ranks can be computed from the coefficients.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from orderconds.ring.protocol import Element
 
 
 class Samples:
-    """The ring of ``count`` samples modulo ``prime``; the prime is larger than ``count``.
+    """The ring of ``count`` samples modulo ``prime``, which must be larger than ``count``.
 
     >>> R = Samples(101, 2)
     >>> x = R.element([3, 5])
@@ -29,18 +30,18 @@ class Samples:
 
     def __init__(self, prime: int, count: int) -> None:
         if not 0 < count < prime:
-            raise ValueError(f"{count} samples modulo {prime}")
+            raise ValueError(f"the prime {prime} must be larger than the number of samples, {count}")
         self.prime, self.count = prime, count
         self.name = f"samples({prime})"
         self.modulus = reduce(mul, [nmod_poly([-k, 1], prime) for k in range(count)])
         self.zero, self.one = self.rational(0), self.rational(1)
 
     def rational(self, p: int, q: int = 1) -> Sample:
-        """Return p/q in every sample; ValueError where the prime divides q."""
+        """Return p/q in every sample; raise ValueError if the prime divides q."""
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
-        """Return the element with these values (Lagrange)."""
+        """Return the element with these values, by Lagrange interpolation."""
         total = nmod_poly([0], self.prime)
         for k, value in enumerate(values):
             other = self.modulus // nmod_poly([-k, 1], self.prime)
@@ -48,21 +49,23 @@ class Samples:
         return Sample(self, total)
 
     def random(self, generator: Random) -> Sample:
-        """Return independent uniform residues; uniform coefficients give uniform samples."""
+        """Return independent, uniformly distributed residues. If coefficients are uniform, samples are
+        uniform."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )
 
     def is_zero(self, x: Sample) -> bool:
-        """Decide that every sample vanishes."""
+        """Whether all samples are zero."""
         return bool(x.polynomial.is_zero())
 
     def constant(self, x: Sample) -> int | None:
-        """Return the value that all samples share, None where they differ."""
+        """Return the common value of all samples, or None if the samples differ."""
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients, an invertible linear map of the samples."""
+        """Return the ``count`` coefficients of the polynomial, which are an invertible linear map of the
+        samples."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -71,11 +74,11 @@ class Samples:
         return str([int(x.polynomial(k)) for k in range(self.count)])
 
     def key(self, x: Sample) -> tuple[int, ...]:
-        """Return the coordinates."""
+        """Return the coefficients of the polynomial."""
         return tuple(self.coordinates(x))
 
     def approximate(self, x: Sample, digits: int = 20) -> str:
-        """Return the samples; they have no size to approximate."""
+        """Return the samples as text; a residue has no decimal approximation."""
         return self.text(x)
 
 
@@ -113,7 +116,7 @@ class Sample:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Sample:
-        """Return 1/x; ZeroDivisionError where a sample is zero."""
+        """Return 1/x; raise ZeroDivisionError if a sample is zero."""
         common, inverse, _ = self.polynomial.xgcd(self.ring.modulus)
         if common.degree() != 0:
             raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
@@ -143,7 +146,8 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return the pivots: the places of columns that are no combination of earlier columns modulo ``prime``.
+    """Return the pivots: the indices of columns that are not combinations of earlier columns modulo
+    ``prime``.
 
     The second value maps every other column to its combination of pivot columns, {pivot: residue}.
 

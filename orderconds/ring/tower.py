@@ -1,9 +1,10 @@
-"""Number fields to which radicals and named roots are adjoined until one field holds every coefficient.
+"""A growing number field: radicals and named roots are adjoined until the field contains every coefficient.
 
-To adjoin a root b of a separable polynomial over K = Q(a), form the algebra K[x]/(polynomial), find an
-element c (b, ab, b + a, b - a, ...) whose powers span it, and its characteristic polynomial. Balls decide
-which irreducible factor vanishes at the real number c. If this factor has the degree of K, b is already an
-element of K, and is returned as one: thus sqrt(8) becomes 2 sqrt(2).
+A root b of a separable polynomial over K = Q(a) is adjoined as follows. In the algebra K[x]/(polynomial), one
+of the elements b, ab, b + a, b - a, ... has powers that span the algebra. Let c be this element. The
+characteristic polynomial of c is computed and factored. Balls decide which irreducible factor vanishes at the
+real number c. If the degree of this factor is the degree of K, b is already an element of K, and no new field
+is formed. For example, sqrt(8) becomes 2 sqrt(2) if K contains sqrt(2).
 """
 
 from __future__ import annotations
@@ -22,17 +23,17 @@ from orderconds.ring.rationals import QQ
 from orderconds.ring.roots import isolate
 
 MAX_DEGREE = 24
-"""Fields of larger degree are refused, because balls are then more efficient."""
+"""The largest degree of a field. For larger degrees, balls are more efficient."""
 MAX_DIMENSION = 64
-"""Algebras of larger dimension are refused before they are formed."""
+"""The largest dimension of an algebra that is formed to adjoin a root."""
 
 
 class DegreeError(ArithmeticError):
-    """The field would exceed :data:`MAX_DEGREE`."""
+    """The error for a field whose degree would exceed :data:`MAX_DEGREE`."""
 
 
 class Tower:
-    """A growing number field; earlier numbers stay valid, because they lift to the later fields.
+    """A growing number field. Earlier numbers remain valid, because they can be lifted to later fields.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -49,27 +50,31 @@ class Tower:
         return self.field.rational(p, q)
 
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
-        """Return an exact rational; raise TypeError for a positive ``unit``, which means a ball."""
+        """Return an exact rational number.
+
+        Raises TypeError for a positive ``unit``, because the value is then a ball.
+        """
         if unit:
-            raise TypeError("a ball has no place in a number field")
+            raise TypeError("a number field contains no balls")
         return self.field.rational(value.numerator, value.denominator)
 
     def ring(self) -> tuple[Ring, Callable[[Algebraic], Element]]:
-        """Return the final ring (Q if nothing was adjoined) and the map of earlier numbers into this ring."""
+        """Return the final ring (Q if no root was adjoined), and the map from earlier numbers to elements of
+        this ring."""
         if self.field.degree == 1:
             return QQ, lambda x: x.rational_value
         return self.field, self.field.lift
 
     def size(self, x: Algebraic) -> int:
-        """Return the bits of the largest integer in the representation of x."""
+        """Return the number of bits of the largest integer in the representation of x."""
         polynomial = x.polynomial
         return max(int(polynomial.numer().height_bits()), int(polynomial.denom().bit_length()))
 
     def root(self, x: Algebraic, index: int) -> Algebraic:
-        """Return the real ``index``-th root of x, adjoining it if necessary.
+        """Return the real ``index``-th root of x. The root is adjoined if necessary.
 
-        Raises ValueError for an even root of a negative number, and :class:`DegreeError` for too large a
-        field.
+        Raises ValueError for an even root of a negative number, and :class:`DegreeError` if the field becomes
+        too large.
         """
         sign = x.field.sign(x)
         if sign == 0 or index == 1:
@@ -83,7 +88,8 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational times the root of the least integer, by p/q = p q^(k-1) / q^k."""
+        """Return x^(1/index) as a rational number times the root of the least possible integer, by p/q = p
+        q^(k-1) / q^k."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -117,9 +123,10 @@ class Tower:
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the one real root of ``minpoly`` (ascending) within ``unit`` of ``near``.
+        """Return the only real root of ``minpoly`` (ascending coefficients) within ``unit`` of ``near``.
 
-        Raises ValueError unless there is exactly one, and :class:`DegreeError` for too large a field.
+        Raises ValueError if there is no such root or more than one, and :class:`DegreeError` if the field
+        becomes too large.
         """
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
@@ -130,13 +137,13 @@ class Tower:
     def _adjoin(
         self, powers: list[Algebraic], enclosure: Enclosure, generator: Callable[[int], Generator]
     ) -> Algebraic:
-        """Adjoin b with b^k = sum_j powers[j] b^j, k = len(powers); return b in the new field."""
+        """Return b in the new field, where b^k = sum_j powers[j] b^j with k = len(powers)."""
         field = self.field
         if len(powers) == 1:
             return powers[0]
         dimension = field.degree * len(powers)
         if dimension > MAX_DIMENSION:
-            raise DegreeError(f"an algebra of dimension {dimension}")
+            raise DegreeError(f"the field would require an algebra of dimension {dimension}")
         multiplier, relation = _primitive(field, powers)
 
         def primitive(bits: int) -> arb:
@@ -150,7 +157,7 @@ class Tower:
         if degree == field.degree:
             return Algebraic(field, _in_powers_of(a, b, modulus))
         if degree > MAX_DEGREE:
-            raise DegreeError(f"a number field of degree {degree}")
+            raise DegreeError(f"the coefficients generate a number field of degree {degree}")
         below = tuple(substituted(image, a, modulus) for image in field.images)
         added = generator(degree // field.degree)
         self.field = NumberField(modulus, primitive, (*field.generators, added), (*below, b), field, a)
@@ -158,7 +165,8 @@ class Tower:
 
 
 class _Relation:
-    """An element c generating an algebra: its characteristic polynomial, and a and b as polynomials in c."""
+    """An element c that generates an algebra: its characteristic polynomial, and a and b as polynomials in
+    c."""
 
     def __init__(self, solution: fmpq_mat, dimension: int) -> None:
         column = [fmpq_poly([solution[i, j] for i in range(dimension)]) for j in range(3)]
@@ -167,8 +175,8 @@ class _Relation:
 
 
 def _primitive(field: NumberField, powers: list[Algebraic]) -> tuple[int | None, _Relation]:
-    """Return (m, relation) for c = b + m a, or (None, relation) for c = ab, whichever first generates the
-    algebra."""
+    """Return the first element c that generates the algebra: (m, relation) for c = b + m a, or (None,
+    relation) for c = ab."""
     dimension = field.degree * len(powers)
     for multiplier in _multipliers(field.degree):
         vector = [field.one] + [field.zero] * (len(powers) - 1)
@@ -196,7 +204,8 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Multiply an element of the algebra, given by its coefficients of b^j, by ab or b + multiplier a."""
+    """Return the product of an element of the algebra, given by its coefficients of b^j, and ab or b +
+    multiplier a."""
     field = powers[0].field
     top = vector[-1]
     shifted = [x + top * p for x, p in zip([field.zero, *vector[:-1]], powers, strict=True)]
@@ -209,7 +218,7 @@ def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | N
 
 
 def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
-    """Return the matrix of the algebra's elements over Q, one column each."""
+    """Return the matrix whose columns are elements of the algebra, as vectors over Q."""
     rows = [
         [column[j].polynomial[i] for column in columns] for j in range(len(columns[0])) for i in range(degree)
     ]
@@ -217,7 +226,7 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return the monic irreducible factor that vanishes at the enclosed number."""
+    """Return the monic irreducible factor of which the enclosed number is a root."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:
@@ -229,7 +238,7 @@ def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
 
 
 def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return b as a polynomial in a, both given modulo ``modulus``, where a generates the same field."""
+    """Return b as a polynomial in a. Both are given modulo ``modulus``, and a generates the same field."""
     degree, power, powers = int(modulus.degree()), fmpq_poly([1]) % modulus, []
     for _ in range(degree):
         powers.append(power)
@@ -239,7 +248,7 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Factor a positive integer; above 128 bits, only small primes are divided out."""
+    """Return the prime factors of a positive integer. Above 128 bits, only small primes are divided out."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

@@ -1,8 +1,8 @@
-"""Recorded arithmetic: an element is the place (index) of an operation in a straight-line program.
+"""Recorded arithmetic: an element is the index of an operation in a straight-line program.
 
-An engine that runs once over this ring records its operations. The program can later be evaluated at any
-inputs. Equal operations are recorded once; operations with the constants 0 and 1 are simplified and not
-recorded.
+If an algorithm runs over this ring, its operations are recorded as a program. The program can later be
+evaluated at any inputs. Equal operations are recorded once; operations with the constants 0 and 1 are
+simplified and not recorded.
 """
 
 from __future__ import annotations
@@ -15,14 +15,17 @@ from orderconds.ring.power import power
 from orderconds.ring.protocol import Element, RingWithRoots
 
 ADD, MULTIPLY, DIVIDE, ROOT, CONSTANT, INPUT = range(6)
-"""Operations: x + y, x y or x / y of two elements, the n-th root of one element, a rational number, an
-input."""
+"""The operations: x + y, x y or x / y of two elements, the n-th root of one element, a rational number, and
+an input."""
 
 
 @dataclass(frozen=True)
 class Operation:
-    """One step of a program; ``left`` and ``right`` are places of earlier operations, ``value`` a constant,
-    an input or the index of a root."""
+    """One operation of a program.
+
+    ``left`` and ``right`` are indices of earlier operations. ``value`` is a constant, the number of an input,
+    or the index of a root.
+    """
 
     kind: int
     left: int = 0
@@ -31,7 +34,7 @@ class Operation:
 
 
 class Traces:
-    """The ring of programs in ``width`` inputs; ``operations`` grows while an engine runs over it.
+    """The ring of programs with ``width`` inputs. ``operations`` contains all recorded operations.
 
     >>> R = Traces(2)
     >>> x, y = R.inputs
@@ -58,7 +61,7 @@ class Traces:
         return Trace(self, place)
 
     def rational(self, p: int, q: int = 1) -> Trace:
-        """Return the constant p/q; it is recorded when a program needs it."""
+        """Return the constant p/q. It is recorded only if an operation uses it."""
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
@@ -66,7 +69,7 @@ class Traces:
         return x.constant == 0
 
     def text(self, x: Trace) -> str:
-        """Return the constant, or the number of the operation."""
+        """Return the constant, or the index of the operation, as text."""
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
@@ -74,28 +77,28 @@ class Traces:
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:
-        """Return the text: a program has no value."""
+        """Return the text of the element, because a program has no numerical value."""
         return self.text(x)
 
     def apply(self, kind: int, x: Trace, y: Trace) -> Trace:
-        """Record an operation of two elements that are not both constants."""
+        """Record an operation of two elements, at least one of which is not a constant."""
         left, right = x.placed(), y.placed()
         if kind != DIVIDE and left > right:
             left, right = right, left
         return self._record(Operation(kind, left, right))
 
     def root(self, x: Trace, index: int) -> Trace:
-        """Record the real root."""
+        """Record the real ``index``-th root of an element."""
         place = x.placed()
         return self._record(Operation(ROOT, place, place, Fraction(index)))
 
     def constant(self, value: Fraction) -> int:
-        """Return the place of a recorded constant."""
+        """Record a constant, and return its index."""
         return self._record(Operation(CONSTANT, value=value)).place
 
 
 class Trace:
-    """An element: a place in the program, or a rational number that is not recorded yet."""
+    """An element: the index of an operation in the program, or a rational number that is not recorded yet."""
 
     __slots__ = ("constant", "place", "ring")
 
@@ -106,7 +109,7 @@ class Trace:
         return self.ring.text(self)
 
     def placed(self) -> int:
-        """Return the place, recording a constant."""
+        """Return the index of the operation; a constant is recorded if necessary."""
         return self.place if self.constant is None else self.ring.constant(self.constant)
 
     def _lift(self, x: Element) -> Trace:
@@ -159,7 +162,7 @@ class Trace:
 def evaluate(
     operations: Sequence[Operation], inputs: Sequence[Element], ring: RingWithRoots
 ) -> list[Element]:
-    """Return the value of every operation, for inputs in any ring that divides.
+    """Return the values of all operations, for inputs in any ring with division.
 
     >>> from orderconds.ring import QQ
     >>> R = Traces(1)

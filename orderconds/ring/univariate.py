@@ -1,6 +1,6 @@
-"""Polynomials over Q in one variable, the time s: the integrands of iterated integrals over [0, 1].
+"""Polynomials over Q in one variable, the time s, for iterated integrals over [0, 1].
 
-Elements are flint's ``fmpq_poly``, unwrapped; they support ``+ - *`` themselves.
+Elements have python-flint's type ``fmpq_poly``, which supports ``+ - *``.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def value_at_one(f: UnivariatePolynomial) -> Fraction:
 
 
 def derivative(f: UnivariatePolynomial) -> UnivariatePolynomial:
-    """Return f'.
+    """Return the derivative of f.
 
     >>> derivative(VARIABLE * VARIABLE)
     2*x

@@ -1,17 +1,17 @@
-"""The action series of a variational Lie group method: one coefficient for every action tree, over any ring.
+"""The action series of a variational Lie group method: one coefficient for every action tree, in any ring.
 
-Expanding the step about (q0, mu1) gives each stage velocity and momentum as a sum over the trees of
-:mod:`orderconds.series.action_trees`, with coefficients (stage i, weight b_i)
+If the step is expanded about (q0, mu1), each stage velocity and each stage momentum is a sum over the trees
+of :mod:`orderconds.series.action_trees`. The coefficients at stage i with weight b_i are
 
 - ``tau_t(i) = Phi_w(i) prod_{p in M} psi_p(i)`` for ``t = (w, M)``,
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
-- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's]``,
+- ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``,
 
 where Phi_w(i) is the coefficient of the word w in stage i's group element. Square brackets denote the
 coefficient of a word in a group element; the letter x is a variation of the velocity of stage i and occurs
-once. The method has order p iff ``sum_i b_i tau_t(i)`` has the exact flow's value for every tree with at most
-p vertices. Families differ only in the way in which velocities become group elements: products of
-exponentials here (VCG, VCF), one exponential of a Lie series in :mod:`orderconds.series.action_lie`.
+once. The method has order p iff ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for every tree
+with at most p vertices. Families differ only in the map from velocities to group elements. This module uses
+products of exponentials (VCG, VCF); :mod:`orderconds.series.action_lie` uses one exponential of a Lie series.
 """
 
 from __future__ import annotations
@@ -25,19 +25,20 @@ from orderconds.series.action_enumeration import words
 from orderconds.series.action_trees import Force, Momenta, Momentum, Velocity, Word
 
 Stages = list[Element]
-"""One ring element for each stage."""
+"""A vector over the stages: one ring element for each stage."""
 
 Exponential = tuple[tuple[int, Element], ...]
-"""The exponent of one exponential: (stage, coefficient) pairs, zeros left out."""
+"""The exponent of one exponential, as pairs (stage, coefficient); zero coefficients are omitted."""
 
 Row = tuple[Exponential, ...]
-"""The exponentials of one group element; the first acts first."""
+"""The exponentials of one group element, in the order in which they act."""
 
 
 class ActionSeries(ABC):
-    """Coefficients of one method over one ring; every value is computed once.
+    """The action series of one method over one ring; every value is cached.
 
-    ``weights`` are the b_i, all invertible in ``ring``. Row ``stages`` (the last row) belongs to the update.
+    ``weights`` are the b_i, all invertible in ``ring``. Row i < ``stages`` belongs to stage i, and the last
+    row, with index ``stages``, to the update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -56,18 +57,20 @@ class ActionSeries(ABC):
 
     @abstractmethod
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in a stage's group element, or the update's (the last row)."""
+        """Return the coefficient of a word in the group element of a row: a stage, or the update (the last
+        row)."""
 
     @abstractmethod
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v in the row, where x is a variation of the velocity of ``stage``."""
+        """Return the coefficient of the word u x v in a row, where u is ``before``, v is ``after`` and x is a
+        variation of the velocity of ``stage``."""
 
     def stage_coefficients(self, word: Word) -> Stages:
-        """Return :meth:`coefficient` for every stage."""
+        """Return :meth:`coefficient` of a word for every stage."""
         return [self.coefficient(i, word) for i in range(self.stages)]
 
     def tau(self, tree: Velocity) -> Stages:
-        """Return tau_t at every stage."""
+        """Return the coefficients tau_t(i) of a g-valued tree t at all stages i."""
         values = self._tau.get(tree)
         if values is None:
             values = self._tau[tree] = self._velocity(tree)
@@ -81,7 +84,7 @@ class ActionSeries(ABC):
         return [a * b for a, b in zip(phi, factors, strict=True)] if tree.momenta else phi
 
     def psi(self, tree: Momentum) -> Stages:
-        """Return psi_p at every stage."""
+        """Return the coefficients psi_p(i) of a g*-valued tree p at all stages i."""
         values = self._psi.get(tree)
         if values is None:
             values = self._psi[tree] = (
@@ -90,7 +93,7 @@ class ActionSeries(ABC):
         return values
 
     def psi_product(self, momenta: Momenta) -> Stages:
-        """Return the product of psi_p over a multiset, at every stage."""
+        """Return the product of psi_p over a multiset of momentum trees p, at every stage."""
         values = self._products.get(momenta)
         if values is None:
             rest, last = self.psi_product(momenta[:-1]), self.psi(momenta[-1])
@@ -107,7 +110,8 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return :meth:`insertion` for every stage j (outer) and varied stage i (inner)."""
+        """Return :meth:`insertion` as a table: the outer index is the stage j, the inner index is the varied
+        stage i."""
         values = self._insertions.get((before, after))
         if values is None:
             values = self._insertions[before, after] = self._stage_insertions(before, after)
@@ -130,24 +134,28 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return sum_i b_i tau_t(i): the coefficient of the tree in the update and of its Hamiltonian.
+        """Return sum_i b_i tau_t(i), the coefficient of a tree in the update and of its elementary
+        Hamiltonian.
 
-        Intermediate values for this tree only are not cached, so that all trees of an order fit in memory.
+        Intermediate values that belong to this tree only are not cached. The cache for all trees of an order
+        then fits in memory.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
         return self._sum(b * v for b, v in zip(self.weights, values, strict=True))
 
     def update_words(self, vertices: int) -> dict[Word, Element]:
-        """Return the coefficient of every word with at most that many vertices in the update's group element.
+        """Return the coefficients of all words with at most ``vertices`` vertices in the group element of the
+        update.
 
-        With ``F(t)`` the right-invariant field of t at (q0, mu1), divided by its symmetry, the step moves a
-        function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, where the field of the first
-        letter moves the point first. The same coefficients determine the momentum. Let mubar be the momentum
-        relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum over t = (v, M) of the
-        coefficient of the one-letter word t times the covector ``x -> -D_q H(x v | M)``, where x acts first.
+        Let ``F(t)`` be the right-invariant field of t at (q0, mu1), divided by its symmetry. The step changes
+        a function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, where the field of the
+        first letter acts first. The same coefficients determine the momentum. Let mubar be the momentum
+        relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum over t = (v, M) of (the
+        coefficient of the one-letter word t) times the covector ``x -> -D_q H(x v | M)``, where x acts first.
         The coefficient of ``<mu1, ad t_1 ... ad t_k x>`` in mubar1 is the coefficient of the word ``t_k ...
-        t_1``. :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates both.
+        t_1``. :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this
+        way.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 
@@ -155,9 +163,10 @@ class ActionSeries(ABC):
 class CommutatorFreeSeries(ActionSeries):
     """The action series of a method whose stages and update are products of exponentials (VCG, VCF).
 
-    ``rows`` are the exponentials of each stage and, last, of the update; b_i is the sum of the update's
-    coefficients at stage i. For VCG this is equation (3.18); for VCF the discrete Lagrangian has the same
-    form, and its Hamilton equations contain the coefficient of each exponential.
+    ``rows`` contains the exponentials of each stage and, as the last row, of the update. The weight b_i is
+    the sum of the update's coefficients of stage i. For VCG the series follows from equation (3.18) of
+    Bogfjellmo and Marthinsen. For VCF the discrete Lagrangian has the same form; the equations of motion
+    contain the coefficients of each exponential.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -183,7 +192,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._before(row, word)[-1]
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v; the run of length r + 1 + r' through x gets 1/(r + 1 + r')!."""
+        """Return the coefficient of u x v. A run of r + 1 + r' letters that contains x has the factor 1/(r +
+        1 + r')!."""
         total = self.ring.zero
         for place, exponential in enumerate(self.rows[row]):
             for varied, value in exponential:
@@ -192,7 +202,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v with x, counted once, in one given exponential."""
+        """Return the coefficient of u x v in which x comes from one given exponential; the coefficient of x
+        itself is one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -221,7 +232,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return the word's coefficient in the exponentials before place J, for J = 0..m."""
+        """Return the word's coefficient in the product of the exponentials before index J, for J = 0, ...,
+        m."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -242,7 +254,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return the word's coefficient in the exponentials from place J on, for J = 0..m."""
+        """Return the word's coefficient in the product of the exponentials from index J on, for J = 0, ...,
+        m."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known
@@ -265,7 +278,7 @@ class CommutatorFreeSeries(ActionSeries):
 
 
 def crouch_grossman_rows(ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element]) -> tuple[Row, ...]:
-    """Return the exponentials of a Butcher tableau in the family VCG: one for each non-zero coefficient.
+    """Return the exponentials of a Butcher tableau in the family VCG, one for each non-zero coefficient.
 
     >>> from orderconds.ring import QQ
     >>> crouch_grossman_rows(QQ, [[QQ.zero, QQ.zero], [QQ.one, QQ.zero]], [QQ.one, QQ.one])

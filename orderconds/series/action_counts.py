@@ -4,10 +4,10 @@ from __future__ import annotations
 
 
 def tree_counts(order: int) -> tuple[int, ...]:
-    """Return the numbers of unrooted trees (elementary Hamiltonians) with 1..order vertices.
+    """Return the numbers of unrooted trees (elementary Hamiltonians) with 1, 2, ..., ``order`` vertices.
 
-    Their generating function is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W = 1/(1 - T).
-    The numbers are upper bounds of the numbers of independent conditions.
+    The generating function of the numbers is U = Lie(T) - T P with T = x W E(P), P = x W^2 E(P) + W - 1, W =
+    1/(1 - T). The numbers are upper bounds of the numbers of independent conditions.
 
     >>> tree_counts(6)
     (1, 1, 6, 28, 174, 1096)
@@ -19,7 +19,7 @@ def tree_counts(order: int) -> tuple[int, ...]:
 
 
 def velocity_count(vertices: int) -> int:
-    """Return the number of g-valued action trees with this many copies of H.
+    """Return the number of g-valued action trees with ``vertices`` copies of the Hamiltonian H.
 
     >>> [velocity_count(n) for n in range(1, 7)]
     [1, 3, 17, 111, 813, 6331]
@@ -30,8 +30,8 @@ def velocity_count(vertices: int) -> int:
 def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees under root switching.
 
-    A class is an unrooted tree, with one vertex more than edges along which the root moves. Hence the number
-    of classes is the number of rooted trees minus the number of trees with a marked force.
+    A class is an unrooted tree. It has one vertex more than it has edges across which the root can move.
+    Hence the number of classes is the number of rooted trees minus the number of trees with a marked force.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -44,7 +44,8 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Iterate the equations of T and P until their first coefficients no longer change."""
+    """Return T and P as power series, by iteration of their equations until the required coefficients no
+    longer change."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -68,8 +69,8 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
 
 
 def _lie_counts(t: list[int], order: int) -> list[int]:
-    """Return the dimensions of the free Lie algebra over t_n letters of weight n (Witt's formula)."""
-    power = [0] * (order + 1)  # n [x^n] log 1/(1 - T)
+    """Return the dimensions of the free Lie algebra with t_n letters of weight n (Witt's formula)."""
+    power = [0] * (order + 1)  # the numbers n [x^n] log 1/(1 - T), n = 1, 2, ...
     for n in range(1, order + 1):
         power[n] = n * t[n] + sum(t[k] * power[n - k] for k in range(1, n))
     return [0] + [

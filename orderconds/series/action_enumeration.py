@@ -1,9 +1,10 @@
-"""Enumerate action trees with a given number of vertices on demand, simplest first.
+"""Enumeration of the action trees with a given number of vertices, on demand, simplest first.
 
-The cost of a tree is a sum of non-negative costs of its subtrees. Hence all trees up to a cost limit consist
-of subtrees up to the same limit. Subtrees are tried in order of cost, so the search ends at the first one
-beyond the limit. A long list is enumerated in bands of rising limits, and only as far as necessary: of the
-6331 trees with six vertices, the simplest few hundred decide most methods.
+The cost of a tree measures how difficult its condition is to read. It is a sum of non-negative costs of its
+subtrees. Hence all trees up to a cost limit consist of subtrees up to the same limit. Subtrees are tried in
+order of cost, so the search ends at the first subtree beyond the limit. A long list is enumerated in parts,
+with rising cost limits, and only as far as a check requires. For example, the simplest few hundred of the
+6331 trees with six vertices decide the order of most methods.
 """
 
 from __future__ import annotations
@@ -26,11 +27,11 @@ from orderconds.series.action_trees import (
 )
 
 LIMITS = (8, 16, 32, 64, math.inf)
-"""The costs at which bands of trees end."""
+"""The cost limits of successive parts of the enumeration."""
 
 
 def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
-    """Yield every g-valued tree with that many copies of H, simplest first.
+    """Yield all g-valued trees with ``vertices`` copies of H, simplest first.
 
     >>> next(velocities_in_turn(20)).vertices
     20
@@ -44,7 +45,7 @@ def velocities_in_turn(vertices: int) -> Iterator[Velocity]:
 
 @cache
 def velocities(vertices: int) -> tuple[Velocity, ...]:
-    """Return every g-valued tree with that many copies of H, simplest first.
+    """Return all g-valued trees with ``vertices`` copies of H, simplest first.
 
     >>> [len(velocities(n)) for n in range(1, 5)]
     [1, 3, 17, 111]
@@ -55,7 +56,8 @@ def velocities(vertices: int) -> tuple[Velocity, ...]:
 
 
 def words(vertices: int) -> tuple[Word, ...]:
-    """Return every word of g-valued trees with that many copies of H in all, cheap letters first.
+    """Return all words of g-valued trees with ``vertices`` copies of H in total; words of low cost come
+    first.
 
     >>> words(2)
     ((o, o), (o(o),), (o(|f(*)),), (o(|L(o)),))
@@ -64,7 +66,7 @@ def words(vertices: int) -> tuple[Word, ...]:
 
 
 def momenta(vertices: int) -> Momenta:
-    """Return every g*-valued tree with that many copies of H, simplest first.
+    """Return all g*-valued trees with ``vertices`` copies of H, simplest first.
 
     >>> [len(momenta(n)) for n in range(1, 5)]
     [2, 8, 48, 328]
@@ -73,7 +75,8 @@ def momenta(vertices: int) -> Momenta:
 
 
 def multisets(vertices: int) -> tuple[Momenta, ...]:
-    """Return every multiset of g*-valued trees with that many copies of H, each in canonical order.
+    """Return all multisets of g*-valued trees with ``vertices`` copies of H in total, each in canonical
+    order.
 
     >>> multisets(1)
     ((f(*),), (L(o),))
@@ -83,7 +86,7 @@ def multisets(vertices: int) -> tuple[Momenta, ...]:
 
 @cache
 def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
-    """Return the g-valued trees that cost no more than ``limit``, in no particular order."""
+    """Return the g-valued trees whose cost is at most ``limit``, in no particular order."""
     trees = []
     for k in range(vertices):
         for cost, word in _words(k, limit):
@@ -97,7 +100,7 @@ def _velocities(vertices: int, limit: float) -> tuple[Velocity, ...]:
 
 @cache
 def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
-    """Return the words with nesting at most ``limit``, with their nesting, sorted by it."""
+    """Return pairs (cost, word) for the words whose cost is at most ``limit``, sorted by cost."""
     if vertices == 0:
         return ((0, ()),)
     words = []
@@ -113,7 +116,7 @@ def _words(vertices: int, limit: float) -> tuple[tuple[int, Word], ...]:
 
 @cache
 def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
-    """Return the one-letter words, by their nesting."""
+    """Return pairs (cost, tree) for the one-letter words, sorted by cost."""
     inner = limit if vertices == 1 else (limit - 2) / 2
     if inner < 0:
         return ()
@@ -123,7 +126,7 @@ def _letters(vertices: int, limit: float) -> tuple[tuple[int, Velocity], ...]:
 
 @cache
 def _momenta(vertices: int, limit: float) -> Momenta:
-    """Return the g*-valued trees that cost no more than ``limit``, simplest first."""
+    """Return the g*-valued trees whose cost is at most ``limit``, simplest first."""
     trees: list[Momentum] = []
     for j in range(vertices):
         for nested, before in _words(j, limit):
@@ -142,14 +145,15 @@ def _momenta(vertices: int, limit: float) -> Momenta:
 
 @cache
 def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
-    """Return the multisets that cost no more than ``limit``, with their costs, sorted by cost."""
+    """Return the multisets whose cost is at most ``limit``, with their costs, sorted by cost."""
     return tuple(sorted(_chosen(vertices, vertices, None, limit, limit), key=lambda item: item[0]))
 
 
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield multisets in decreasing order of (vertices, place in the list); bound is the last place used."""
+    """Yield multisets whose elements decrease in (vertices, index in the list); ``bound`` is the index of the
+    preceding element."""
     if vertices == 0:
         yield 0, ()
         return

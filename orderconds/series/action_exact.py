@@ -1,12 +1,12 @@
-"""The exact flow's action series: iterated integrals over [0, 1], as univariate polynomials over Q.
+"""The action series of the exact flow: iterated integrals over [0, 1] of univariate polynomials over Q.
 
-A stage becomes a time s, sums over stages become ordered integrals, a_ji becomes 1 for i earlier than j, and
-the factor 1/b_i disappears:
+In the formulas of :mod:`orderconds.series.action`, a time s replaces a stage, ordered integrals replace sums
+over stages, and 1 replaces a_ji if i is earlier than j; the factor 1/b_i is omitted:
 
 - ``Phi_w(s)`` is the iterated integral of tau over 0 <= s_1 <= ... <= s_k <= s;
 - ``psi_{L(t_1...t_k)}(s)`` is the iterated integral over 1 >= s_1 >= ... >= s_k >= s;
-- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``, where the word v is read
-  between s and s': ``Phi_v(s, s') = sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
+- ``psi_{H(u*v|M)}(s) = int_s^1 prod_{p in M} psi_p(s') Phi_u(s) Phi_v(s, s') ds'``, where the word v is
+  integrated from s to s': ``Phi_v(s, s') = sum_k (-1)^k Phi_{reverse v[:k]}(s) Phi_{v[k:]}(s')``.
 """
 
 from __future__ import annotations
@@ -87,7 +87,8 @@ def psi_product(momenta: Momenta) -> UnivariatePolynomial:
 
 
 def condition(tree: Velocity) -> Fraction:
-    """Return the exact value of a tree's coefficient, the right-hand side of its order condition.
+    """Return the coefficient of a tree in the exact flow, which is the right-hand side of its order
+    condition.
 
     >>> from orderconds.series.action_enumeration import velocities
     >>> [str(condition(t)) for t in velocities(2)]
@@ -97,7 +98,7 @@ def condition(tree: Velocity) -> Fraction:
 
 
 def update(word: Word) -> Fraction:
-    """Return the exact coefficient of a word in the flow's group element at time 1.
+    """Return the exact coefficient of a word in the group element of the flow at time 1.
 
     >>> from orderconds.series.action_trees import velocity
     >>> print(update((velocity(), velocity(), velocity())))
@@ -107,7 +108,7 @@ def update(word: Word) -> Fraction:
 
 
 def update_words(vertices: int) -> dict[Word, Fraction]:
-    """Return :func:`update` for every word with at most that many vertices.
+    """Return :func:`update` for every word with at most ``vertices`` vertices.
 
     >>> [(" ".join(map(str, word)), str(q)) for word, q in update_words(1).items()]
     [('', '1'), ('o', '1')]

@@ -1,8 +1,9 @@
-"""The elementary velocities and covectors of action trees for one Hamiltonian, and the local error.
+"""Evaluation of action trees for one Hamiltonian: elementary velocities, covectors and the local error.
 
-Derivatives are exact: a multilinear derivative of H is the coefficient of eps_1 ... eps_k in a value of H,
-where every eps squares to zero. So H may be any polynomial in the entries of q and the coordinates of mu,
-over any ring, and the group any matrix group: a right-invariant derivative replaces q by (1 + eps X) q.
+Derivatives are exact. A multilinear derivative of H is the coefficient of eps_1 ... eps_k in a value of H,
+computed with symbols eps_i whose squares are zero. Hence H may be any polynomial in the entries of q and the
+coordinates of mu, over any ring. The group may be any matrix group, because a right-invariant derivative
+replaces q by (1 + eps X) q.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ Matrix = tuple[tuple[Element, ...], ...]
 
 
 class Nilpotent:
-    """A polynomial in eps_1, eps_2, ... whose squares are zero; a bit mask denotes a product of them.
+    """A polynomial in eps_1, eps_2, ..., where eps_k^2 = 0. A bit mask denotes a product of different eps_k.
 
     >>> eps = Nilpotent({1: 1})
     >>> ((3 + eps) * (3 + eps)).parts
@@ -67,10 +68,10 @@ def _parts(x: Element) -> dict[int, Element]:
 class ActionFields:
     """The elementary velocities xi_t and covectors m_p of one Hamiltonian at one point (q, mu).
 
-    ``hamiltonian(q, mu)`` takes a matrix (tuple of rows) and the coordinates of mu, and uses ``+ - *`` only.
-    ``basis`` are matrices that span the Lie algebra, ``coordinates`` converts a matrix in this algebra to
-    coordinates. The coordinates of mu refer to the dual basis. Trees are evaluated with h = 1 and without
-    symmetry factors.
+    ``hamiltonian(q, mu)`` accepts a matrix (a tuple of rows) and the coordinates of mu, and may use ``+ - *``
+    only. ``basis`` contains matrices that form a basis of the Lie algebra. ``coordinates`` converts a matrix
+    in this algebra to coordinates. The coordinates of mu refer to the dual basis. Trees are evaluated with h
+    = 1 and without symmetry factors.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -101,7 +102,8 @@ class ActionFields:
         self._covector: dict[Momentum, Coordinates] = {}
 
     def derivative(self, fields: Sequence[Coordinates], covectors: Sequence[Coordinates]) -> Element:
-        """Differentiate H along right-invariant fields (the first acts first) and along covectors."""
+        """Return the derivative of H along right-invariant fields, of which the first acts first, and along
+        covectors."""
         q: Matrix = self.q
         mask = 1
         for field in fields:
@@ -126,12 +128,12 @@ class ActionFields:
         )
 
     def bracket(self, x: Coordinates, y: Coordinates) -> Coordinates:
-        """Return [x, y] = xy - yx in coordinates."""
+        """Return the coordinates of [x, y] = xy - yx."""
         X, Y = self.matrix(x), self.matrix(y)
         return self.coordinates(_subtract(_times(X, Y), _times(Y, X)))
 
     def velocity(self, tree: Velocity) -> Coordinates:
-        """Return xi_t."""
+        """Return the elementary velocity xi_t of a tree."""
         components = self._velocity.get(tree)
         if components is None:
             fields = [self.velocity(t) for t in tree.word]
@@ -141,7 +143,7 @@ class ActionFields:
         return components
 
     def covector(self, tree: Momentum) -> Coordinates:
-        """Return m_p."""
+        """Return the covector m_p of a tree."""
         components = self._covector.get(tree)
         if components is None:
             if isinstance(tree, Force):
@@ -167,8 +169,8 @@ class ActionFields:
         """Return the coefficients of h^(p+1) of q1 - q(h) (a matrix) and of mu1 - mu(h) (coordinates).
 
         ``defects`` maps each word with p + 1 vertices to the coefficient of the method's update
-        (``update_words``) minus the coefficient of the flow. For all shorter words the difference must be
-        zero. In the leading term, trees may be evaluated at (q, mu) itself.
+        (``update_words``) minus the coefficient of the flow. For all words with fewer vertices the difference
+        must be zero. In the leading term, trees are evaluated at the initial point (q, mu).
         """
         zero = self.ring.zero
         point: Matrix = tuple(tuple(zero for _ in self.q) for _ in self.q)
@@ -185,12 +187,14 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # This is the error of mu0 as a function of mu1; the error of mu1 has the opposite sign.
+            # This is the error of mu0 as a function of mu1. The error of mu1 as a function of mu0 has the
+            # opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 
     def _impulse(self, tree: Velocity) -> Coordinates:
-        """Return the covector x -> derivative of H along x, the tree's word and the tree's covectors."""
+        """Return the covector x -> derivative of H along x, along the word of the tree, and along the
+        covectors of the tree."""
         fields = [self.velocity(t) for t in tree.word]
         covectors = [self.covector(p) for p in tree.momenta]
         return tuple(self.derivative([unit, *fields], covectors) for unit in self.units)

@@ -1,8 +1,8 @@
-"""The action series of VRKMK: group elements are single exponentials of a Lie series in the stage velocities.
+"""The action series of VRKMK: each group element is one exponential of a Lie series in the stage velocities.
 
-``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j``, and ``Y``, with b_j in place of a_ij, for the update (3.16). A
-variation of the velocity of one stage is an additional letter x, which belongs to this stage only and occurs
-once. So the coefficient of ``u x v`` is the coefficient of the word in which x is written between u and v.
+The exponents are ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j`` for stage i, and ``Y``, with b_j in place of
+a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). A variation of the velocity of one stage is
+represented by an additional letter x, which belongs to this stage only and occurs once in a word ``u x v``.
 """
 
 from __future__ import annotations
@@ -22,13 +22,15 @@ Terms = tuple[tuple[Fraction, int, int], ...]
 """Triples (coefficient, m, n) of the terms X^n xi X^m."""
 
 Varied = dict[int, Element]
-"""The coefficient of a word u x v, by the stage whose velocity x varies; zeros may be missing."""
+"""The coefficients of a word u x v, by the stage whose velocity x varies. Zero coefficients may be
+omitted."""
 
 
 class MuntheKaasActionSeries(ActionSeries):
-    """The action series of the tableau (A, b) in VRKMK, with dexpinv truncated after the power ``cutoff``.
+    """The action series of the tableau (A, b) in VRKMK; dexpinv is truncated after the power ``cutoff``.
 
-    A word is evaluated at all stages together, and for the variations of all stages together.
+    The coefficients of a word are computed for all stages at once, and for the variations of all stages at
+    once.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -42,7 +44,7 @@ class MuntheKaasActionSeries(ActionSeries):
     ) -> None:
         super().__init__(ring, b)
         self._cutoff = cutoff
-        # The arguments of the stages, and the argument of the update.
+        # One entry for the exponents of all stages, and one for the exponent of the update.
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
         self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}
@@ -55,7 +57,7 @@ class MuntheKaasActionSeries(ActionSeries):
         self._inverse_factorials: list[Element] = []
 
     def coefficient(self, row: int, word: Word) -> Element:
-        """Return the coefficient of a word in exp(X_i), or exp(Y)."""
+        """Return the coefficient of a word in exp(X_i) for row i, or in exp(Y) for the update."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._exponential(update, word)[place] if word else self.ring.one
 
@@ -64,7 +66,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._exponential(0, word) if word else [self.ring.one] * self.stages
 
     def insertion(self, row: int, stage: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v in the row's exponential; x varies the velocity of ``stage``."""
+        """Return the coefficient of u x v in the exponential of a row; x is a variation of the velocity of
+        ``stage``."""
         update, place = (1, 0) if row == self.stages else (0, row)
         return self._varied_exponential(update, before, after)[place].get(stage, self.ring.zero)
 
@@ -84,7 +87,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_exponential(self, update: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of the word u x v, x a variation, in every exp(X_i), or in exp(Y)."""
+        """Return the coefficient of the word u x v in every exp(X_i), or in exp(Y), where x is a
+        variation."""
         key = (update, before, after)
         totals = self._varied_exponentials.get(key)
         if totals is None:
@@ -111,7 +115,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_power(self, update: int, n: int, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of u x v, x a variation, in every X_i^n, or in Y^n."""
+        """Return the coefficient of u x v in every X_i^n, or in Y^n, where x is a variation."""
         key = (update, n, before, after)
         totals = self._varied_powers.get(key)
         if totals is None:
@@ -127,9 +131,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the coefficients of u x v in X_i X_i^(n-1): a head of the word comes from X_i."""
+        """Add the coefficients of u x v in X_i X_i^(n-1). The first part of the word comes from X_i."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            rest = cut - len(before) - 1  # letters of v in the head, if x is in the head
+            # If the first part of the word contains x, it also contains this number of letters of v.
+            rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
                 plain = self._power(update, n - 1, after[rest:])
@@ -154,7 +159,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_summand(self, before: Word, after: Word) -> list[Varied]:
-        """Return the coefficient of u x v, x a variation, in every dexpinv_{(r),X_j} xi_j."""
+        """Return the coefficient of u x v in every dexpinv_{(r),X_j} xi_j, where x is a variation."""
         totals = self._varied_summands.get((before, after))
         if totals is None:
             totals = [{} for _ in range(self.stages)]
@@ -174,7 +179,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the terms of dexpinv_{(r),X_j} for a letter between two words, or None if they vanish."""
+        """Return the terms of dexpinv_{(r),X_j} in which a letter has the word ``before`` in front of it and
+        the word ``behind`` after it. None means zero."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -189,7 +195,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the terms of dexpinv_{(r),X_j} for a letter between the words u x v and ``behind``."""
+        """Return the terms of dexpinv_{(r),X_j} in which a letter has u x v in front of it and the word
+        ``behind`` after it."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -199,7 +206,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the terms of dexpinv_{(r),X_j} for a letter between the words ``first`` and u x v."""
+        """Return the terms of dexpinv_{(r),X_j} in which a letter has the word ``first`` in front of it and u
+        x v after it."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages
@@ -208,10 +216,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms of dexpinv that contribute to a letter between words of these lengths.
+        """Return the terms X^n xi X^m of dexpinv that contribute to a letter between words of these lengths.
 
-        In a word the first letter acts first, so in X^n xi X^m the word of X^m comes first. The power X^0 = 1
-        contributes only if its word is empty.
+        In a word the first letter acts first. Hence the letters of X^m precede the letter of xi, and the
+        letters of X^n follow it. The power X^0 = 1 contributes only if its word is empty.
         """
         known = self._in_sight.get((before, behind))
         if known is None:
@@ -228,7 +236,7 @@ class MuntheKaasActionSeries(ActionSeries):
         return self._inverse_factorials[n]
 
     def _terms(self, most: int) -> Terms:
-        """Return (coefficient, m, n) for the terms X^n xi X^m with m + n <= ``most``."""
+        """Return triples (coefficient, m, n) of the terms X^n xi X^m of dexpinv with m + n <= ``most``."""
         return dexpinv_terms(most if self._cutoff is None else min(most, self._cutoff))
 
 
@@ -238,7 +246,8 @@ def _add(total: Varied, terms: Iterable[tuple[int, Element]]) -> None:
 
 
 class PadeActionSeries(MuntheKaasActionSeries):
-    """The action series with the inverse of truncated dexp: dexp_(r),X_j v_j = xi_j, X_i = h sum_j a_ij v_j.
+    """The action series of VRKMK with the inverse of a truncated dexp: dexp_(r),X_j v_j = xi_j, X_i = h sum_j
+    a_ij v_j.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -253,7 +262,8 @@ class PadeActionSeries(MuntheKaasActionSeries):
 
 @lru_cache(maxsize=64)
 def pade_terms(cutoff: int, most: int) -> Terms:
-    """Return (q_k comb(k, m) (-1)^m, m, k - m), k <= ``most``, q_k of the inverse of sum_{j<=r} z^j/(j+1)!.
+    """Return the terms (q_k comb(k, m) (-1)^m, m, k - m) for k <= ``most``, where sum_k q_k z^k is the power
+    series of 1/sum_{j<=r} z^j/(j+1)!.
 
     >>> [(str(q), m, n) for q, m, n in pade_terms(1, 2)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0), ('1/4', 0, 2), ('-1/2', 1, 1), ('1/4', 2, 0)]

@@ -1,10 +1,10 @@
-"""Independent action conditions: rank modulo products of lower ones, on random tableaux modulo a prime.
+"""Selection of independent action conditions, by ranks at random tableaux modulo a prime.
 
-A condition of order n is superfluous if its value, for every method **and for the flow**, is the same
-combination of the other values of order n and of products of values of lower order. This is decided from the
-values at many random methods and at the flow, computed together. Pivots are chosen greedily in the canonical
-order, so that the simplest trees are kept. Without the flow, a condition that a family cannot meet would
-count as dependent (for example VRKMK with dexpinv truncated too early).
+A condition of order n depends on others if its value is a fixed combination of other values of order n and of
+products of values of lower order, for every method **and for the flow**. Such dependences are computed from
+the values at many random methods and at the flow. Pivots are chosen in the canonical order of the trees, so
+that the simplest trees are selected. The flow must be included: a condition that no member of the family
+satisfies would otherwise count as dependent (for example, VRKMK with too few terms of dexpinv).
 """
 
 from __future__ import annotations
@@ -28,20 +28,21 @@ RandomSeries = Callable[[Residues, np.random.Generator], ActionSeries]
 """A function that returns the action series of random methods of a family, one for each sample."""
 
 SPARE_SAMPLES = 24
-"""Additional rows beyond the largest possible rank, against accidental dependences."""
+"""The number of samples beyond the largest possible rank; they make accidental dependences improbable."""
 
 BLOCK = 256
-"""The number of samples evaluated together: large enough for speed, small enough for order 6 to fit in
-memory."""
+"""The number of samples that are evaluated together: large enough for speed, small enough for the memory at
+order 6."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
     """Return, for each order 1..order, the trees whose conditions are independent of all simpler conditions.
 
-    The rank is computed modulo two primes, and the larger set of trees is used. A rank modulo a prime is
-    never larger than the rank over Q. Hence the returned trees, with all products of trees of lower order,
-    are proved to be independent. With high probability no tree is missing. This is proved if the number of
-    trees equals the bound of :func:`~orderconds.series.action_counts.tree_counts` (VCF).
+    The rank is computed modulo two primes, and the larger of the two sets of trees is returned. A rank modulo
+    a prime is never larger than the rank over Q. This proves that the returned trees, together with all
+    products of trees of lower order, are independent. With high probability the set is complete. Completeness
+    is proved if the number of trees equals the upper bound of
+    :func:`~orderconds.series.action_counts.tree_counts` (VCF).
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -69,9 +70,10 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return the values of trees at the flow and at as many random methods as the rank may need.
+    """Return the values of trees at the flow and at random methods. The number of methods exceeds the largest
+    possible rank.
 
-    The methods are the same for every list of trees.
+    The random methods do not depend on the list of trees.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -99,7 +101,8 @@ def _rational(ring: Residues, q: Fraction) -> NDArray[np.int64]:
 def _largest_rank(order: int) -> int:
     """Return the largest possible number of independent conditions and of their products at one order.
 
-    It is the number of monomials of degree ``order`` in U_n unknowns of each degree n = 1, 2, ...
+    It is the number of monomials of degree ``order`` in graded unknowns, with U_n unknowns of degree n = 1,
+    2, ..., where U_n is the number of unrooted trees.
     """
     unknowns = tree_counts(order)
     count = [1] + [0] * order

@@ -1,36 +1,44 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
-The value of a tree, for every method of the family and for the flow, is a combination of monomials of its
-degree in the values of independent trees. Trees with the same unrooted tree have the same value. For the
-other trees, the coefficients of the combination solve linear equations at random methods. These are solved
-modulo two primes, and the fractions are recovered from the residues. Three relations of order 4 hold for VCG
-but not for VCF. They follow from ``psi_{L(H|L)} = 3 psi_{L(HH)}
-- psi_{L(H)}^2``.
+The value of a tree with n vertices, for every method of the family and for the flow, is a linear combination
+of monomials of degree n in the values of independent trees. Trees with the same unrooted tree have the same
+value. For all other trees, values at random methods give linear equations for the coefficients. The equations
+are solved modulo two primes, and the rational coefficients are reconstructed from the residues. Three
+relations of order 4 hold for VCG but not for VCF. These three follow from the equation ``psi_{L(H|L)} = 3
+psi_{L(HH)} - psi_{L(H)}^2``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from itertools import chain
+from math import prod
 
+import numpy as np
+
+from orderconds.ring.protocol import Element, RandomRing
 from orderconds.ring.rank import combinations
+from orderconds.ring.rationals import Rationals
 from orderconds.ring.reconstruct import rational_number
 from orderconds.ring.residues import PRIMES
+from orderconds.series import action_exact
+from orderconds.series.action import ActionSeries
 from orderconds.series.action_rank import RandomSeries, sample
 from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
 
 Polynomial = tuple[tuple[Fraction, tuple[Velocity, ...]], ...]
-"""The terms of a polynomial: a coefficient and the trees whose values are multiplied."""
+"""The terms of a polynomial. Each term is a coefficient and the trees whose values are multiplied."""
 
 
 def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -> dict[Velocity, Polynomial]:
-    """Return the polynomial that each dependent tree of the last order equals.
+    """Return each dependent tree of the last order, with the polynomial that is equal to its value.
 
-    ``independent`` are the independent trees of each order 1, 2, ..., by
-    :func:`orderconds.series.action_rank.independent_trees`. The result is exact, except with a probability of
-    about 10^-8 that every sample hides a difference. The tests verify the relations over Q at other methods.
+    ``independent`` contains the independent trees of each order 1, 2, ..., from
+    :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
+    10^-8. :func:`hold_over_rationals` verifies them over Q.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -62,6 +70,56 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
     }
 
 
+SEED = 61
+"""The seed of the random method over Q; any number serves."""
+
+
+class _Drawn(Rationals):
+    """The ring Q with random elements of 61 bits."""
+
+    def random(self, generator: np.random.Generator) -> Element:
+        """Return a random fraction, not zero."""
+        numerator, denominator = (int(n) for n in generator.integers(1, 2**61, 2))
+        return self.rational(numerator, denominator)
+
+
+def hold_over_rationals(
+    series: Callable[[RandomRing, np.random.Generator], ActionSeries],
+    polynomials: Mapping[Velocity, Polynomial],
+) -> bool:
+    """Whether relations hold exactly at a random method over Q, and for the exact flow.
+
+    ``series`` returns the series of a random method with coefficients in a ring. It should have more stages
+    than the methods from which the relations were computed. A relation of degree d that is not an identity
+    holds at a random method with a probability below d/2^60.
+
+    >>> from functools import partial
+    >>> from orderconds.families import get
+    >>> from orderconds.series.action_rank import independent_trees
+    >>> random_series = get("vcg").random_series
+    >>> family = partial(random_series, order=2)
+    >>> right = relations(family, independent_trees(family, 2))
+    >>> wrong = {tree: ((q + 1, trees),) for tree, ((q, trees),) in right.items()}
+    >>> [hold_over_rationals(partial(random_series, order=4), x) for x in (right, wrong)]
+    [True, False]
+    """
+    ring = _Drawn()
+    method = series(ring, np.random.default_rng(SEED))
+
+    def flow(tree: Velocity) -> Element:
+        exact = action_exact.condition(tree)
+        return ring.rational(exact.numerator, exact.denominator)
+
+    for value in (cache(method.condition), cache(flow)):
+        for tree, polynomial in polynomials.items():
+            total = ring.zero
+            for q, trees in polynomial:
+                total += ring.rational(q.numerator, q.denominator) * prod(map(value, trees))
+            if total != value(tree):
+                return False
+    return True
+
+
 def _coefficients(
     family: RandomSeries,
     order: int,
@@ -69,7 +127,7 @@ def _coefficients(
     trees: Sequence[Velocity],
     prime: int,
 ) -> list[dict[int, int]]:
-    """Return each tree's coefficients modulo a prime, by the place of the monomial."""
+    """Return, for each tree, its coefficients modulo a prime. The keys are the indices of the monomials."""
     values = sample(family, order, [*dict.fromkeys(chain.from_iterable(monomials)), *trees], prime)
     columns = []
     for first, *rest in monomials:
@@ -82,7 +140,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees with that many vertices in all, the fewest factors last."""
+    """Yield the multisets of trees with ``vertices`` vertices in total; multisets with the fewest factors
+    come last."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

@@ -1,8 +1,9 @@
-"""Root switching: trees with the same unrooted tree have the same condition for every method.
+"""Root switching: trees that differ only in the choice of the root have the same condition.
 
-A force that hangs on the root vertex can become the root instead: ``o(w | M, H(u*v | N))`` and ``o(u o(w | M)
-v | N)`` have equal coefficients, for every method and for the flow, because either sum over the stages at the
-ends of the connecting edge may be taken last. Hence one tree of each class is enough.
+The root can move from the root vertex to a force that is attached to it: ``o(w | M, H(u*v | N))`` and ``o(u
+o(w | M) v | N)`` have equal coefficients, for every method and for the flow. In both coefficients, the
+connecting edge is a double sum over stages, and the two sums may be exchanged. Hence one tree of each class
+is sufficient.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
-    """Yield the trees that arise when the root moves along a force to a neighbouring vertex.
+    """Yield the trees that result if the root moves along a force to a neighbouring vertex.
 
     >>> list(switched(velocity((), (force(), force()))))
     [o(o(|f(*))), o(o(|f(*)))]
@@ -31,7 +32,7 @@ def switched(tree: Velocity) -> Iterator[Velocity]:
 
 @cache
 def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
-    """Return the classes of trees that root switching connects, each with its simplest tree first.
+    """Return the classes of trees that root switching connects. The first tree of each class is the simplest.
 
     >>> classes(2)
     ((o(o), o(|f(*))), (o(|L(o)),))
@@ -40,7 +41,7 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes one by one, first the class of the simplest tree; each is computed once.
+    """Yield the classes on demand, ordered by their simplest trees. Each class is computed once.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -59,7 +60,7 @@ def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
 
 @cache
 def _listing(vertices: int) -> tuple[list[tuple[Velocity, ...]], Iterator[tuple[Velocity, ...]]]:
-    """Return the classes computed so far, and the iterator over the others."""
+    """Return the list of the classes computed so far, and an iterator over the remaining classes."""
     return [], _classes(vertices)
 
 
@@ -69,7 +70,7 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
         if tree not in seen:
             members = [tree]
             seen.add(tree)
-            for member in members:  # the list grows during the loop
+            for member in members:  # the loop appends to this list
                 for other in switched(member):
                     if other not in seen:
                         seen.add(other)

@@ -1,17 +1,17 @@
-"""The trees of the action series on T*G, by which a variational Lie group method is expanded.
+"""The trees that index the action series of variational Lie group methods on T*G.
 
-Every vertex is a copy of H, except a :class:`Transport`, which is not counted. Two kinds of trees contain
-each other:
+Every vertex is a copy of the Hamiltonian H, except a :class:`Transport`, which is not counted. There are two
+kinds of trees, and each kind has subtrees of both kinds:
 
-- g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: ``D_mu H`` differentiated along
-  the word of right-invariant fields w (the first letter acts first) and along the covectors of M;
-- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, which is ``D_q H`` whose own direction is placed between
-  the words u and v, or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ... ad t_k
-  x>``.
+- g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: the derivative of ``D_mu H`` along
+  the word w of right-invariant fields (the first letter acts first) and along the covectors of M;
+- g*-valued ``p``: a :class:`Force` ``H(u * v | M)``, a derivative of ``D_q H`` in which the free direction is
+  between the words u and v; or a :class:`Transport` ``L(t_1 ... t_k)``, the covector ``x -> <mu, ad t_1 ...
+  ad t_k x>``.
 
-A velocity also denotes the elementary Hamiltonian with the same root vertex, but without the outgoing leg:
-``o(w | M)`` is the coefficient of ``H_{q..mu..}[w; M]`` in the generating function. Nodes are interned, so
-equal trees are identical objects. :mod:`orderconds.series.action_enumeration` lists all trees.
+A velocity also denotes the elementary Hamiltonian with the same root vertex: ``o(w | M)`` is the coefficient
+of ``H_{q..mu..}[w; M]`` in the generating function. Equal trees are identical objects, because all nodes are
+interned. :mod:`orderconds.series.action_enumeration` lists all trees.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ from math import factorial, prod
 
 
 class _Node:
-    """The common part of the three kinds: number of copies of H, a reading cost, canonical text.
+    """The base class of the three kinds of nodes: number of copies of H, cost (difficulty for a reader),
+    canonical text.
 
-    The text is computed on demand, since most trees are only counted and compared.
+    The text is computed on demand, because most trees are only counted and compared.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -45,14 +46,14 @@ class _Node:
 
     @property
     def key(self) -> tuple[int, int, int, str]:
-        """The sort key of trees: simplest to read first."""
+        """The sort key of trees. Trees with simple conditions come first."""
         if self._key is None:
             text = self.text
             self._key = (self.vertices, self.cost, len(text), text)
         return self._key
 
     def _render(self) -> str:
-        raise TypeError("a kind of tree defines its text")
+        raise TypeError("a subclass of _Node must define the text")
 
     def __str__(self) -> str:
         return self.text
@@ -61,7 +62,7 @@ class _Node:
 
 
 class Velocity(_Node):
-    """The g-valued tree t = (w, M); use :func:`velocity`, which interns it.
+    """The g-valued tree t = (w, M). Use :func:`velocity` to create it, because trees are interned.
 
     >>> tree = velocity((velocity(),), (force(), force()))
     >>> tree, tree.vertices, tree.symmetry
@@ -82,7 +83,7 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # A broad tree is easier to read than a tall one: costs inside letters count double.
+        # A wide tree is easier to read than a deep tree, so costs inside letters count double.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -91,12 +92,12 @@ class Velocity(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the group of symmetries, which permute momenta."""
+        """The order of the symmetry group of the tree, which permutes momenta."""
         return _symmetry(self.word, self.momenta)
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M); use :func:`force`, which interns it.
+    """The g*-valued tree H(u * v | M). Use :func:`force` to create it, because trees are interned.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -116,12 +117,13 @@ class Force(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the group of symmetries, which permute momenta."""
+        """The order of the symmetry group of the tree, which permutes momenta."""
         return _symmetry(self.before + self.after, self.momenta)
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w), w not empty; use :func:`transport`, which interns it.
+    """The g*-valued tree L(w), where w is not empty. Use :func:`transport` to create it, because trees are
+    interned.
 
     >>> tree = transport((velocity(), velocity()))
     >>> tree, tree.vertices
@@ -139,7 +141,7 @@ class Transport(_Node):
 
     @property
     def symmetry(self) -> int:
-        """The order of the group of symmetries."""
+        """The order of the symmetry group of the tree."""
         return _symmetry(self.word, ())
 
 
@@ -153,7 +155,8 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the reading cost of different letters: only a repeated letter is a power of one sum.
+    """Return the cost of different letters in a word. A repetition of one letter costs nothing, because its
+    condition is a power of one sum.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -187,7 +190,7 @@ def _symmetry(word: Word, momenta: Momenta) -> int:
 
 @cache
 def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
-    """Return (w, M) for an M in canonical order.
+    """Return the tree (w, M) for a multiset M in canonical order.
 
     >>> canonical_velocity((), (force(), transport((velocity(),))))
     o(|f(*) L(o))
@@ -197,7 +200,7 @@ def canonical_velocity(word: Word, momenta: Momenta) -> Velocity:
 
 @cache
 def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
-    """Return H(u * v | M) for an M in canonical order.
+    """Return the tree H(u * v | M) for a multiset M in canonical order.
 
     >>> canonical_force((velocity(),), (), ())
     f(o *)
@@ -207,18 +210,18 @@ def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
 
 @cache
 def transport(word: Word) -> Transport:
-    """Return L(w): ``x -> <mu, ad t_1 ... ad t_k x>`` at the end of the step.
+    """Return the tree L(w), that is, the covector ``x -> <mu, ad t_1 ... ad t_k x>`` at the end of the step.
 
     >>> transport((velocity(),))
     L(o)
     """
     if not word:
-        raise ValueError("L needs a letter: the empty word is mu itself")
+        raise ValueError("the word of L must not be empty, because L of the empty word is mu")
     return Transport(word)
 
 
 def multiset(momenta: Momenta) -> Momenta:
-    """Return the canonical order of a multiset of g*-valued trees.
+    """Return a multiset of g*-valued trees in canonical order.
 
     >>> multiset((transport((velocity(),)), force()))
     (f(*), L(o))
@@ -227,7 +230,8 @@ def multiset(momenta: Momenta) -> Momenta:
 
 
 def velocity(word: Word = (), momenta: Momenta = ()) -> Velocity:
-    """Return the g-valued tree (w, M); the order inside w matters, the order inside M does not.
+    """Return the g-valued tree (w, M). The order of the letters in w matters; the order of the trees in M
+    does not.
 
     >>> velocity((velocity(),), (force(), transport((velocity(),))))
     o(o|f(*) L(o))
@@ -245,9 +249,10 @@ def force(before: Word = (), after: Word = (), momenta: Momenta = ()) -> Force:
 
 
 def hamiltonian(tree: Velocity) -> str:
-    """Return the elementary Hamiltonian that a tree names; ``m`` means mu, ``ad(x) y = [x, y]``.
+    """Return the elementary Hamiltonian of a tree as text; ``m`` denotes mu, and ``ad(x) y = [x, y]``.
 
-    Arguments before the semicolon are right-invariant derivatives in q, the first one acting first.
+    Arguments before the semicolon are the directions of right-invariant derivatives in q; the first acts
+    first.
 
     >>> hamiltonian(velocity((velocity(), velocity())))
     'H_qq(H_m, H_m)'

@@ -1,8 +1,8 @@
 """Elementary weights of Runge-Kutta and partitioned Runge-Kutta methods: B-series over any ring (HLW III.1).
 
-Each subtree has one vector over the stages, computed once: the product over its branches of
-``sum_j a_ij tau_branch(j)``. Where nodes are the roots of one rational polynomial the vectors are polynomials
-(:mod:`orderconds.ring.nodal`).
+For each subtree, a vector over the stages is computed once: the product over its branches of ``sum_j a_ij
+tau_branch(j)``. If the nodes are the roots of one rational polynomial, the vectors are represented by
+polynomials (:mod:`orderconds.ring.nodal`).
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ TreeT = TypeVar("TreeT", bound=Hashable)
 
 
 class StageAlgebra(Protocol):
-    """Vectors over the stages of one method, in a representation of its own."""
+    """Vectors over the stages of one method. Each implementation chooses the representation of a vector."""
 
     one: Element
-    """The vector of ones."""
+    """The vector whose entries are all one."""
 
     def multiply(self, x: Element, y: Element) -> Element:
-        """Return the componentwise product."""
+        """Return the componentwise product of two vectors."""
 
     def apply(self, kind: int, x: Element) -> Element:
         """Return A x, where A is the matrix with index ``kind``."""
 
     def weigh(self, x: Element) -> Element:
-        """Return b.x."""
+        """Return b^T x for the weights b."""
 
 
 class ElementaryWeights(Generic[TreeT]):
     """The numbers ``sum_i b_i tau_t(i)`` of a method, for trees of any encoding.
 
     ``matrices`` are s x s coefficient matrices, one for each kind of edge, over ``ring``; ``branches``
-    gives the branches of a tree, each the kind of its edge and the subtree.
+    returns the branches of a tree as pairs (kind of the edge, subtree).
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.directed import branches
@@ -68,7 +68,7 @@ class ElementaryWeights(Generic[TreeT]):
         return self._ring.rational(weight.p, weight.q) if self._rational else weight
 
     def _vector(self, tree: TreeT) -> Element:
-        """Return tau_tree(i) for each stage i."""
+        """Return tau_tree(i) for all stages i."""
         if tree not in self._vectors:
             vector = self._stages.one
             for branch in self._branches(tree):
@@ -84,7 +84,7 @@ class ElementaryWeights(Generic[TreeT]):
 
 
 class StageVectors:
-    """Vectors over the stages, one ring element each.
+    """Vectors over the stages, represented by one ring element for each stage.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -99,7 +99,7 @@ class StageVectors:
         self.one = (ring.one,) * len(b)
 
     def multiply(self, x: Sequence[Element], y: Sequence[Element]) -> tuple[Element, ...]:
-        """Return the componentwise product."""
+        """Return the componentwise product of two vectors."""
         return tuple(p * q for p, q in zip(x, y, strict=True)) if x is not self.one else tuple(y)
 
     def apply(self, kind: int, x: Sequence[Element]) -> tuple[Element, ...]:
@@ -107,7 +107,7 @@ class StageVectors:
         return tuple(self._matrices[kind](x))
 
     def weigh(self, x: Sequence[Element]) -> Element:
-        """Return b.x."""
+        """Return b^T x for the weights b."""
         weight: Element = self._b(x)[0]
         return weight
 
@@ -115,8 +115,8 @@ class StageVectors:
 class Sums:
     """The sums ``sum_j weight_j x_j`` of several sparse rows of weights.
 
-    Rows that begin with the same weights (identical objects) share partial sums. So the rows of a composition
-    need 2 s products, whereas a full matrix needs s^2.
+    Rows that begin with the same weights (identical objects) share partial sums. For a composition of
+    midpoint rules this reduces the number of products from s^2 to 2 s.
 
     >>> a, b = 2, 3
     >>> sums = Sums([((0, a),), ((0, a), (1, b)), ((0, a), (1, b), (2, 5))], 0)
@@ -127,8 +127,8 @@ class Sums:
     def __init__(self, rows: Sequence[Sequence[tuple[int, Element]]], zero: Element) -> None:
         self._zero = zero
         self._steps: list[tuple[int, int, Element]] = []
-        """For each partial sum: the place of the preceding partial sum, the place of x, and the weight of
-        x."""
+        """For each partial sum: the index of the preceding partial sum, the index j of the added term, and
+        its weight."""
         known: dict[tuple[int, int, int], int] = {}
         self._ends = []
         for row in rows:
@@ -171,7 +171,7 @@ def _uncoloured_branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
 
 
 def sparse(ring: Ring, row: Sequence[Element]) -> tuple[tuple[int, Element], ...]:
-    """Return the entries of a row that are not known to be zero, each with its place.
+    """Return pairs (index, entry) of the entries of a row that are not proved to be zero.
 
     >>> from orderconds.ring import QQ
     >>> [(place, str(x)) for place, x in sparse(QQ, [QQ.zero, QQ.one])]

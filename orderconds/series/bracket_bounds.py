@@ -1,18 +1,19 @@
 """A lower bound of the number of brackets in any program for given arguments, by linear algebra.
 
-An argument u_i is computed before its stage value. So no letter of a bracket in u_i is newer than q_(i-1).
-Call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets, in any program for u_1, ..., u_i,
-that contain a new letter. The other brackets and single letters contribute to an argument no word of two or
-more letters with a new letter. So N is at least the dimension of the span of the arguments' parts that
-consist of such words.
+The argument u_i is computed before the stage value k_i. Hence brackets in u_i contain only the letters q_1,
+..., q_(i-1). Call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets, in any program for u_1,
+..., u_i, that contain a new letter. Consider the words of two or more letters that contain a new letter.
+Brackets without new letters, and single letters, contribute no such words to an argument. Take from each
+argument the part that consists of such words. N is at least the dimension of the span of these parts.
 
 The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain older letters
 only. The part of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where all P_n = d_n x -
-c_n y are Lie elements. Suppose that such parts of the arguments span d dimensions, and that zero is the only
-element of the span whose P_n are all Lie elements. Then the part of the first bracket is not in the span, and
-N is at least d + 1.
+c_n y are Lie elements. Suppose that the parts of the arguments in which new letters occur once span d
+dimensions. Suppose also that zero is the only element of the span for which all P_n are Lie elements. Then
+the corresponding part of the first bracket is not in the span, and N is at least d + 1.
 
-Bounds for the letters before q_m and for the new letters count different brackets, so they can be added.
+A bound for the letters before q_m and a bound for the new letters count different brackets. Their sum is
+therefore a lower bound.
 """
 
 from __future__ import annotations
@@ -24,9 +25,10 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for n >= ``first``: sum_n ad_(P_n) q_n is the part of x with one such letter q_n.
+    """Return P_n for n >= ``first``, where sum_n ad_(P_n) q_n is the part of x in which such letters q_n
+    occur once.
 
-    P_n is read from the words of at least two letters that end in q_n.
+    P_n is computed from the words of at least two letters that end in q_n.
 
     >>> {n: {w: str(x) for w, x in p.items()} for n, p in newest_factors({(0, 1): 2, (1, 0): -2}, 1).items()}
     {1: {(0,): '2'}}
@@ -39,9 +41,11 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x, without constant term, minus a Lie element; zero if and only if x is a Lie element.
+    """Return x minus a Lie element, for x without constant term. The result is zero if and only if x is a Lie
+    element.
 
-    Right-normed brackets multiply a Lie element of length n by n (Dynkin).
+    The Lie element is computed by Dynkin's theorem: the map to right-normed brackets multiplies a Lie element
+    of degree n by n.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -60,7 +64,8 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
     """Return a lower bound for the number of brackets in any program for u_1, ..., u_s and u.
 
-    The arguments of the stages are used up to one grade below the highest, and u up to the highest.
+    The arguments u_1, ..., u_s are truncated one grade below the largest grade of the algebra, and u at the
+    largest grade.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -70,7 +75,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # Stages have no terms of the highest grade of u.
+        # Stage arguments have no terms of the largest grade.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))
@@ -78,7 +83,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return the number of brackets with letters from ``first`` on that these elements need."""
+    """Return a lower bound for the number of brackets that contain letters with index ``first`` or higher and
+    that these elements require."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

@@ -1,7 +1,7 @@
-"""Bracket programs with fewer terms: terms move between brackets with equal left factors.
+"""Bracket programs with fewer terms. Terms are moved between brackets with equal left factors.
 
-If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]: a term moves from one bracket to another, and the
-rows that use C subtract t B. The number of brackets does not change.
+If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]. Hence a new bracket C + t B may replace C, and t B
+is subtracted in all rows that use C. The number of brackets does not change.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return the same arguments with fewer terms, by moving multiples of brackets.
+    """Return a program for the same arguments with fewer terms, by moves of multiples of brackets.
 
-    ``ring`` must decide zero and divide.
+    The ring must be able to decide whether an element is zero, and to divide.
 
     >>> from orderconds.ring import QQ
     >>> half, k1, k2, k4 = QQ.rational(1, 2), ("k", 0), ("k", 1), ("k", 3)
@@ -46,7 +46,8 @@ def _terms(program: BracketProgram) -> int:
 
 
 def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
-    """Yield programs in which a move removes a term from a later bracket or from a row with both brackets."""
+    """Yield programs in which one move removes a term, from a later bracket or from a row that contains both
+    brackets."""
     for q, r in combinations(range(len(program.brackets)), 2):
         (x, y), (other, z) = program.brackets[q], program.brackets[r]
         same = x.keys() == other.keys() and all(ring.is_zero(x[n] - other[n]) is True for n in x)
@@ -63,7 +64,7 @@ def _moved(ring: Ring, program: BracketProgram) -> Iterator[BracketProgram]:
 def _with(
     ring: Ring, program: BracketProgram, r: int, names: tuple[Name, Name], t: Element
 ) -> BracketProgram:
-    """Return the program with t B_q added to B_r and subtracted in all rows that use B_r."""
+    """Return the program in which B_r + t B_q replaces B_r; t B_q is subtracted in all rows that use B_r."""
 
     def given_back(row: Row) -> Row:
         if names[1] not in row:

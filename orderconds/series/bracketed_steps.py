@@ -1,7 +1,8 @@
-"""The Lie-Butcher series of a step whose arguments contain brackets, from the step's definition.
+"""The Lie-Butcher series of a step whose arguments contain brackets, computed from the definition of the
+step.
 
-The first letter of a word acts first. In the product x y, y acts first, so the word of y comes before the
-word of x.
+The first letter of a word acts first. In the product x y, y acts first. Hence the letters of y precede the
+letters of x.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from orderconds.trees.levels import Forest, branches
 
 
 class BracketedSeries:
-    """The values of one step of a :class:`BracketProgram` on ordered forests, elements of ``ring``.
+    """The values of one step of a :class:`BracketProgram` on ordered forests, as elements of ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.brackets import fewest_brackets
@@ -35,7 +36,7 @@ class BracketedSeries:
         return self.stage(len(self._rows) - 1, forest)
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value of exp(u_i) on a forest, i counted from 0; i = s is the step."""
+        """Return the value of exp(u_i) on a forest. Stages are counted from 0, and i = s denotes the step."""
         result = self._ring.zero if forest else self._ring.one
         for n in range(1, forest.count(0) + 1):
             result = result + self._power(i, n, forest) * self._ring.rational(1, factorial(n))
@@ -74,5 +75,5 @@ class BracketedSeries:
 
 
 def _cuts(word: Forest) -> list[int]:
-    """Return the places at which a word can be cut into two non-empty words."""
+    """Return the positions at which a word can be divided into two non-empty words."""
     return [place for place in range(1, len(word)) if word[place] == 0]

@@ -1,12 +1,12 @@
 """Runge-Kutta-Munthe-Kaas methods with few brackets: arguments simplified in a graded free Lie algebra.
 
-Combinations of the stage values k_1, ..., k_s of an explicit method that vanish to higher order in h have a
-higher grade; q_j is the combination of k_j and earlier values that has the highest grade. A stage argument
-is needed up to grade p - 1, the argument of the step up to grade p (Munthe-Kaas and Owren, Phil. Trans. R.
-Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003) 723). Then each argument in turn is expressed by stage
-values, earlier brackets, and as few new brackets as possible. If a combination of two arguments needs fewer
-brackets than each of them, it is computed first: thus u_7 of Butcher's method of order 6 needs no further
-bracket.
+A linear combination of the stage values k_1, ..., k_s of an explicit method has grade g if h times the
+combination is of order h^g. q_j is the combination of k_j and earlier stage values that has the highest
+grade. For order p, the arguments of the stages are required up to grade p - 1, and the argument of the step
+up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003)
+723). Each argument in turn is then expressed by stage values, earlier brackets, and as few new brackets as
+possible. If a combination of two arguments needs fewer brackets than each of the two, the combination is
+computed first. For example, u_7 of Butcher's method of order 6 then needs no additional bracket.
 """
 
 from __future__ import annotations
@@ -25,19 +25,20 @@ from orderconds.trees.levels import branches
 from orderconds.trees.ordered import ordered_trees
 
 Name = tuple[str, int]
-"""``("k", j)``, a stage value, or ``("B", r)``, a bracket; both counted from 0."""
+"""A term of a row: ``("k", j)`` for a stage value, or ``("B", r)`` for a bracket. Both indices are counted
+from 0."""
 
 Row = dict[Name, Element]
 
 
 @dataclass(frozen=True)
 class BracketProgram:
-    """The arguments u_1, ..., u_s of the stages and u of the step, with the brackets they share.
+    """The arguments u_1, ..., u_s of the stages and u of the step, with their common brackets.
 
-    Stage i is k_i = f(exp(u_i) y0), the step exp(u) y0. ``brackets[r]`` holds the rows of x and y in B_r =
-    [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same form, in
-    which k means h k. ``least`` is a lower bound of the number of brackets with which these arguments can be
-    written; ``grades[j]`` is the grade of q_j.
+    Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. ``brackets[r]`` contains the rows of x and y
+    in B_r = [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same
+    form, in which k denotes h k. ``least`` is a lower bound for the number of brackets in any program for
+    these arguments. ``grades[j]`` is the grade of q_j.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -53,7 +54,8 @@ class BracketProgram:
     grades: tuple[int, ...]
 
     def text(self, ring: Ring) -> str:
-        """Return the program as text: a line for each bracket or argument, without h, indices from 1."""
+        """Return the program as text, one line for each bracket or argument. The factor h is omitted, and
+        indices start at 1."""
         lines = [
             f"B{r + 1} = [{_spell(x, ring)}, {_spell(y, ring)}]" for r, (x, y) in enumerate(self.brackets)
         ]
@@ -64,12 +66,13 @@ class BracketProgram:
 def fewest_brackets(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int, attempts: int = 4
 ) -> BracketProgram:
-    """Return arguments with few brackets that keep ``order`` of an explicit tableau (A, b).
+    """Return a program with few brackets that has the same order as RKMK with an explicit tableau (A, b).
 
-    ``ring`` must decide zero and divide. The tableau must have this order. Free coefficients are zero in the
-    first attempt and small pseudorandom values in ``attempts`` others. If all attempts need more than
-    ``least`` brackets, the limit is raised by one, and so on. Raises :class:`~orderconds.errors.InputError`
-    for an implicit tableau.
+    The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
+    to divide. In the first attempt free coefficients are zero. In ``attempts`` further attempts they are
+    small pseudorandom numbers. The search starts with the lower bound ``least`` as the limit for the number
+    of brackets, and raises the limit by one until an attempt succeeds. Raises
+    :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -110,7 +113,7 @@ def fewest_brackets(
 def _graded_bases(
     ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], order: int
 ) -> list[tuple[int, list[Element]]]:
-    """Return for each j the grade of q_j and its row over k_1, ..., k_j, in which k_j occurs once."""
+    """Return for each j the grade of q_j, and q_j as a row over k_1, ..., k_j."""
     series, bases = DexpinvSeries(ring, A, b), list[tuple[int, list[Element]]]()
     trees = [[*ordered_trees(n)] for n in range(1, order)]
     values = [{t: series.stage(j, branches(t)) for of_size in trees for t in of_size} for j in range(len(b))]
@@ -132,7 +135,7 @@ def _graded_bases(
 def _arguments(
     algebra: GradedAlgebra, rows: Sequence[Sequence[Element]], bases: Sequence[tuple[int, list[Element]]]
 ) -> list[Polynomial]:
-    """Return u_1, ..., u_s and u over h in the letters q."""
+    """Return u_1, ..., u_s and u, divided by h, as polynomials in the letters q."""
     ring, values, pulled, arguments = algebra.ring, list[Polynomial](), list[Polynomial](), list[Polynomial]()
     for j, (_, row) in enumerate(bases):
         earlier = [(ring.zero - x, value) for x, value in zip(row, values, strict=False)]
@@ -149,11 +152,11 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return for each stage i the combinations u_j + c u_i with a later stage j that need one bracket only.
+    """Return for each stage i the combinations u_j + c u_i with a later stage j that need only one bracket.
 
-    The newest stage value q that occurs in brackets is the same for u_i and u_j. Each of the two arguments
-    needs two brackets with q. Their combination needs only one, since P is a Lie element in its part ad_P q.
-    Then u_j follows from this combination and u_i.
+    u_i and u_j must have the same newest stage value q in brackets. Each of the two arguments needs two
+    brackets with q. Their combination needs only one bracket, because its part that contains q is ad_P q with
+    a Lie element P. Then u_j is computed from this combination and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -171,11 +174,12 @@ def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int
 
 @dataclass(frozen=True)
 class _Shape:
-    """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e], C_n = [q_1, z_n +
-    C_(n+1)].
+    """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
+    + C_(n+1)].
 
-    ``inner`` counts the C's; ``leading`` fixes the coefficient of the pool's second element in y to one, so
-    that x is determined linearly; ``extra`` are the places in the pool of further left factors e.
+    The pool is the list of known elements. ``inner`` is the number of brackets C_n. ``leading`` fixes the
+    coefficient of the second pool element in y to one, so that the equations for x are linear. ``extra``
+    contains the indices in the pool of the left factors e.
     """
 
     outer: bool = False
@@ -190,7 +194,7 @@ class _Shape:
 
 
 def _shapes(pool: int) -> Iterator[_Shape]:
-    """Yield shapes by rising number of brackets."""
+    """Yield shapes in order of increasing number of brackets."""
     yield _Shape()
     for brackets in count(1):
         for others in range(min(brackets - 1, 2) + 1):
@@ -200,9 +204,10 @@ def _shapes(pool: int) -> Iterator[_Shape]:
 
 
 class _Search:
-    """The search for one argument after another; ``pool`` lists known elements and their rows.
+    """A search that expresses one argument after another. ``pool`` contains the known elements and their
+    rows.
 
-    It uses at most ``most`` brackets.
+    The search fails if it needs more than ``most`` brackets.
     """
 
     def __init__(
@@ -216,7 +221,8 @@ class _Search:
     def program(
         self, arguments: Sequence[Polynomial], before: Mapping[int, Sequence[Polynomial]], least: int
     ) -> BracketProgram | None:
-        """Return a program with ``before[i]`` just before u_i; None if it has too many brackets."""
+        """Return a program that computes the elements ``before[i]`` immediately before u_i, or None if the
+        limit on brackets is exceeded."""
         rows = []
         for i, argument in enumerate(arguments):
             if i:
@@ -241,11 +247,12 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Return the row of an argument in this shape and add its new brackets to the pool; None if
-        impossible.
+        """Return the row of an argument in this shape, and add its new brackets to the pool; None if the
+        shape does not fit.
 
-        The equations are linear, except for products of unknowns in x and in y. Each sweep takes either y
-        from the previous sweep, or the part of x that lower grades determine, until all equations hold.
+        The equations are linear, except for products of an unknown in x and an unknown in y. Each sweep
+        solves linear equations in which one of the two factors is fixed: y from the previous sweep, or the
+        part of x that lower grades determine. Sweeps end when all equations hold.
         """
         if shape.leading and len(self.pool) < 3:
             return None
@@ -273,7 +280,7 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices in the pool, from the third on, of elements of least grade."""
+        """Return the indices of the pool elements of least grade; the first two elements are excluded."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -294,7 +301,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return a solution; with a random generator, some unknowns may be changed at random first."""
+        """Return a solution. If a random generator is given, some unknowns may first be set to random
+        values."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -313,7 +321,8 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return the polynomial that each unknown multiplies; ``right`` is y and ``left`` a part of x."""
+        """Return, for each unknown, the polynomial that it multiplies; ``right`` is y, and ``left`` is a part
+        of x."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -334,7 +343,7 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Put the brackets of a shape into the pool; return the argument's row, its value and y."""
+        """Add the brackets of a shape to the pool; return the row of the argument, its value, and y."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:
@@ -355,7 +364,8 @@ class _Search:
         return self._row(terms), value, right
 
     def _bracket(self, left: Sequence[tuple[Element, int]], right: Sequence[tuple[Element, int]]) -> int:
-        """Add the bracket of two combinations of the pool; return its place there."""
+        """Compute the bracket of two combinations of pool elements, add it to the pool, and return its
+        index."""
         x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
         rows = self._row(left), self._row(right)
         if len(rows[0]) == 1:

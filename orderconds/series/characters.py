@@ -1,9 +1,9 @@
-"""The group of steps: composition, inverse and adjoint of B-series and of Lie-Butcher series.
+"""Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
-A step is a character: its value on several components is the product of its values on each component, and its
-value on the empty forest is 1. It is a function of canonical rooted trees (B-series, a(t) = sum_i b_i
-tau_t(i), so that y1 = y0 + sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher, see
-:mod:`orderconds.series.lie_butcher`).
+A step is a character: its value on a forest of several components is the product of its values on the
+components, and its value on the empty forest is 1. A step is a function of canonical rooted trees (B-series,
+a(t) = sum_i b_i tau_t(i), so that y1 = y0 + sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher,
+see :mod:`orderconds.series.lie_butcher`).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Value = Callable[[bytes], Element]
 
 @dataclass(frozen=True)
 class TreeAlgebra:
-    """The algebra of trees: their cuts, and the values of the exact flow.
+    """An algebra of trees, given by the cuts of a tree and by the values of the exact flow.
 
     >>> str(ROOTED.exact(bytes((0, 1, 1)))), len(ORDERED.cuts(bytes((0, 1, 1))))
     ('1/3', 4)
@@ -37,7 +37,7 @@ ROOTED = TreeAlgebra(tree_cuts, lambda tree: Fraction(1, density(tree)))
 1.5)."""
 
 ORDERED = TreeAlgebra(left_cuts, exact_value)
-"""Lie-Butcher series: ordered forests, the first tree acting first."""
+"""Lie-Butcher series: ordered forests, in which the first tree acts first."""
 
 
 class Character:
@@ -61,7 +61,8 @@ class Character:
         return self._known[forest]
 
     def then(self, other: Character) -> Character:
-        """Return this step followed by ``other``, both of size h (HLW III.1.4, Theorem 1.10).
+        """Return the composition: this step, followed by the step ``other``, both of size h (HLW III.1.4,
+        Theorem 1.10).
 
         For ordered forests the cuts are left admissible (Munthe-Kaas and Wright 2008, Theorem 5).
         """
@@ -72,7 +73,7 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def inverse(self) -> Character:
-        """Return the step that undoes this one: ``a.then(a.inverse())`` is the identity.
+        """Return the inverse step: ``a.then(a.inverse())`` is the identity.
 
         >>> from orderconds.ring import QQ
         >>> flow = exact_flow(QQ, ROOTED)
@@ -84,7 +85,8 @@ class Character:
         return undone
 
     def adjoint(self) -> Character:
-        """Return the inverse of the step with -h (HLW II.3, Def. 3.1); symmetric methods are self-adjoint.
+        """Return the inverse of the step with -h in place of h (HLW II.3, Def. 3.1). A symmetric method is
+        equal to its adjoint.
 
         >>> from orderconds.ring import QQ
         >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -94,7 +96,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the step of size ``factor`` h."""
+        """Return the same step with step size ``factor`` h."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one
@@ -105,9 +107,10 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Sum over cuts this step's values on the components times ``other``'s on the rest.
+        """Return the sum over cuts of this step's values on the components times the values of ``other`` on
+        the rest.
 
-        Without ``whole`` the trivial cut is left out.
+        If ``whole`` is false, the cut that removes the whole tree is omitted.
         """
         result = self.ring.zero
         for components, rest in self.algebra.cuts(forest):
@@ -120,7 +123,7 @@ class Character:
 
 
 def exact_flow(ring: Ring, algebra: TreeAlgebra) -> Character:
-    """Return the exact flow over a time h.
+    """Return the exact flow over a time h as a character.
 
     >>> from orderconds.ring import QQ
     >>> str(exact_flow(QQ, ORDERED)(bytes((0, 1, 2, 1))))

@@ -1,10 +1,10 @@
 """Admissible cuts of trees and forests: the series of two steps in sequence is a sum over all cuts.
 
-A cut divides a tree or forest into a rest, which contains the roots, and components above the rest. Unordered
-trees may be cut at any edges of which no two lie on one path (Connes and Kreimer 1998; HLW III.1.4, ordered
-subtrees). Ordered forests are cut so that at every vertex, and among the roots, the branches cut off are
-leftmost and form one component (left admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008)
-227).
+A cut divides a tree or forest into a lower part, the rest, which contains the roots, and the components above
+it. For unordered trees, a cut is a set of edges, at most one on each path from the root (Connes and Kreimer
+1998; HLW III.1.4, ordered subtrees). For ordered forests, the branches that a cut removes at one vertex are
+the leftmost branches of this vertex, and they form one component. The same rule applies to the roots (left
+admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from itertools import product
 from orderconds.trees.levels import Forest, Tree, branches, children, rooted_at_new_vertex, trees_of
 
 Cut = tuple[tuple[bytes, ...], bytes]
-"""The components and the rest, which is empty if the whole tree is cut off."""
+"""A cut: its components and its rest. The rest is empty if the whole tree is a component."""
 
 Cuts = Callable[[bytes], tuple[Cut, ...]]
 
 
 @lru_cache(maxsize=1 << 14)
 def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
-    r"""Return every cut of a canonical rooted tree, with repetitions; the rest of the last one is empty.
+    r"""Return every cut of a canonical rooted tree, with repetitions. In the last cut the rest is empty.
 
     >>> tree_cuts(b"\0\1")
     (((), b'\x00\x01'), ((b'\x00',), b'\x00'), ((b'\x00\x01',), b''))
@@ -41,7 +41,7 @@ def tree_cuts(tree: Tree) -> tuple[Cut, ...]:
 
 @lru_cache(maxsize=1 << 14)
 def left_cuts(forest: Forest) -> tuple[Cut, ...]:
-    r"""Return every left admissible cut of an ordered forest; the rest of the last one is empty.
+    r"""Return every left admissible cut of an ordered forest. In the last cut the rest is empty.
 
     >>> left_cuts(b"\0\0")
     (((), b'\x00\x00'), ((b'\x00',), b'\x00'), ((b'\x00\x00',), b''))

@@ -1,9 +1,9 @@
 """The series of a Runge-Kutta-Munthe-Kaas method, from its definition in the free associative algebra.
 
-Stage arguments ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j``, ``k_j = f(exp(u_j) y0)``, step ``exp(h sum_j b_j
-dexpinv_{(r),u_j} k_j)``; dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 = -1/2 (HLW IV.8.3). Letters
-are ordered trees. In a word the first letter acts first. In the product xy of two elements, y acts first, so
-the word of y comes before the word of x.
+The stage arguments are ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j`` with ``k_j = f(exp(u_j) y0)``. The step
+is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``, where dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 =
+-1/2 (HLW IV.8.3). The letters of words are ordered trees. In a word the first letter acts first. In the
+product xy of two elements, y acts first. Hence the letters of y precede the letters of x.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ from orderconds.trees.levels import Forest, Tree, branches
 
 
 class DexpinvSeries:
-    """The series of RKMK with the tableau (A, b) over ``ring``; ``cutoff`` None keeps all of dexpinv.
+    """The Lie-Butcher series of RKMK with the tableau (A, b) over ``ring``; ``cutoff`` None means no
+    truncation.
 
-    The value of a word depends on shorter words only, so implicit tableaux need no iteration. A word is
-    evaluated at all stages together.
+    The value of a word depends only on shorter words. Hence implicit tableaux need no iteration. The
+    coefficients of a word are computed for all stages at once.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -35,7 +36,7 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # The arguments of the stages, and the argument of the step.
+        # One entry for the arguments of all stages, and one for the argument of the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
@@ -53,7 +54,7 @@ class DexpinvSeries:
         return self._exponential(0, forest)[i]
 
     def argument(self, i: int, word: Forest) -> Element:
-        """Return the coefficient of a word in u_i (0-based; i = s means the argument of the step)."""
+        """Return the coefficient of a word in u_i. Stages are counted from 0, and i = s denotes the step."""
         if not word:
             return self._ring.zero
         return self._power(1, 1, word)[0] if i == self._stages else self._power(0, 1, word)[i]
@@ -101,7 +102,8 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient in dexpinv of a letter k_j between two words, None for zero."""
+        """Return the coefficient of k_j in dexpinv, with the given words before and after the letter k_j;
+        None means zero."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:
@@ -115,7 +117,7 @@ class DexpinvSeries:
         return values
 
     def _present(self, before: int, behind: int) -> list[tuple[Element, int, int]]:
-        """Return the terms u^n k u^m of dexpinv that contribute to a letter between words of these lengths.
+        """Return the terms u^n k u^m of dexpinv that contribute to a letter k between words of these lengths.
 
         ad_u^k x = sum comb(k, m) (-1)^m u^(k-m) x u^m, and the rightmost factor u^m acts first. A word occurs
         in u^m only if it has at least m letters; the empty word occurs in u^0 only.
@@ -139,7 +141,8 @@ class DexpinvSeries:
 
 @lru_cache(maxsize=64)
 def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
-    """Return (B_k/k! comb(k, m) (-1)^m, m, k - m) for the terms u^(k-m) x u^m of dexpinv, k <= ``longest``.
+    """Return (B_k/k! comb(k, m) (-1)^m, m, k - m) for all k <= ``longest`` and m <= k, the coefficients of
+    the terms u^(k-m) x u^m of dexpinv.
 
     >>> [(str(q), m, n) for q, m, n in dexpinv_terms(1)]
     [('1', 0, 0), ('-1/2', 0, 1), ('1/2', 1, 0)]
@@ -152,7 +155,7 @@ def dexpinv_terms(longest: int) -> tuple[tuple[Fraction, int, int], ...]:
     )
 
 
-@cache  # each number depends on all earlier ones, so the cache is unbounded
+@cache  # The cache is unbounded, because each number depends on all earlier numbers.
 def bernoulli(k: int) -> Fraction:
     """Return the Bernoulli number B_k, with B_1 = -1/2.
 
@@ -167,11 +170,11 @@ def bernoulli(k: int) -> Fraction:
 
 
 def _cuts(word: Forest) -> list[int]:
-    """Return the places at which a word can be cut into two non-empty words."""
+    """Return the positions at which a word can be divided into two non-empty words."""
     return [place for place in range(1, len(word)) if word[place] == 0]
 
 
 def _pointed(word: Forest) -> list[tuple[int, Tree, int]]:
-    """Return each letter of a word with the positions of its begin and its end."""
+    """Return each letter of a word with the positions of its start and its end."""
     cuts = [0, *_cuts(word), len(word)]
     return [(start, word[start:end], end) for start, end in pairwise(cuts)]

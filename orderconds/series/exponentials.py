@@ -1,8 +1,9 @@
 """Coefficients of words in a product of exponentials, by one sweep over the factors, over any ring.
 
-In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k the word k_1 ... k_n, k_1 acting first, has the coefficient
+In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k, the word k_1 ... k_n, in which k_1 acts first, has the
+coefficient
 
-    sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
+sum over J_1 <= ... <= J_n of prod x_{J_l}(k_l) / prod (run lengths)!
 
 (HLW, Section III.5; Reutenauer, Free Lie Algebras, Chapter 3).
 """
@@ -17,9 +18,10 @@ from orderconds.words.shuffle import Word
 
 
 class ProductOfExponentials:
-    """Values on words of ``count`` exponentials; ``letter(J, k)`` is the coefficient of letter k in X_J.
+    """The coefficients of words in a product of ``count`` exponentials. ``letter(J, k)`` returns the
+    coefficient of letter k in X_J.
 
-    None means a coefficient that is zero by construction.
+    If it returns None, the coefficient is zero by construction.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]
@@ -39,7 +41,8 @@ class ProductOfExponentials:
         return self._sweep(word)[-1]
 
     def _sweep(self, word: Word) -> list[Element]:
-        """Return the coefficients of ``word`` in the products of the first 0, 1, ... exponentials."""
+        """Return the coefficients of ``word`` in the products of the first 0, 1, ..., ``count``
+        exponentials."""
         values = self._partial.get(word)
         if values is None:
             whole = len(word)
@@ -49,7 +52,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The last r letters come from this exponential, those before from earlier ones.
+                # The last r letters come from this exponential, the letters before them from earlier
+                # exponentials.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

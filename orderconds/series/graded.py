@@ -1,7 +1,7 @@
 """Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
 
 A polynomial maps words of letters, numbered from 0, to coefficients; letters have grades, and products above
-a largest grade vanish. The product implies no order of action.
+a largest grade vanish. The product xy is the word xy; this module does not define which letter acts first.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ Key = TypeVar("Key", bound=Hashable)
 
 
 class GradedAlgebra:
-    """The algebra of words in letters with these ``grades``, up to the grade ``largest``.
+    """The algebra of polynomials in letters with the given ``grades``. Words with a grade above ``largest``
+    are dropped.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)
@@ -35,7 +36,7 @@ class GradedAlgebra:
         return sum(self.grades[letter] for letter in word)
 
     def combine(self, *scaled: tuple[Element, Mapping[Word, Element]]) -> Polynomial:
-        """Add multiples of polynomials."""
+        """Return a linear combination of polynomials."""
         result: Polynomial = {}
         for scale, x in scaled:
             for word, value in x.items():
@@ -68,16 +69,18 @@ class GradedAlgebra:
         return result
 
     def cut(self, x: Mapping[Word, Element], limit: int) -> Polynomial:
-        """Return x without the words above a grade."""
+        """Return x without the words of a grade above ``limit``."""
         return {word: value for word, value in x.items() if self.grade(word) <= limit}
 
 
 def solve(
     ring: Ring, columns: Sequence[Mapping[Key, Element]], target: Mapping[Key, Element]
 ) -> list[Element] | None:
-    """Return numbers with ``sum_n x_n columns[n] = target``, or None; earlier columns are preferred.
+    """Return numbers x_n with ``sum_n x_n columns[n] = target``, or None. If the solution is not unique,
+    earlier columns are preferred.
 
-    This is Gaussian elimination; the ring must divide by every non-zero number it contains.
+    The method is Gaussian elimination. The ring must be able to divide by every non-zero number that it
+    contains.
 
     >>> from orderconds.ring import QQ
     >>> [str(x) for x in solve(QQ, [{"a": QQ.rational(2)}, {"a": QQ.one}], {"a": QQ.one})]

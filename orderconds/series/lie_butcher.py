@@ -1,12 +1,12 @@
 """Lie-Butcher series: the values of products of exponentials and of the exact flow on ordered forests.
 
-A forest is a word of ordered trees, the first acting first. For g = exp(X_m) ... exp(X_1) with X_J a
-combination of trees, and k = f(g y0), the coefficient of a word is
+A forest is a word of ordered trees, in which the first tree acts first. For g = exp(X_m) ... exp(X_1) with
+X_J a combination of trees, and k = f(g y0), the coefficient of a word is
 
-    sum over J_1 <= ... <= J_k of prod x_{J_l}(t_l) / prod (run lengths)!
+sum over J_1 <= ... <= J_k of prod x_{J_l}(t_l) / prod (run lengths)!
 
-and this is also the value in k of the tree whose branches are the word (Owren and Marthinsen, BIT 39 (1999)
-116; HLW IV.8).
+In the series of k, the tree whose branches form this word has the same value (Owren and Marthinsen, BIT 39
+(1999) 116; HLW IV.8).
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The stages that one exponential combines, each with its coefficient."""
+"""The coefficients of the stages in one exponent; zero coefficients are omitted."""
 
 
 class ForestSeries(Protocol):
-    """Anything that has a value on each ordered forest."""
+    """A function that returns the value of a series on an ordered forest."""
 
     def __call__(self, forest: Forest) -> Element:
         """Return the value on a forest."""
@@ -35,11 +35,11 @@ class ForestSeries(Protocol):
 class ExponentialsSeries:
     """The series of a commutator-free method: products of exponentials of combinations of stage values.
 
-    ``stages[i]`` are the exponentials that lead from y0 to stage i, ``update`` those of the step, each a
-    sparse row of coefficients over the stages; the first acts first. Stages may depend on each other in any
-    way (implicit). Products that begin with the same rows (compared by identity of coefficients) share these
-    rows. All products thus form one tree of places, in which each place is a partial product. A word has one
-    coefficient at each place: its coefficient in the partial product.
+    ``stages[i]`` are the exponentials that lead from y0 to stage i, and ``update`` are the exponentials of
+    the step. Each exponential is a sparse row of coefficients over the stages; the first acts first. Stages
+    may depend on each other implicitly. Products that begin with the same rows (identical coefficient
+    objects) share partial products. Hence all partial products form one tree; a node of this tree is called a
+    place. The coefficient of a word at a place is its coefficient in the partial product.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -54,8 +54,8 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """For each place but the first: its number, the number of the preceding place, and the row between
-        them."""
+        """For each place except the first: its number, the number of the preceding place, and the row that
+        connects the two places."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 
@@ -91,7 +91,8 @@ class ExponentialsSeries:
         return self._updates[forest]
 
     def stage(self, i: int, forest: Forest) -> Element:
-        """Return the value on a forest of the product that leads to stage i (counted from 0)."""
+        """Return the value on a forest of the product of exponentials that leads to stage i, counted from
+        0."""
         return self._word(forest)[self._ends[i]]
 
     def stage_values(self, tree: Tree) -> list[Element]:
@@ -117,10 +118,12 @@ class ExponentialsSeries:
         return values
 
     def _along(self, word: Forest, places: Sequence[tuple[int, int, int]]) -> list[Element]:
-        """Return the coefficients of a non-empty word, computed only at ``places`` and zero elsewhere."""
+        """Return the coefficients of a non-empty word, computed only at ``places``; the coefficients at all
+        other places are set to zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The last r letters of the word come from the last exponential, the others from before it.
+        # The last r letters of the word come from the last exponential, the letters before them from earlier
+        # exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -138,7 +141,7 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficient of a tree in the exponent of each row, None for zero."""
+        """Return the coefficient of a tree in the exponent of each row; None means zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero
@@ -157,10 +160,10 @@ class ExponentialsSeries:
 def exact_value(forest: Forest) -> Fraction:
     r"""Return the value of the exact flow on a forest, by left grafting.
 
-    Let g be the flow of g' = f(g y0) g. Its value on a word is the iterated integral of the letters, with the
-    first letter at the earliest time. By homogeneity, the integral over [0, s] is e s^n for n vertices. The
-    derivative with respect to s removes the last letter. The value of this letter is the value of the word of
-    its branches.
+    Let g be the solution of g' = f(g y0) g, g(0) = 1. The value of its series on a word is the iterated
+    integral of the letters, with the first letter at the earliest time. By homogeneity, the integral over [0,
+    s] is e s^n, where n is the number of vertices and e the value to be computed. The derivative with respect
+    to s removes the last letter. The value of a letter is the value of the word of its branches.
 
     >>> str(exact_value(b"\0\1\1\2")), str(exact_value(b"\0\1\2\1"))
     ('1/12', '1/24')
@@ -185,7 +188,8 @@ def forest_values(series: ForestSeries, order: int) -> dict[Forest, Element]:
 
 
 def forest_residuals(series: ForestSeries, ring: Ring, order: int) -> dict[Forest, Element]:
-    """Return the values minus the exact flow's: at order p + 1 the leading terms of the local error.
+    """Return the values of the series minus the values of the exact flow. At order p + 1 these are the
+    leading terms of the local error.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)

@@ -1,9 +1,10 @@
-"""Select independent values on forests within a family, by ranks modulo products of lower ones.
+"""Selection of independent conditions on ordered forests in a family, by ranks at random methods.
 
-A condition is superfluous if its left-hand side, for every method, is a combination of simpler ones of its
-order and of products of lower ones, **and** the exact flow's values obey the same relation. The exact flow is
-therefore one of the samples. If it breaks the relation (RKMK(0) at order 3), the condition cannot be met and
-is kept.
+A condition is superfluous if its left-hand side, for every method of the family, is a fixed combination of
+simpler left-hand sides of the same order and of products of left-hand sides of lower order, **and** the
+values of the exact flow satisfy the same relation. The exact flow is therefore one of the samples. If the
+exact flow violates the relation (RKMK(0) at order 3), no method satisfies the condition, and the condition is
+not removed.
 """
 
 from __future__ import annotations
@@ -23,16 +24,17 @@ RandomSeries = Callable[[Residues, np.random.Generator], ForestSeries]
 """A function that returns the series of random methods of a family, one for each sample."""
 
 SPARE_SAMPLES = 20
-"""Rows beyond the largest possible rank, so that chance does not hide a dependence."""
+"""The number of samples beyond the largest possible rank; they make accidental dependences improbable."""
 
 
 def independent_forests(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], *, with_exact_flow: bool = True
 ) -> tuple[tuple[Forest, ...], ...]:
-    """Return those of ``candidates``, one sequence for each order 1, 2, ..., that are independent.
+    """Return the independent forests among ``candidates``, a sequence of forests for each order 1, 2, ....
 
-    The rank is computed modulo two primes. A rank modulo a prime can only be too small, so the larger set is
-    kept. If the exact flow is not among the samples, only the left-hand sides are independent.
+    The rank is computed modulo two primes. A rank modulo a prime is at most the rank over Q. Hence the larger
+    of the two sets is returned. If the samples do not contain the exact flow, only the left-hand sides are
+    tested for independence.
 
     >>> from orderconds.trees.ordered import ordered_forests
     >>> from orderconds.series.dexpinv import DexpinvSeries
@@ -49,7 +51,7 @@ def independent_forests(
 def _independent(
     family: RandomSeries, candidates: Sequence[Sequence[Forest]], prime: int, with_exact_flow: bool
 ) -> tuple[tuple[Forest, ...], ...]:
-    # Values on forests of an order span at most as many dimensions as there are forests.
+    # The dimension of the span of the values on forests of one order is at most the number of forests.
     ring = Residues(prime, ordered_forest_count(len(candidates)) + SPARE_SAMPLES)
     series = family(ring, np.random.default_rng(prime))
 

@@ -1,6 +1,6 @@
-"""Products of exponentials or Cayley transforms of elements given by their values on words.
+"""Products of exponentials, or of Cayley transforms, whose exponents are given by their values on words.
 
-Letter k is X_k, the coefficient of t^(k-1) in A, and has weight k; words are in the order of action.
+Letter k denotes X_k, the coefficient of t^(k-1) in A(t), and has weight k. Words are in the order of action.
 """
 
 from __future__ import annotations
@@ -26,13 +26,15 @@ TRANSFORMS = {
     "exp": (exponential_scales, logarithm_scales),
     "cay": (cayley_scales, inverse_cayley_scales),
 }
-"""For each map: its power series and the power series of its inverse, without constant terms."""
+"""For each map (exponential, Cayley transform): its power series and the power series of its inverse, without
+constant terms."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
-    """Return the values of Omega with exp(Omega) = the product of exp(exponents), the first acting first.
+    """Return the values on words of Omega, where exp(Omega) is the product of the exponentials of
+    ``exponents``; the first acts first.
 
-    With ``transform`` ``cay``, cay(x) = (1 - x/2)^-1 (1 + x/2) replaces exp on both sides. For a single
+    If ``transform`` is ``cay``, cay(x) = (1 - x/2)^-1 (1 + x/2) replaces exp on both sides. For a single
     exponent, Omega is this exponent.
 
     >>> from orderconds.ring import QQ

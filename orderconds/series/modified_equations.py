@@ -1,8 +1,8 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b. Here a = exp(b) with
-respect to composition: a = sum_j (1/j!) L^(j-1) b, where L sums over cuts with one component (HLW IX.9.1; on
-ordered forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b. The values are related
+by a = exp(b) with respect to composition: a = sum_j (1/j!) L^(j-1) b, where L is a sum over cuts with one
+component (HLW IX.9.1; on ordered forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 """
 
 from __future__ import annotations
@@ -19,10 +19,12 @@ from orderconds.trees.rooted import rooted_trees
 
 
 class VectorField:
-    """A field f~, by its value on each tree (B-series) or forest (Lie-Butcher: zero on proper shuffles).
+    """A vector field f~, given by its value on each tree (B-series) or on each ordered forest (Lie-Butcher
+    series).
 
-    B-series: f~ = sum h^(|t|-1) b(t)/sigma(t) F(t). Lie-Butcher: f~ = sum h^(|w|-1) b(w) F(t_k) ... F(t_1)
-    for matrices; this sum is an element of the Lie algebra, because b is zero on proper shuffles.
+    B-series: f~ = sum h^(|t|-1) b(t)/sigma(t) F(t). Lie-Butcher series, for matrices: f~ = sum h^(|w|-1) b(w)
+    F(t_k) ... F(t_1). This sum is an element of the Lie algebra, because b is zero on shuffle products of
+    non-empty words.
 
     >>> from orderconds.ring import QQ
     >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -36,7 +38,7 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function that computes the values; it may use values on smaller trees."""
+        """Set the function that computes the values. The function may call the field on smaller trees."""
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:
@@ -46,7 +48,7 @@ class VectorField:
         return self._known[forest]
 
     def flow(self) -> Character:
-        """Return the exact flow of the field over h.
+        """Return the exact flow of the field over time h as a character.
 
         >>> from orderconds.ring import QQ
         >>> f = VectorField(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -56,14 +58,16 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the value of the flow minus the value of the field: the contribution of smaller trees."""
+        """Return the value of the flow minus the value of the field; this difference depends only on smaller
+        trees."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))
         return result
 
     def _power(self, n: int, forest: bytes) -> Element:
-        """Return L^(n-1) b."""
+        """Return the value on a tree or forest of L^(n-1) b, where L is the sum over cuts with one
+        component."""
         if n == 1:
             return self(forest)
         if n > len(forest):
@@ -92,12 +96,12 @@ def modified_field(step: Character) -> VectorField:
 
 
 def modified_hamiltonian(field: VectorField, order: int) -> tuple[tuple[Tree, Element], ...]:
-    """Return the trees t with their coefficients b(t)/sigma(t) in H~ = sum h^(|t|-1) b(t)/sigma(t) H(t).
+    """Return pairs of a tree t and its coefficient b(t)/sigma(t) in H~ = sum h^(|t|-1) b(t)/sigma(t) H(t).
 
-    H(t) for t = [t_1 ... t_m] is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)); the sum is over free
-    trees with at most ``order`` vertices that are not superfluous (HLW IX.9.2). Raises
-    :class:`~orderconds.errors.InputError` for a Lie-Butcher series, and unless b(u o v) + b(v o u) = 0 is
-    known to hold, since otherwise the field may not be Hamiltonian.
+    H(t) for t = [t_1 ... t_m] is the elementary Hamiltonian H^(m)(F(t_1), ..., F(t_m)); the sum is over the
+    free trees with at most ``order`` vertices that no edge divides into equal halves (HLW IX.9.2). Raises
+    :class:`~orderconds.errors.InputError` for a Lie-Butcher series. The same error is raised if b(u o v) +
+    b(v o u) = 0 is not proved for all u and v, because the field may then not be Hamiltonian.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.trees.levels import text

@@ -1,4 +1,5 @@
-"""Products of graded generators: the consequences of conditions of lower order."""
+"""Products of graded generators: conditions of lower order imply that these products have their exact
+values."""
 
 from __future__ import annotations
 
@@ -8,7 +9,7 @@ from orderconds.ring.protocol import Element
 
 
 def products(generators: Sequence[tuple[int, Element]], degree: int) -> Iterator[Element]:
-    """Yield every monomial of exactly that degree in generators given as (degree, value).
+    """Yield every monomial of degree ``degree`` in the generators, which are given as pairs (degree, value).
 
     >>> list(products([(1, 3), (2, 5)], 3))  # b^3, b bc with b = 3, bc = 5
     [27, 15]

@@ -1,9 +1,10 @@
-"""Substitution: the series of a step when the field f is replaced by another one that is a series itself.
+"""Substitution: the series of a step if another field, which is itself a series in f, replaces the field f.
 
-For B-series a tree is divided into connected components. The field is evaluated at the components, and the
-step at the quotient tree, in which each component is one vertex (Chartier, Hairer and Vilmart, Found. Comput.
-Math. 10 (2010) 407, Theorem 3.2). For Lie-Butcher series f -> f~ extends to forests by concatenation and left
-grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
+For B-series, the value on a tree is a sum over all divisions of the tree into connected components. Each
+summand is the product of the values of the field on the components and the value of the step on the quotient
+tree, in which each component becomes one vertex (Chartier, Hairer and Vilmart, Found. Comput. Math. 10 (2010)
+407, Theorem 3.2). For Lie-Butcher series, the substitution f -> f~ is extended to forests by concatenation
+and left grafting (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295, Section 4.3).
 """
 
 from __future__ import annotations
@@ -24,7 +25,8 @@ Combination = dict[Forest, Element]
 
 
 def substituted(field: VectorField, step: Character) -> Character:
-    """Return the series of ``step`` applied to ``field`` in place of f; both have the same ring.
+    """Return the series of ``step``, applied to ``field`` in place of f. Both must be given over the same
+    ring.
 
     For example, the exact flow of the modified field of a method is the method itself.
 
@@ -55,9 +57,9 @@ def substituted(field: VectorField, step: Character) -> Character:
 def modifying_field(step: Character) -> VectorField:
     """Return the field to which ``step`` must be applied so that the result is the exact flow of f.
 
-    Truncated, this *modifying* field gives methods of arbitrarily high order (Chartier, Hairer and Vilmart,
-    Math. Comp. 76 (2007) 1941). ``step`` must be a consistent B-series. Raises
-    :class:`~orderconds.errors.InputError` for any other step.
+    This field is called the modifying field. If ``step`` is applied to truncations of it, the result is a
+    method of arbitrarily high order (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). ``step`` must
+    be a consistent B-series. Raises :class:`~orderconds.errors.InputError` for any other step.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -69,7 +71,7 @@ def modifying_field(step: Character) -> VectorField:
         raise InputError("a Lie-Butcher series", where="modifying field", expected="a B-series")
     if step.ring.is_zero(step(b"\0") - step.ring.one) is False:
         raise InputError(
-            f"weights that sum to {step.ring.text(step(bytes(1)))}",
+            f"the weights sum to {step.ring.text(step(bytes(1)))}",
             where="modifying field",
             expected="a consistent method, whose weights sum to 1",
         )
@@ -77,8 +79,8 @@ def modifying_field(step: Character) -> VectorField:
     field = VectorField(step.ring, ROOTED, lambda tree: step.ring.zero)
 
     def value(tree: Tree) -> Element:
-        # The step has the value 1 on the tree of one vertex, so the term of the whole tree is the value of
-        # the field.
+        # The step has the value 1 on the tree of one vertex. Hence the term for the division into one
+        # component is the value of the field on the whole tree.
         return flow(tree) - _by_partitions(field, step, tree, whole=False)
 
     field.define(value)
@@ -86,7 +88,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Sum over the partitions of a tree; ``whole=False`` omits the partition into one component."""
+    """Return the sum over the partitions of a tree. If ``whole`` is false, the partition into one component
+    is omitted."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:
@@ -100,7 +103,8 @@ def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bo
 
 @lru_cache(maxsize=1 << 12)
 def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
-    r"""Return the components and the skeleton (quotient tree) of a canonical tree for each set of cut edges.
+    r"""Return, for each set of cut edges, the components and the skeleton (quotient tree) of a canonical
+    tree.
 
     >>> partitions(b"\0\1")
     (((b'\x00\x01',), b'\x00'), ((b'\x00', b'\x00'), b'\x00\x01'))
@@ -113,7 +117,8 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Return the component of the root, the others and the skeleton; ``cut`` flags the edges in preorder."""
+    """Return the component of the root, the other components, and the skeleton; ``cut`` flags the cut edges
+    in preorder."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []
@@ -135,7 +140,8 @@ def _tree(below: list[Tree]) -> Tree:
 
 
 class _Images:
-    """Combinations of forests that arise when the field replaces every vertex of a word of trees."""
+    """The linear combinations of forests that result if the field replaces every vertex of a word of
+    trees."""
 
     def __init__(self, field: VectorField) -> None:
         self._field = field

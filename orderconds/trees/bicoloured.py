@@ -1,9 +1,9 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
 Colour 0 (black) belongs to the first part y of a partitioned system, colour 1 (white) to the second, z.
-Encoding: bytes in preorder, ``2 level + colour``, branches in descending order. Apart from the colour of the
-root, this is the encoding of :mod:`orderconds.trees.directed`: an edge to a white vertex has kind 1, a
-coefficient of the second method.
+Encoding: one byte ``2 level + colour`` for each vertex, in preorder; branches are in descending order. Apart
+from the colour of the root, this is the encoding of :mod:`orderconds.trees.directed`: an edge to a white
+vertex has kind 1, so its coefficient belongs to the second method.
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield every rooted tree with vertices of two colours once, black roots first (HLW III.2.1, TP).
+    """Yield every rooted tree with vertices of two colours, each once, trees with a black root first (HLW
+    III.2.1, TP).
 
     >>> [text(tree) for tree in bicoloured_rooted_trees(2)]
     ['[.]', '[o]', '(.)', '(o)']
@@ -30,10 +31,12 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
 
 
 def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
-    """Return every free tree whose neighbours differ in colour once, rooted at a vertex of least height.
+    """Return every free tree with alternating colours, each once, rooted at a vertex for which its height is
+    least.
 
-    They are the trees of symplectic partitioned methods for separable Hamiltonians (Abia and Sanz-Serna 1993;
-    HLW VI.7.2). If a symmetry of a free tree exchanges the colours, both colourings are the same tree.
+    In such a tree any two neighbours differ in colour. These are the trees of symplectic partitioned methods
+    for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). If a symmetry of the uncoloured tree
+    exchanges the two colourings, both colourings are the same tree.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']
@@ -47,7 +50,8 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
 
 
 def alternating(colour: int, tree: Tree) -> BicolouredTree:
-    r"""Colour a rooted tree so that neighbours differ and the root has the given colour.
+    r"""Return a rooted tree with alternating colours: neighbours differ in colour, and the root has the given
+    colour.
 
     >>> text(alternating(1, b"\0\1\2\1"))
     '([o].)'
@@ -57,7 +61,7 @@ def alternating(colour: int, tree: Tree) -> BicolouredTree:
 
 
 def canonical(tree: BicolouredTree) -> BicolouredTree:
-    """Return the encoding whose branches are in descending order at every vertex.
+    """Return the encoding in which the branches are in descending order at every vertex.
 
     >>> canonical(bytes((0, 2, 3))) == canonical(bytes((0, 3, 2)))
     True
@@ -67,7 +71,7 @@ def canonical(tree: BicolouredTree) -> BicolouredTree:
 
 
 def coloured(colour: int, tree: bytes) -> BicolouredTree:
-    """Give the root a colour.
+    """Return the tree with the given colour of the root.
 
     >>> text(coloured(1, bytes((0, 2))))
     '(.)'
@@ -76,7 +80,7 @@ def coloured(colour: int, tree: bytes) -> BicolouredTree:
 
 
 def children(tree: BicolouredTree) -> tuple[BicolouredTree, ...]:
-    """Return the subtrees that hang from the root.
+    """Return the subtrees at the root.
 
     >>> [text(child) for child in children(bytes((0, 3, 2)))]
     ['o', '.']
@@ -85,7 +89,7 @@ def children(tree: BicolouredTree) -> tuple[BicolouredTree, ...]:
 
 
 def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
-    """Join trees to a new root of the given colour, in canonical order.
+    """Return the tree with a new root of the given colour and the given subtrees, in canonical order.
 
     >>> text(rooted(1, [bytes((0,)), bytes((1,))]))
     '(o.)'
@@ -94,7 +98,7 @@ def rooted(colour: int, below: list[BicolouredTree]) -> BicolouredTree:
 
 
 def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
-    """Yield the tree rooted at each of its vertices in turn, colours kept.
+    """Yield the tree rooted at each of its vertices in turn. The colours do not change.
 
     >>> [text(tree) for tree in bicoloured_rootings(bytes((0, 3)))]
     ['[o]', '(.)']
@@ -103,7 +107,7 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
-    r"""For each edge at the root, yield the parts u and v that it separates, and the tree rooted in v.
+    r"""Yield, for each edge at the root, the parts u and v that the edge separates, and the tree rooted in v.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]
@@ -124,7 +128,7 @@ def _rootings(
 
 
 def symmetry(tree: BicolouredTree) -> int:
-    """Return sigma, the order of the group of symmetries that keep colours (HLW III.2, (2.4)).
+    """Return sigma, the order of the group of symmetries that preserve the colours (HLW III.2, (2.4)).
 
     >>> [symmetry(tree) for tree in bicoloured_rooted_trees(3)][4:7]
     [2, 1, 2]
@@ -134,7 +138,7 @@ def symmetry(tree: BicolouredTree) -> int:
 
 
 def text(tree: BicolouredTree) -> str:
-    """Write a tree: ``.`` and ``[..]`` with a black root, ``o`` and ``(..)`` with a white one.
+    """Return a tree as text: ``.`` and ``[..]`` for a black root, ``o`` and ``(..)`` for a white root.
 
     >>> text(bytes((0, 3, 2, 5)))
     '[o[o]]'

@@ -1,4 +1,4 @@
-"""Numbers of trees from generating functions, computed independently of every enumeration.
+"""Numbers of trees from generating functions. They are independent of the functions that enumerate trees.
 
 The sequences are A000055, A000081, A000108, A000151 and A000238 of the OEIS.
 """
@@ -10,7 +10,7 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of weight 1, 2, ... of elements, given how many have weight 1, 2, ...
+    """Return the numbers of multisets of weight 1, 2, ..., given the numbers of elements of weight 1, 2, ...
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -25,7 +25,8 @@ def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
 
 
 def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
-    """Count rooted trees whose edges are of ``kinds`` kinds (A000081; A000151 for two kinds).
+    """Return the number of rooted trees whose edges have one of ``kinds`` kinds (A000081; A000151 for two
+    kinds).
 
     >>> [rooted_tree_count(n) for n in range(1, 9)], [rooted_tree_count(n, kinds=2) for n in range(1, 7)]
     ([1, 1, 2, 4, 9, 20, 48, 115], [1, 2, 7, 26, 107, 458])
@@ -37,7 +38,7 @@ def rooted_tree_count(vertices: int, kinds: int = 1) -> int:
 
 
 def ordered_tree_count(vertices: int) -> int:
-    """Count ordered trees (the Catalan numbers, A000108).
+    """Return the number of ordered trees (the Catalan numbers, A000108).
 
     >>> [ordered_tree_count(n) for n in range(1, 9)]
     [1, 1, 2, 5, 14, 42, 132, 429]
@@ -46,7 +47,8 @@ def ordered_tree_count(vertices: int) -> int:
 
 
 def ordered_forest_count(vertices: int) -> int:
-    """Count ordered forests: each is an ordered tree with one more vertex, without its root.
+    """Return the number of ordered forests. It is equal to the number of ordered trees with one more vertex,
+    the root.
 
     >>> [ordered_forest_count(n) for n in range(6)]
     [1, 1, 2, 5, 14, 42]
@@ -55,7 +57,8 @@ def ordered_forest_count(vertices: int) -> int:
 
 
 def free_tree_count(vertices: int) -> int:
-    """Count free trees (A000055) by Otter's formula: r(n) - 1/2 (sum_k r(k) r(n - k) - r(n/2)).
+    """Return the number of free trees (A000055) by Otter's formula: r(n) - 1/2 (sum_k r(k) r(n - k) -
+    r(n/2)).
 
     >>> [free_tree_count(n) for n in range(1, 11)]
     [1, 1, 1, 2, 3, 6, 11, 23, 47, 106]
@@ -66,7 +69,7 @@ def free_tree_count(vertices: int) -> int:
 
 
 def essential_free_tree_count(vertices: int) -> int:
-    """Count free trees that no edge divides into two equal halves (HLW VI.7.1, Table 7.1).
+    """Return the number of free trees that no edge divides into two equal halves (HLW VI.7.1, Table 7.1).
 
     >>> [essential_free_tree_count(n) for n in range(1, 11)]
     [1, 0, 1, 1, 3, 4, 11, 19, 47, 97]
@@ -75,9 +78,9 @@ def essential_free_tree_count(vertices: int) -> int:
 
 
 def alternating_free_tree_count(vertices: int) -> int:
-    """Count free trees of two colours whose neighbours differ in colour.
+    """Return the number of free trees of two colours in which neighbours differ in colour.
 
-    An uncoloured free tree has two such colourings, or one if a symmetry exchanges the colours.
+    An uncoloured free tree has two such colourings, or one if a symmetry of the tree exchanges the colours.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -86,12 +89,13 @@ def alternating_free_tree_count(vertices: int) -> int:
 
 
 def _in_equal_halves(vertices: int) -> int:
-    """Count the free trees that an edge divides into two equal rooted trees."""
+    """Return the number of free trees that an edge divides into two equal rooted trees."""
     return rooted_tree_count(vertices // 2) if vertices % 2 == 0 else 0
 
 
 def directed_free_tree_count(vertices: int) -> int:
-    """Count free trees with directed edges (A000238): rooted trees minus trees rooted at an edge (Otter).
+    """Return the number of free trees with directed edges (A000238): rooted trees minus trees rooted at an
+    edge (Otter).
 
     >>> [directed_free_tree_count(n) for n in range(1, 9)]
     [1, 1, 3, 8, 27, 91, 350, 1376]
@@ -101,10 +105,10 @@ def directed_free_tree_count(vertices: int) -> int:
 
 
 def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
-    """Count Lyndon words of a weight when there are ``letters(k)`` letters of weight k.
+    """Return the number of Lyndon words of a weight, if there are ``letters(k)`` letters of weight k.
 
-    Every word is a unique product of non-increasing Lyndon words. Hence the numbers L(n) satisfy prod (1 -
-    x^n)^-L(n) = 1/(1 - sum letters(k) x^k).
+    Every word is a unique product of non-increasing Lyndon words. Hence the numbers L(n) of Lyndon words
+    satisfy prod (1 - x^n)^-L(n) = 1/(1 - sum letters(k) x^k).
 
     >>> [lyndon_word_count(n, ordered_tree_count) for n in range(1, 10)]
     [1, 1, 3, 8, 25, 75, 245, 800, 2700]

@@ -1,11 +1,13 @@
 """Rooted and free trees with directed edges: the trees of symplectic partitioned methods.
 
-An edge from parent i to child j has kind 0 if its coefficient is a_ij (it points away from the root), and
-kind 1 if its coefficient is ahat_ij (it points to the root). Because b_i ahat_ij = b_i b_j - b_j a_ji, moving
-the root across an edge changes the kind of the edge but not its direction. Hence conditions belong to free
-trees.
+An edge from parent i to child j has kind 0 if it points away from the root; its coefficient is then a_ij. It
+has kind 1 if it points to the root; its coefficient is then ahat_ij. If the root moves across an edge, the
+kind of the edge changes, but its direction does not. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
+weights of the two rooted trees add up to a product of weights of smaller trees. Hence the conditions belong
+to free trees with directed edges.
 
-Encoding: bytes in preorder, ``2 level + kind``; branches are in descending order.
+Encoding: one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of the edge to
+the parent. Branches are in descending order.
 """
 
 from __future__ import annotations
@@ -17,7 +19,7 @@ from math import factorial, prod
 
 DirectedTree = bytes
 Branch = tuple[int, DirectedTree]
-"""The kind of the edge that leads to a subtree, and the subtree."""
+"""A branch: the kind of the edge that leads to a subtree, and the subtree."""
 
 _LOWERED = bytes((0, 1)) + bytes(range(254))
 _RAISED = bytes(range(2, 256)) + bytes(2)
@@ -40,7 +42,7 @@ def branches(tree: DirectedTree) -> tuple[Branch, ...]:
 
 
 def joined(below: tuple[Branch, ...] | list[Branch]) -> DirectedTree:
-    """Join branches to a root, in canonical order.
+    """Return the tree with a new root and the given branches, in canonical order.
 
     >>> text(joined([(1, bytes((0,))), (0, bytes((0,)))]))
     '[^..]'
@@ -62,7 +64,7 @@ def density(tree: DirectedTree) -> int:
 
 
 def symmetry(tree: DirectedTree) -> int:
-    r"""Return sigma, the order of the group of symmetries, for a tree in canonical order.
+    r"""Return sigma, the order of the symmetry group, for a tree in canonical order.
 
     >>> symmetry(b"\0\2\2"), symmetry(b"\0\3\2")
     (2, 1)
@@ -74,7 +76,7 @@ def symmetry(tree: DirectedTree) -> int:
 
 @lru_cache(maxsize=1 << 16)
 def text(tree: DirectedTree) -> str:
-    r"""Write a tree in brackets, with ``^`` before each subtree below an edge of kind 1.
+    r"""Return a tree as text in brackets; ``^`` precedes each subtree below an edge of kind 1.
 
     >>> text(b"\0\3\2")
     '[^..]'
@@ -86,7 +88,8 @@ def text(tree: DirectedTree) -> str:
 
 @lru_cache(maxsize=32)
 def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every rooted tree with directed edges once (the trees of a PRK method with b = bhat).
+    """Return every rooted tree with directed edges, each once (the trees of partitioned Runge-Kutta methods
+    with b = bhat).
 
     >>> [text(tree) for tree in directed_rooted_trees(3)]
     ['[[.]]', '[[^.]]', '[^[.]]', '[^[^.]]', '[..]', '[^..]', '[^.^.]']
@@ -105,15 +108,15 @@ def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
 
 
 def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every free tree with directed edges once, rooted as :func:`representative` chooses.
+    """Return every free tree with directed edges, each once, rooted by :func:`representative`.
 
     >>> [text(tree) for tree in directed_free_trees(3)]
     ['[..]', '[^.^.]', '[[.]]']
     """
     if vertices < 1:
         return ()
-    # A free tree has one or two centroids. At a single centroid, no branch has half of the vertices. Two
-    # centroids are joined by an edge that divides the tree into halves.
+    # A free tree has one or two centroids. If there is one centroid, each of its branches has less than half
+    # of the vertices. If there are two centroids, an edge connects them and divides the tree into halves.
     central = [joined(below) for below in _multisets_in_turn(vertices - 1, (vertices - 1) // 2)]
     if vertices % 2 == 0:
         halves = directed_rooted_trees(vertices // 2)
@@ -123,7 +126,7 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Return, of all rootings of a tree, the one whose condition reads most simply.
+    """Return the tree with the root for which its condition is simplest to read.
 
     The criteria, in this order, are: fewest edges of the rarer kind, least height, fewest edges of kind 1.
 
@@ -134,7 +137,7 @@ def representative(tree: DirectedTree) -> DirectedTree:
 
 
 def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
-    """Yield the tree rooted at each of its vertices; the edges keep their directions.
+    """Yield the tree rooted at each of its vertices in turn. The edges keep their directions.
 
     >>> [text(tree) for tree in rootings(bytes((0, 2)))]
     ['[.]', '[^.]']
@@ -147,7 +150,7 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
-    r"""For each edge at the root, yield the parts u and v that it separates, and the tree rooted in v.
+    r"""Yield, for each edge at the root, the parts u and v that the edge separates, and the tree rooted in v.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -159,7 +162,7 @@ def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, Dire
 
 
 def _simplest_roots(tree: DirectedTree) -> list[int]:
-    """Return the vertices, by their places in preorder, where the tree is rooted most simply."""
+    """Return the vertices, by index in preorder, that give the simplest rooted trees."""
     edges, last, hats, below = len(tree) - 1, [0] * len(tree), [0] * len(tree), [0] * len(tree)
     parents, above = [0] * len(tree), [0] * len(tree)
     hats[0] = sum(level & 1 for level in tree[1:])
@@ -179,7 +182,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # The height above a vertex: beyond its parent, or in the neighbouring branches.
+        # The height above a vertex: beyond its parent, or in the other branches of its parent.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])
@@ -188,7 +191,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
 
 
 def _rooted_at(tree: DirectedTree, place: int) -> DirectedTree:
-    """Return the tree rooted at the vertex with this place in preorder, in canonical order."""
+    """Return the tree rooted at the vertex with index ``place`` in preorder, in canonical order."""
     behind: list[Branch] = []
     while place:
         start = 1
@@ -220,7 +223,8 @@ def _simplicity(tree: DirectedTree) -> tuple[int, int, int]:
 
 @lru_cache(maxsize=256)
 def _multisets(vertices: int, largest: int) -> tuple[list[Branch], ...]:
-    """Return all multisets of branches with this many vertices in all, none with more than ``largest``."""
+    """Return all multisets of branches with ``vertices`` vertices in total. No branch has more than
+    ``largest`` vertices."""
     return tuple(_multisets_in_turn(vertices, largest))
 
 

@@ -2,8 +2,8 @@
 
 The conditions of symplectic Runge-Kutta methods belong to free trees, because b_i a_ij + b_j a_ji = b_i b_j
 implies phi(u o v) + phi(v o u) = phi(u) phi(v), where o is Butcher's product (Sanz-Serna and Abia 1991; HLW
-VI.7.1). If u o u is a rooting of a tree, then phi = phi(u)^2/2, and the condition of this tree is
-superfluous.
+VI.7.1). If a tree can be rooted as u o u, then phi(u o u) = phi(u)^2/2, so its condition follows from the
+condition of u. Such a tree is called superfluous.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""The trees (u, v): the root moves along one edge, from u o v to v o u."""
+"""Pairs of trees (u, v). Each pair describes a move of the root along one edge, from u o v to v o u."""
 
 
 @lru_cache(maxsize=32)
 def free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return every free tree once, rooted at a vertex of least height.
+    """Return every free tree, each once, rooted at a vertex for which its height is least.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in free_trees(5)]
@@ -30,7 +30,8 @@ def free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return the free trees that are not superfluous (HLW VI.7.1: 1, 0, 1, 1, 3, 4, 11, ...).
+    """Return the free trees that no edge divides into two equal halves. (Their numbers are 1, 0, 1, 1, 3, 4,
+    11, ..., HLW VI.7.1.)
 
     >>> [len(essential_free_trees(n)) for n in range(1, 8)]
     [1, 0, 1, 1, 3, 4, 11]
@@ -39,7 +40,8 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Whether some edge divides a tree into two equal rooted trees.
+    r"""Whether some edge divides a tree into two equal rooted trees; the condition of the tree is then
+    superfluous.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
     (True, False)
@@ -48,7 +50,8 @@ def superfluous(tree: Tree) -> bool:
 
 
 def representative(tree: Tree) -> Tree:
-    r"""Return the rooting of least height; among several, the one with the greatest level sequence.
+    r"""Return the tree with the root of least height. Among several such roots, the greatest level sequence
+    is chosen.
 
     >>> representative(b"\0\1\2")
     b'\x00\x01\x01'
@@ -57,7 +60,7 @@ def representative(tree: Tree) -> Tree:
 
 
 def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
-    r"""Yield u, v and v o u for each edge at the root of a canonical tree u o v.
+    r"""Yield the trees u, v and v o u for each edge at the root of a canonical tree u o v.
 
     >>> list(moves(b"\0\1\1"))[0]
     (b'\x00\x01', b'\x00', b'\x00\x01\x02')
@@ -69,7 +72,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
-    r"""Yield a canonical tree rooted at each of its vertices, with the moves of the root that lead there.
+    r"""Yield a canonical tree rooted at each of its vertices in turn, with the moves of the root that lead
+    there.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

@@ -1,8 +1,10 @@
-"""Products of trees: Butcher's product, and grafting, which differentiates elementary differentials.
+"""Products of trees: Butcher's product, and grafting, which corresponds to differentiation of elementary
+differentials.
 
-Unordered trees form the free pre-Lie algebra under grafting (Chapoton and Livernet 2001): F(u > v) is the
-derivative of F(v) in the direction F(u). Ordered trees graft to the left of the existing branches, since the
-newest frozen field acts first (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
+Let u > v denote the graft of u onto v. Then F(u > v) is the derivative of F(v) in the direction F(u).
+Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet 2001). Ordered trees
+are grafted to the left of the existing branches, because the field that is frozen last acts first
+(Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
 from __future__ import annotations
@@ -22,7 +24,8 @@ from orderconds.trees.levels import (
 
 
 def butcher_product(u: Tree, v: Tree) -> Tree:
-    r"""Return u o v: v hung from the root of u (HLW VI.7.1); canonical if both are.
+    r"""Return u o v, the tree u with v as an additional branch at the root (HLW VI.7.1). It is canonical if u
+    and v are.
 
     >>> butcher_product(b"\0\1", b"\0\1\1")
     b'\x00\x01\x02\x02\x01'
@@ -32,7 +35,8 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Return the sum of all trees that arise when u is hung from one vertex of v, both unordered.
+    r"""Return the sum of all trees that result if u becomes a branch at one vertex of v; both trees are
+    unordered.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]
@@ -48,9 +52,10 @@ def graft(u: Tree, v: Tree) -> Counter[Tree]:
 
 @lru_cache(maxsize=1 << 14)
 def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
-    r"""Return, with repetitions, all forests with each tree of ``word`` hung from some vertex of ``onto``.
+    r"""Return, with repetitions, all forests in which each tree of ``word`` is attached to some vertex of
+    ``onto``.
 
-    Trees hung from the same vertex keep their order and are placed left of the vertex's own branches.
+    Trees attached to the same vertex remain in order and are placed left of the vertex's own branches.
 
     >>> left_graft(b"\0", b"\0\1")
     (b'\x00\x01\x02', b'\x00\x01\x01')
@@ -68,7 +73,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Hang one subword from the root of a tree, left of its branches, and the other from the branches."""
+    """Attach one subword to the root of a tree, left of its branches, and the other subword to the
+    branches."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]
@@ -76,7 +82,7 @@ def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
 
 
 def deshuffles(word: Forest) -> tuple[tuple[Forest, Forest], ...]:
-    r"""Return the 2^k ways of dividing a word of k trees into two subwords.
+    r"""Return the 2^k divisions of a word of k trees into two subwords.
 
     >>> deshuffles(b"\0")
     ((b'', b'\x00'), (b'\x00', b''))

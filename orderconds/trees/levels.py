@@ -1,8 +1,9 @@
-"""Level sequences: a forest is the bytes of its vertices' levels in preorder, roots at level 0.
+"""Level sequences: a forest is represented by the levels of its vertices in preorder, one byte for each
+vertex. Roots have level 0.
 
-A tree is a forest with one root. Bytes hash and compare fast, and a subtree is a slice.
-Texts are written in brackets: ``.`` is one vertex, ``[..]`` a root with two leaves; the trees of a forest are
-separated by spaces.
+A tree is a forest with one root. Bytes are used because they are fast to hash and to compare, and a subtree
+is a slice. Trees are printed in brackets: ``.`` is one vertex, ``[..]`` a root with two leaves; the trees of
+a forest are separated by spaces.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ _LARGEST = 250
 
 
 def trees_of(forest: Forest) -> tuple[Tree, ...]:
-    r"""Split a forest into its trees.
+    r"""Return the trees of a forest.
 
     >>> trees_of(b"\0\1\0")
     (b'\x00\x01', b'\x00')
@@ -34,7 +35,7 @@ def trees_of(forest: Forest) -> tuple[Tree, ...]:
 
 @lru_cache(maxsize=1 << 16)
 def children(tree: Tree) -> tuple[Tree, ...]:
-    r"""Return the subtrees that hang from the root, from left to right.
+    r"""Return the subtrees at the root, from left to right.
 
     >>> children(b"\0\1\2\1")
     (b'\x00\x01', b'\x00')
@@ -52,7 +53,7 @@ def branches(tree: Tree) -> Forest:
 
 
 def rooted_at_new_vertex(forest: Forest) -> Tree:
-    r"""Join the roots of a forest to a new root (Butcher's B+).
+    r"""Return the tree with a new root and the trees of a forest as branches (Butcher's B+).
 
     >>> rooted_at_new_vertex(b"\0\1\0")
     b'\x00\x01\x02\x01'
@@ -70,9 +71,9 @@ def density(forest: Forest) -> int:
 
 
 def symmetry(tree: Tree) -> int:
-    r"""Return sigma, the order of the group of symmetries of an unordered rooted tree (HLW III.1, Def. 1.7).
+    r"""Return sigma, the order of the symmetry group of an unordered rooted tree (HLW III.1, Def. 1.7).
 
-    The tree must be canonical (see :func:`canonical`), so that equal subtrees have equal bytes.
+    The tree must be canonical (see :func:`canonical`), because equal subtrees are recognised by equal bytes.
 
     >>> symmetry(b"\0\1\1\1")
     6
@@ -83,7 +84,8 @@ def symmetry(tree: Tree) -> int:
 
 
 def canonical(tree: Tree) -> Tree:
-    r"""Return the level sequence that is greatest among all orderings of the branches, at every vertex.
+    r"""Return the greatest level sequence that a tree has under all orderings of the branches at its
+    vertices.
 
     >>> canonical(b"\0\1\1\2")
     b'\x00\x01\x02\x01'
@@ -93,7 +95,7 @@ def canonical(tree: Tree) -> Tree:
 
 
 def text(forest: Forest) -> str:
-    r"""Write a tree or forest in brackets.
+    r"""Return a tree or forest as text in brackets.
 
     >>> text(b"\0\1\2\1"), text(b"\0\1\0"), text(b"")
     ('[[.].]', '[.] .', '')
@@ -102,7 +104,8 @@ def text(forest: Forest) -> str:
 
 
 def parse(written: str) -> Forest:
-    r"""Read a tree or forest in brackets; spaces and commas between trees are optional.
+    r"""Return the tree or forest that a text in brackets denotes. Spaces and commas between trees are
+    optional.
 
     >>> parse("[[.],.]") == b"\0\1\2\1"
     True
@@ -112,7 +115,9 @@ def parse(written: str) -> Forest:
     """
     levels, depth = bytearray(), 0
     if len(written) > 4 * _LARGEST:
-        raise InputError("a tree text that is too long", expected=f"at most {_LARGEST} vertices")
+        raise InputError(
+            "the text of a tree is too long", expected=f"a tree with at most {_LARGEST} vertices"
+        )
     compact = re.sub(r"[\s,]", "", written)
     for place, sign in enumerate(compact):
         before = compact[place - 1 : place]
@@ -123,10 +128,12 @@ def parse(written: str) -> Forest:
             depth -= 1
         else:
             raise InputError(
-                f"{sign!r} in tree {written!r}", expected="dots and balanced brackets, as [[.].]"
+                f"{sign!r} in tree {written!r}", expected="dots and balanced brackets, such as [[.].]"
             )
     if depth:
-        raise InputError(f"unbalanced brackets in tree {written!r}", expected="balanced ones, as [[.].]")
+        raise InputError(
+            f"unbalanced brackets in tree {written!r}", expected="balanced brackets, such as [[.].]"
+        )
     return bytes(levels)
 
 

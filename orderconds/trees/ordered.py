@@ -1,7 +1,8 @@
-"""Ordered (planar) rooted trees and ordered forests, each level sequence from the one before it, in place.
+"""Ordered (planar) rooted trees and ordered forests. Each level sequence is computed from the preceding one,
+in place.
 
 The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests with
-n vertices. The sequences that never return to 0 are the trees. Both are listed in descending lexicographic
+n vertices. The sequences that do not return to 0 are the trees. Both are listed in descending lexicographic
 order.
 """
 
@@ -15,7 +16,7 @@ _RISING = bytes(range(256))
 
 
 def ordered_trees(vertices: int) -> Iterator[Tree]:
-    """Yield every ordered tree with this many vertices once.
+    """Yield every ordered tree with ``vertices`` vertices, each once.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in ordered_trees(4)]
@@ -25,7 +26,8 @@ def ordered_trees(vertices: int) -> Iterator[Tree]:
 
 
 def ordered_forests(vertices: int) -> Iterator[Forest]:
-    """Yield every ordered forest with this many vertices once; for zero vertices, the empty forest.
+    """Yield every ordered forest with ``vertices`` vertices, each once. For zero vertices, yield the empty
+    forest.
 
     >>> from orderconds.trees.levels import text
     >>> [text(forest) for forest in ordered_forests(3)]
@@ -38,7 +40,8 @@ def _sequences(vertices: int, lowest: int) -> Iterator[bytes]:
     levels, bottom = bytearray(range(vertices)), bytes((lowest,))
     while True:
         yield bytes(levels)
-        # The last level that can decrease does so; the levels after it increase as fast as possible.
+        # The last level that can decrease is decreased. The levels after it then increase as fast as
+        # possible.
         last = len(levels.rstrip(bottom)) - 1
         if last < 1:
             return

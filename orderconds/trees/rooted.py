@@ -1,4 +1,5 @@
-"""Unordered rooted trees by their canonical level sequences, each from the one before it, in place.
+"""Unordered rooted trees as canonical level sequences. Each sequence is computed from the preceding one, in
+place.
 
 T. Beyer and S. M. Hedetniemi, "Constant time generation of rooted trees", SIAM J. Comput. 9 (1980) 706-712.
 """
@@ -11,7 +12,8 @@ from orderconds.trees.levels import Tree
 
 
 def rooted_trees(vertices: int) -> Iterator[Tree]:
-    """Yield every rooted tree with this many vertices once, canonical, from the tall tree to the bushy one.
+    """Yield every rooted tree with ``vertices`` vertices once, in canonical form, from the tall tree to the
+    bushy tree.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in rooted_trees(4)]

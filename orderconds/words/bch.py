@@ -1,9 +1,9 @@
 """The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's coefficients of words.
 
-A Lie element is determined by its coefficients at Lyndon words. A bracketed Lyndon word is the word itself
-plus greater words, so the coordinates follow by forward substitution within each multidegree (Reutenauer,
-Free Lie Algebras, Thm 5.1). The coefficients have a closed form (Goldberg, Duke Math. J. 23 (1956) 13), so
-nothing is multiplied out.
+A Lie element is determined by its coefficients at Lyndon words. A bracketed Lyndon word is equal to the word
+itself plus greater words. Hence the coordinates are computed by forward substitution within each multidegree
+(Reutenauer, Free Lie Algebras, Thm 5.1). The coefficients have a closed form (Goldberg, Duke Math. J. 23
+(1956) 13), so no exponentials or logarithms are expanded.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ Expansion = dict[str, int]
 
 
 def bch(length: int) -> dict[Word, Fraction]:
-    """Return log(exp A exp B) in the basis of bracketed Lyndon words, up to brackets of this length.
+    """Return log(exp A exp B) in the basis of bracketed Lyndon words, up to brackets of ``length`` letters.
 
-    A product xy is the word xy. Zeros are left out; shorter words come first.
+    The word xy denotes the product xy. Zero coefficients are omitted; shorter words come first.
 
     >>> {"".join(word): str(value) for word, value in bch(3).items()}
     {'A': '1', 'B': '1', 'AB': '1/2', 'AAB': '1/12', 'ABB': '1/12'}
@@ -47,11 +47,12 @@ def bch(length: int) -> dict[Word, Fraction]:
 
 
 def goldberg(word: str) -> Fraction:
-    """Return the coefficient of a word over A and B, not empty, in log(exp A exp B).
+    """Return the coefficient of a non-empty word over A and B in log(exp A exp B).
 
     For a word that begins with A and has run lengths s_1, ..., s_m, the coefficient is the integral over [0,
-    1] of t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'.
-    Exchanging A and B gives the sign (-1)^(n-1) (Goldberg 1956, Thm 1 and Cor. 2).
+    1] of t^[m/2] (t - 1)^[(m-1)/2] prod G_{s_i}(t), where G_1 = 1 and s G_s = (t (t - 1) G_{s-1})'. If A and
+    B are exchanged in a word of n letters, the coefficient is multiplied by (-1)^(n-1) (Goldberg 1956, Thm 1
+    and Cor. 2).
 
     >>> str(goldberg("AB")), str(goldberg("BAA")), goldberg("AA") == 0
     ('1/2', '1/12', True)
@@ -93,7 +94,8 @@ def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str
 
 
 def _coefficient(bracketed: str, word: str, expansions: dict[str, Expansion]) -> int:
-    """Return the coefficient of ``word`` in a bracketed Lyndon word whose factors are expanded."""
+    """Return the coefficient of ``word`` in a bracketed Lyndon word, from the expansions of its two
+    factors."""
     left, right = standard_factors(bracketed)
     x, y, i, j = expansions[left], expansions[right], len(left), len(right)
     return x.get(word[:i], 0) * y.get(word[i:], 0) - y.get(word[:j], 0) * x.get(word[j:], 0)

@@ -1,4 +1,4 @@
-"""Compositions of an integer: the ways of dividing a word into runs."""
+"""Compositions of an integer. They describe the divisions of a word into runs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 
 
 def compositions(n: int) -> Iterator[tuple[int, ...]]:
-    """Yield the ordered sums of positive integers that give n, those with the fewest parts first.
+    """Yield all sequences of positive integers with the sum n. Sequences with few parts come first.
 
     >>> list(compositions(3))
     [(3,), (1, 2), (2, 1), (1, 1, 1)]

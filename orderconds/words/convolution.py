@@ -1,8 +1,10 @@
-"""Convolution of functions on words, and power series of a function, evaluated at one word at a time.
+"""Convolution of functions on words, and power series of a function; values are computed for one word at a
+time.
 
-A function on words is a series. A product cuts the word into two parts; the part of the first factor acts
-first. Values lie in any ring. If a function is zero at the empty word, each of its power series is a finite
-sum at every word, so nothing is truncated.
+A function on words represents a series. The product of two functions is a sum over all divisions of the word
+into two parts, of which the first belongs to the first factor and acts first. Values are elements of any
+ring. If a function is zero on the empty word, each of its power series is a finite sum on every word. Hence
+nothing is truncated.
 """
 
 from __future__ import annotations
@@ -30,20 +32,20 @@ def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0
 
 
 def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
-    """Return the value at ``word``, not empty, of sum_{m>=1} scales[m - 1] f^m.
+    """Return the value on a non-empty ``word`` of sum_{m>=1} scales[m - 1] f^m.
 
-    f vanishes at the empty word and is not evaluated there. Scales beyond the length of the word do not
-    matter.
+    f must vanish on the empty word and is not evaluated there. Only the first n entries of ``scales`` are
+    used for a word of n letters.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))
     Fraction(3, 1)
     """
     n = len(word)
-    # powers[end] is the value of f^m at the first ``end`` letters.
+    # powers[end] is the value of f^m on the first ``end`` letters.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    # Most values of most series are the zero of the ring.
+    # Most values of most series are exactly zero.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)
@@ -62,7 +64,7 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
 
 
 def exponential_scales(n: int) -> tuple[Fraction, ...]:
-    """Return 1/m! for m = 1, ..., n: exp(x) - 1.
+    """Return 1/m! for m = 1, ..., n, the coefficients of exp(x) - 1.
 
     >>> [str(q) for q in exponential_scales(3)]
     ['1', '1/2', '1/6']
@@ -71,7 +73,7 @@ def exponential_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def logarithm_scales(n: int) -> tuple[Fraction, ...]:
-    """Return (-1)^(m+1)/m for m = 1, ..., n: log(1 + z).
+    """Return (-1)^(m+1)/m for m = 1, ..., n, the coefficients of log(1 + z).
 
     >>> [str(q) for q in logarithm_scales(3)]
     ['1', '-1/2', '1/3']
@@ -80,7 +82,8 @@ def logarithm_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return 1/2^(m-1) for m = 1, ..., n: cay(x) - 1 for cay(x) = (1 + x/2) / (1 - x/2).
+    """Return 1/2^(m-1) for m = 1, ..., n, the coefficients of cay(x) - 1, where cay(x) = (1 + x/2) / (1 -
+    x/2).
 
     >>> [str(q) for q in cayley_scales(3)]
     ['1', '1/2', '1/4']
@@ -89,7 +92,8 @@ def cayley_scales(n: int) -> tuple[Fraction, ...]:
 
 
 def inverse_cayley_scales(n: int) -> tuple[Fraction, ...]:
-    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n: 2 z / (2 + z), which takes cay(x) - 1 to x.
+    """Return (-1)^(m+1)/2^(m-1) for m = 1, ..., n, the coefficients of 2 z / (2 + z), which maps cay(x) - 1
+    to x.
 
     >>> [str(q) for q in inverse_cayley_scales(3)]
     ['1', '-1/2', '1/4']

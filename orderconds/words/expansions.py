@@ -1,9 +1,10 @@
-"""The flow of Y' = A(t) Y, A(t) = X_1 + t X_2 + t^2 X_3 + ..., in words: Magnus, Fer, Cayley expansions.
+"""Magnus, Fer and Cayley expansions in words, for Y' = A(t) Y with A(t) = X_1 + t X_2 + t^2 X_3 + ....
 
-Letter k is X_k and has weight k. A word of weight n has the factor t^n, so values are given at t = 1. Words
-are written in the order of action: the word k_1 ... k_n is the product X_{k_n} ... X_{k_1}
-(:func:`orderconds.words.lie.backwards` converts between the two). Iserles, Munthe-Kaas, Noersett and Zanna,
-Acta Numerica 9 (2000) 215, Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
+Letter k denotes X_k and has weight k. At time t the coefficient of a word of weight n is t^n times its
+coefficient at t = 1. All functions return the coefficient at t = 1. Words are written in the order of action:
+the word k_1 ... k_n is the product X_{k_n} ... X_{k_1} (:func:`orderconds.words.lie.backwards` converts
+between words and products). Sources: Iserles, Munthe-Kaas, Noersett and Zanna, Acta Numerica 9 (2000) 215,
+Sections 4 to 6; Blanes, Casas, Oteo and Ros, Physics Reports 470 (2009) 151.
 """
 
 from __future__ import annotations
@@ -39,7 +40,8 @@ def iterated_integral(word: Word) -> Fraction:
 def magnus(word: Word) -> Fraction:
     """Return the coefficient of a word in the Magnus expansion, the Lie element Omega with Y = exp(Omega).
 
-    At weight three Omega contains -[X_1, X_2]/12, and [X_1, X_2] is the word 2 1 minus the word 1 2.
+    For example, at weight three Omega contains -[X_1, X_2]/12. In the order of action, [X_1, X_2] is the word
+    2 1 minus the word 1 2.
 
     >>> str(magnus((1, 2))), str(magnus((2, 1)))
     ('1/12', '-1/12')
@@ -51,7 +53,7 @@ def magnus(word: Word) -> Fraction:
 def cayley(word: Word) -> Fraction:
     """Return the coefficient of a word in Omega with Y = cay(Omega), cay(x) = (1 - x/2)^-1 (1 + x/2).
 
-    Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
+    Omega satisfies Omega' = A - [Omega, A]/2 - Omega A Omega/4 (Iserles 2001, Found. Comput. Math. 1, 129).
 
     >>> str(cayley((1, 1))), str(cayley((1, 1, 1)))
     ('0', '-1/12')
@@ -61,10 +63,11 @@ def cayley(word: Word) -> Fraction:
 
 @lru_cache(maxsize=1 << 14)
 def fer(n: int, word: Word) -> Fraction:
-    """Return the coefficient of a word in F_n, where Y = exp(F_1) exp(F_2) exp(F_3) ... : F_1 acts last.
+    """Return the coefficient of a word in F_n, where Y = exp(F_1) exp(F_2) exp(F_3) .... The factor exp(F_1)
+    acts last.
 
-    F_n is the integral of A_n; A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The lightest
-    words of F_n weigh 2^n - 1.
+    F_n is the integral of A_n, where A_1 = A and A_{n+1} = sum_{k>=1} (-1)^k k/(k+1)! ad_{F_n}^k A_n. The
+    words of F_n have at least the weight 2^n - 1.
 
     >>> str(fer(1, (3,))), str(fer(2, (1, 2)))
     ('1/3', '1/12')
@@ -76,7 +79,7 @@ def fer(n: int, word: Word) -> Fraction:
 def fer_remainder(word: Word) -> Fraction:
     """Return the coefficient of a word in log(exp(-F_1) Y).
 
-    This logarithm is F_2 + F_3 + ..., plus brackets of these terms from weight ten on.
+    This logarithm is F_2 + F_3 + ..., plus brackets of these terms. The brackets have weight ten or more.
 
     >>> fer_remainder((1, 2)) == fer(2, (1, 2))
     True
@@ -85,7 +88,8 @@ def fer_remainder(word: Word) -> Fraction:
 
 
 def dexp(length: int) -> Series:
-    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! in words over U and X of at most this length, as products.
+    """Return dexp_U(X) = sum_k ad_U^k X/(k+1)! as a series of words over U and X of at most ``length``
+    letters. The word xy denotes the product xy.
 
     >>> {"".join(word): str(value) for word, value in dexp(2).items()}
     {'X': '1', 'UX': '1/2', 'XU': '-1/2'}
@@ -94,20 +98,22 @@ def dexp(length: int) -> Series:
 
 
 def dexp_inverse(length: int) -> Series:
-    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X in words over U and X, as products; B_1 = -1/2.
+    """Return dexp_U^{-1}(X) = sum_k B_k/k! ad_U^k X, with B_1 = -1/2, as a series of words over U and X. The
+    word xy denotes the product xy.
 
     >>> {"".join(word): str(value) for word, value in dexp_inverse(2).items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2'}
     """
     numbers = [Fraction(1)]
     for n in range(1, length):
-        # sum_{k<=n} 1/(n + 1 - k)! B_k/k! = 0, since x/(e^x - 1) times (e^x - 1)/x is one.
+        # sum_{k<=n} 1/(n + 1 - k)! B_k/k! = 0, because the product of x/(e^x - 1) and (e^x - 1)/x is one.
         numbers.append(-sum((q / factorial(n + 1 - k) for k, q in enumerate(numbers)), Fraction(0)))
     return _adjoint_series(length, numbers.__getitem__)
 
 
 def dcay_inverse() -> Series:
-    """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4 in words over U and X, as products; it is finite.
+    """Return dcay_U^{-1}(X) = X - [U, X]/2 - U X U/4 as a finite series of words over U and X. The word xy
+    denotes the product xy.
 
     >>> {"".join(word): str(value) for word, value in dcay_inverse().items()}
     {'X': '1', 'UX': '-1/2', 'XU': '1/2', 'UXU': '-1/4'}
@@ -117,7 +123,7 @@ def dcay_inverse() -> Series:
 
 
 def words_of_weight(weight: int) -> Iterator[Word]:
-    """Yield all words over the letters 1, 2, ... of this weight, the shortest first.
+    """Yield all words over the letters 1, 2, ... of this weight. Short words come first.
 
     >>> list(words_of_weight(3))
     [(3,), (1, 2), (2, 1), (1, 1, 1)]
@@ -126,7 +132,8 @@ def words_of_weight(weight: int) -> Iterator[Word]:
 
 
 def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
-    """Return a series up to this weight, without zeros; ``coefficient`` is a function such as :func:`magnus`.
+    """Return the non-zero terms of a series up to this weight. ``coefficient`` is a function of words, such
+    as :func:`magnus`.
 
     >>> {word: str(value) for word, value in expansion(magnus, 3).items()}
     {(1,): '1', (2,): '1/2', (3,): '1/3', (1, 2): '1/12', (2, 1): '-1/12'}
@@ -137,7 +144,7 @@ def expansion(coefficient: Callable[[Word], Fraction], weight: int) -> Series:
 
 @lru_cache(maxsize=1 << 14)
 def _fer_field(n: int, word: Word) -> Fraction:
-    """Return the coefficient of t^(weight - 1) times a word in A_n."""
+    """Return the coefficient of a word in A_n, apart from its factor t^(weight - 1)."""
     if n == 1:
         return Fraction(len(word) == 1)
     result = Fraction(0)
@@ -154,7 +161,7 @@ def _fer_bracket(n: int, k: int, word: Word) -> Fraction:
         return _fer_field(n, word)
     result = Fraction(0)
     for cut in range(1, len(word)):
-        # The product F x has x act first.
+        # In the product F x, x acts first.
         head, tail = word[:cut], word[cut:]
         result += _fer_bracket(n, k - 1, head) * fer(n, tail) - fer(n, head) * _fer_bracket(n, k - 1, tail)
     return result

@@ -1,9 +1,9 @@
 """Hall bases of free Lie algebras with any grading, and the rewriting of brackets in them.
 
-Brackets are ordered by weight, then by the order of their construction. A bracket [x, y] of basis elements
-belongs to the basis iff x < y, and y is a letter or y = [y', y''] with y' <= x (M. Hall, Proc. AMS 1 (1950)
-575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). Other brackets are rewritten by antisymmetry and
-Jacobi's identity.
+Brackets are sorted by weight; brackets of equal weight are sorted by the order of their construction. A
+bracket [x, y] of basis elements belongs to the basis iff x < y, and y is a letter or y = [y', y''] with y' <=
+x (M. Hall, Proc. AMS 1 (1950) 575; Bourbaki, Lie Groups and Lie Algebras, II.2.11). Other brackets are
+rewritten by antisymmetry and Jacobi's identity.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ Coordinates = dict[Bracket, Fraction]
 class HallBasis:
     """The Hall basis of the free Lie algebra on ``letters``, up to a weight.
 
-    ``letters`` are in rising order; ``weigh`` gives each its weight, a positive integer.
+    ``letters`` are in rising order; ``weigh`` returns the weight of a letter, a positive integer.
 
     >>> HallBasis("AB", 4).of_weight(4)
     (('A', ('A', ('A', 'B'))), ('B', ('A', ('A', 'B'))), ('B', ('B', ('A', 'B'))))
@@ -32,7 +32,7 @@ class HallBasis:
         self, letters: Sequence[Hashable], weight: int, weigh: Callable[[Letter], int] = lambda letter: 1
     ) -> None:
         if any(weigh(letter) < 1 for letter in letters):
-            raise ValueError("letters need positive weights")
+            raise ValueError("every letter must have a positive weight")
         self.letters, self.weight, self._weigh = tuple(letters), weight, weigh
         self._place: dict[Bracket, int] = {}
         self._of_weight: list[tuple[Bracket, ...]] = [()]
@@ -47,25 +47,29 @@ class HallBasis:
         self._known: dict[tuple[Bracket, Bracket], Coordinates] = {}
 
     def of_weight(self, n: int) -> tuple[Bracket, ...]:
-        """Return the basis elements of exactly this weight, in rising order; pairs are brackets."""
+        """Return the basis elements of exactly this weight, in rising order. A bracket [x, y] is the pair (x,
+        y)."""
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
-        """Return the coordinates of any bracket of letters; ValueError above the largest weight.
+        """Return the coordinates of any bracket of letters.
+
+        Raises :class:`ValueError` if its weight is above the largest weight of the basis.
 
         >>> HallBasis("AB", 3).rewrite((("A", "B"), "A"))
         {('A', ('A', 'B')): Fraction(-1, 1)}
         """
         if self._weight(bracket) > self.weight:
-            raise ValueError(f"a bracket heavier than {self.weight}")
+            raise ValueError(f"the weight of the bracket is above {self.weight}")
         if bracket in self._place:
             return {bracket: Fraction(1)}
         return self._bracket(self.rewrite(bracket[0]), self.rewrite(bracket[1]))
 
     def coordinates(self, element: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the coordinates of a Lie element given by words, in which a product xy is the word xy.
+        """Return the coordinates of a Lie element, given as a series in which the word xy denotes the product
+        xy.
 
-        Raises :class:`ValueError` for a series that is no Lie element.
+        Raises :class:`ValueError` if the series is not a Lie element.
 
         >>> HallBasis("AB", 2).coordinates({("A", "B"): Fraction(1, 2), ("B", "A"): Fraction(-1, 2)})
         {('A', 'B'): Fraction(1, 2)}
@@ -74,7 +78,7 @@ class HallBasis:
         return self.from_lyndon(lyndon_coordinates(element, order.__getitem__))
 
     def from_lyndon(self, coordinates: Mapping[Word, Fraction]) -> Coordinates:
-        """Return the coordinates of a Lie element given in the Lyndon basis, such as ``bch``.
+        """Return the Hall coordinates of a Lie element that is given in the Lyndon basis, such as ``bch``.
 
         >>> from orderconds.words.bch import bch
         >>> {str(x): str(value) for x, value in HallBasis("AB", 2).from_lyndon(bch(2)).items()}
@@ -111,7 +115,7 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # [x, [u, v]] = [[x, u], v] + [u, [x, v]]; both are nearer to the basis, since x < u < v.
+            # [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The rewriting ends, because x < u < v.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

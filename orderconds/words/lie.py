@@ -1,9 +1,9 @@
 """Free Lie elements and their coordinates in the Lyndon basis.
 
-The standard bracketing of a Lyndon word w is w plus greater words of the same letters. Hence coordinates
-follow from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1).
-In this module a product xy is the word xy; words in the order of action are products read backwards
-(:func:`backwards`).
+The standard bracketing of a Lyndon word w is equal to w plus greater words of the same letters. Hence the
+coordinates are computed from the coefficients of Lyndon words by forward substitution (Reutenauer, Free Lie
+Algebras, Thm 5.1). In this module the word xy denotes the product xy. A word in the order of action is the
+product with the letters in reverse order (:func:`backwards`).
 """
 
 from __future__ import annotations
@@ -17,16 +17,17 @@ from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Letter, Series, Word, add, concatenate
 
 Bracket = Letter
-"""A letter, or a pair of brackets."""
+"""A letter, or a bracket (a pair of brackets or letters)."""
 
 Key = Callable[[Letter], Letter]
-"""The sort key of a letter."""
+"""A function that returns the sort key of a letter."""
 
 S = TypeVar("S", str, Word)
 
 
 def standard_factors(word: S, key: Key | None = None) -> tuple[S, S]:
-    """Cut a Lyndon word of two letters or more before its longest proper Lyndon suffix.
+    """Return the two parts of a Lyndon word of two or more letters; the second part is its longest proper
+    Lyndon suffix.
 
     >>> standard_factors("AABB")
     ('A', 'ABB')
@@ -36,7 +37,8 @@ def standard_factors(word: S, key: Key | None = None) -> tuple[S, S]:
 
 
 def standard_bracketing(word: Sequence[Letter], key: Key | None = None) -> Bracket:
-    """Bracket a Lyndon word at its longest proper Lyndon suffix (Reutenauer, Section 5.1).
+    """Return the standard bracketing of a Lyndon word: the bracket of the bracketings of its standard factors
+    (Reutenauer, Section 5.1).
 
     >>> standard_bracketing("AABB")
     ('A', (('A', 'B'), 'B'))
@@ -48,7 +50,7 @@ def standard_bracketing(word: Sequence[Letter], key: Key | None = None) -> Brack
 
 
 def expand(bracket: Bracket) -> Series:
-    """Write a bracket as a series of words, [x, y] = xy - yx.
+    """Return a bracket as a series of words, where [x, y] = xy - yx.
 
     >>> {"".join(word): int(value) for word, value in expand(("A", "B")).items()}
     {'AB': 1, 'BA': -1}
@@ -61,7 +63,8 @@ def expand(bracket: Bracket) -> Series:
 
 
 def backwards(series: Mapping[Word, Fraction]) -> Series:
-    """Read every word from its end: words in the order of action become products, and back.
+    """Return the series with every word reversed. Words in the order of action become products, and products
+    become words.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -72,10 +75,11 @@ def backwards(series: Mapping[Word, Fraction]) -> Series:
 def coordinates_from_values(
     value: Callable[[Word], Element], words: Iterable[Word], key: Key | None = None
 ) -> dict[Word, Element]:
-    """Return the coordinates of a Lie element over any ring, from its values at Lyndon words alone.
+    """Return the coordinates of a Lie element over any ring, from its values on Lyndon words alone.
 
-    ``words`` are all Lyndon words of one weight, or of one content, in rising order; ``value`` gives the
-    coefficient of a product. The series must be a Lie element, which is not checked.
+    ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in rising
+    order. ``value`` returns the coefficient of a word, read as a product. The function does not test whether
+    the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])
@@ -96,8 +100,8 @@ def coordinates_from_values(
 def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None) -> dict[Word, Fraction]:
     """Return the coordinates of a Lie element in the basis of bracketed Lyndon words (Reutenauer, Thm 5.1).
 
-    ``key`` gives the order of letters that cannot be compared directly. Raises :class:`ValueError` for a
-    series that is no Lie element.
+    ``key`` defines the order of letters that Python cannot compare. Raises :class:`ValueError` if the series
+    is not a Lie element.
 
     >>> element = expand((("A", "B"), "A"))
     >>> {"".join(word): int(value) for word, value in lyndon_coordinates(element).items()}
@@ -107,7 +111,7 @@ def lyndon_coordinates(element: Mapping[Word, Fraction], key: Key | None = None)
     while rest:
         word = min(rest, key=lambda w: (len(w), tuple(map(key, w)) if key else w))
         if not is_lyndon(word, key):
-            raise ValueError(f"not a Lie element: least word {word} is no Lyndon word")
+            raise ValueError(f"not a Lie element: its least word {word} is not a Lyndon word")
         coordinates[word] = rest[word]
         rest = add((1, rest), (-rest[word], expand(standard_bracketing(word, key))))
     return coordinates

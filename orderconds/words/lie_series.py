@@ -1,7 +1,7 @@
 """Named Lie series as sums of brackets: BCH, symmetric BCH, Magnus, dexp and its inverse.
 
-The terms are brackets of a basis of the free Lie algebra: bracketed Lyndon words, or a Hall basis. A bracket
-is [x, y] = x y - y x.
+The terms are elements of a basis of the free Lie algebra: bracketed Lyndon words, or a Hall basis. The
+bracket is [x, y] = x y - y x.
 """
 
 from __future__ import annotations
@@ -22,12 +22,13 @@ from orderconds.words.lyndon import lyndon_words
 from orderconds.words.shuffle import Letter, Word
 
 Coordinates = dict[Word, Fraction]
-"""The coefficients of bracketed Lyndon words; zeros may be missing."""
+"""The coefficients of bracketed Lyndon words. Zero coefficients may be omitted."""
 
 
 @dataclass(frozen=True)
 class LieSeries:
-    """A Lie series: a summary, its letters in rising order, their weights, and coordinates up to a weight.
+    """A Lie series: a summary, its letters in rising order, the weights of the letters, and a function for
+    its coordinates.
 
     ``letters`` maps the largest weight to the letters of at most that weight.
 
@@ -43,7 +44,7 @@ class LieSeries:
 
 @dataclass(frozen=True)
 class LieTerm:
-    """One term: a bracket of this weight, nested pairs of letters, and its coefficient."""
+    """One term: the weight, the bracket as nested pairs of letters, and the coefficient."""
 
     weight: int
     bracket: Bracket
@@ -51,9 +52,9 @@ class LieTerm:
 
 
 def lie_terms(name: str, weight: int, basis: str = "lyndon") -> tuple[LieTerm, ...]:
-    """Return the terms of a series up to a weight, in the basis ``lyndon`` or ``hall``; zeros are left out.
+    """Return the non-zero terms of a series up to a weight, in the basis ``lyndon`` or ``hall``.
 
-    Raises :class:`~orderconds.errors.UnknownName` for any other series or basis.
+    Raises :class:`~orderconds.errors.UnknownName` if there is no series or basis of this name.
 
     >>> [(term.bracket, str(term.coefficient)) for term in lie_terms("bch", 2)]
     [('A', '1'), ('B', '1'), (('A', 'B'), '1/2')]
@@ -78,7 +79,9 @@ def lie_terms(name: str, weight: int, basis: str = "lyndon") -> tuple[LieTerm, .
 
 
 def named_series(name: str) -> LieSeries:
-    """Return the series of that name; raise :class:`~orderconds.errors.UnknownName` for any other name.
+    """Return the series with this name.
+
+    Raises :class:`~orderconds.errors.UnknownName` if there is no such series.
 
     >>> named_series("bch").summary
     'log(exp A exp B)'
@@ -108,7 +111,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return the coordinates, up to any weight, of a Lie element given by the coefficients of products."""
+    """Return a function that computes, up to any weight, the coordinates of a Lie element from its
+    coefficients of products."""
 
     def coordinates(weight: int) -> Coordinates:
         place = {letter: number for number, letter in enumerate(letters(weight))}.__getitem__
@@ -155,7 +159,8 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return the coordinates of a series of brackets ad_U^k X, whose Lyndon words are U ... U X."""
+    """Return a function for the coordinates of a series of brackets ad_U^k X. The Lyndon words of this series
+    are U ... U X."""
 
     def coordinates(weight: int) -> Coordinates:
         series = expand(weight)
@@ -179,4 +184,4 @@ SERIES = {
     "dexp": LieSeries("dexp_U(X) = sum_k ad_U^k X/(k+1)!", _ux, _one, _linear_in_x(dexp)),
     "dexpinv": LieSeries("dexp_U^-1(X) = sum_k B_k/k! ad_U^k X", _ux, _one, _linear_in_x(dexp_inverse)),
 }
-"""The series by name."""
+"""The named series."""

@@ -1,8 +1,8 @@
-"""Lyndon words: words smaller than each of their proper suffixes. Their values determine all others.
+"""Lyndon words: words that are smaller than each of their proper suffixes.
 
 The shuffle algebra over the rationals is the polynomial algebra in the Lyndon words (Radford 1979;
-Reutenauer, Free Lie Algebras, Thm 6.1): hence a group-like series is determined by its values on Lyndon
-words, and these values are independent.
+Reutenauer, Free Lie Algebras, Thm 6.1). Hence the values of a group-like series on Lyndon words determine its
+values on all words, and the values on Lyndon words are independent.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ def lyndon_words(
 ) -> Iterator[tuple[Letter, ...]]:
     """Yield the Lyndon words of exactly this weight, in lexicographic order.
 
-    ``letters`` are in rising order; ``weigh`` gives each its weight, a positive integer, in any order.
+    ``letters`` are in rising order. ``weigh`` returns the weight of a letter, a positive integer; weights
+    need not be in rising order.
 
     >>> ["".join(word) for word in lyndon_words("AB", 4)]
     ['AAAB', 'AABB', 'ABBB']
@@ -29,10 +30,10 @@ def lyndon_words(
     """
     weights = [weigh(letter) for letter in letters]
     if any(w < 1 for w in weights):
-        raise ValueError("letters need positive weights")
-    # K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths. A prefix of a Lyndon
-    # word with period p is extended by the letter p places before, which keeps the period, or by a greater
-    # letter; the period is then the whole length.
+        raise ValueError("every letter must have a positive weight")
+    # The algorithm of K. Cattell et al., J. Algorithms 37 (2000) 267, with weights in place of lengths. A
+    # prefix of a Lyndon word with period p is extended by one letter. If this letter is equal to the letter p
+    # places before, the period does not change. If it is greater, the new period is the whole length.
     places: list[int] = []
 
     def extend(period: int, left: int) -> Iterator[tuple[Letter, ...]]:
@@ -55,7 +56,8 @@ def lyndon_words(
 def lyndon_factors(
     word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None
 ) -> list[tuple[Letter, ...]]:
-    """Factor a word into non-increasing Lyndon words (J.-P. Duval, J. Algorithms 4 (1983) 363).
+    """Return the non-increasing Lyndon words whose concatenation is a word (J.-P. Duval, J. Algorithms 4
+    (1983) 363).
 
     >>> ["".join(factor) for factor in lyndon_factors("BANANA")]
     ['B', 'AN', 'AN', 'A']

@@ -1,8 +1,9 @@
-"""The functionals on words that vanish on a two-sided ideal: coordinates of the quotient's group.
+"""The linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
-The values of the functionals that vanish on an ideal J determine an element of the quotient of the free
-algebra by J. Modulo products of functionals of lower weight, these functionals are the dual of the quotient's
-Lie algebra (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
+The values of these functionals determine an element of the quotient of the free algebra by the ideal. They
+are therefore coordinates on the group of the quotient. Modulo products of functionals of lower weight, they
+form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and
+Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
@@ -18,14 +19,13 @@ from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Series, Word
 
 Functional = tuple[tuple[Word, int], ...]
-"""Words with coprime integer coefficients; the first word names the functional."""
+"""A functional: words with coprime integer coefficients. The first word is the name of the functional."""
 
 
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
     """Return a basis of the functionals on words of this length that vanish on the ideal of ``generators``.
 
-    Each functional is named after a word that no other functional is named after, a Lyndon word if possible,
-    and contains few other words.
+    Each functional has a different word as its name, a Lyndon word if possible, and contains few other words.
 
     >>> commuting = {(0, 1): Fraction(1), (1, 0): Fraction(-1)}
     >>> orthogonal([commuting], (0, 1), 2)
@@ -33,7 +33,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Pivots are taken from the left, so that functionals are named after words at the right.
+        # Pivot columns are chosen from the left. Hence the remaining columns, whose words name the
+        # functionals, are at the right.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)
@@ -41,7 +42,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
-    """Return the functionals that are independent on Lie elements; those of Lyndon words are preferred.
+    """Return a subset of functionals that is independent on Lie elements. Functionals named by Lyndon words
+    are preferred.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
     ((((0, 1), 1),),)
@@ -79,7 +81,8 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield the products u g v with this content, for every generator g and all words u and v."""
+    """Yield the products u g v with the letters of ``content``, for every generator g and all words u and
+    v."""
     for generator in generators:
         some = next(iter(generator))
         left = list(content)

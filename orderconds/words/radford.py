@@ -1,9 +1,9 @@
-"""Every word as a polynomial in Lyndon words under the shuffle product (Radford 1979).
+"""Words as polynomials in Lyndon words, with the shuffle product as multiplication (Radford 1979).
 
-A word with Lyndon factors l_1^{i_1} ... l_k^{i_k}, l_1 > ... > l_k, is the shuffle product of the factors
-divided by i_1! ... i_k!, minus smaller words (Reutenauer, Free Lie Algebras, Thm 6.1). On a product of
-exponentials, the value of a shuffle product is the product of the values. So these polynomials are the
-relations between the values.
+Let a word have the Lyndon factors l_1^{i_1} ... l_k^{i_k}, l_1 > ... > l_k. The shuffle product of all
+factors, divided by i_1! ... i_k!, is this word plus smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
+For a product of exponentials, the value on a shuffle product is the product of the values on its factors.
+Hence the polynomials are also relations between the values on words.
 """
 
 from __future__ import annotations
@@ -17,12 +17,13 @@ from orderconds.words.lyndon import lyndon_factors
 from orderconds.words.shuffle import Word, shuffle
 
 Monomial = tuple[Word, ...]
-"""A shuffle product of Lyndon words, in falling order."""
+"""A shuffle product of Lyndon words, in decreasing order."""
 
 
 @lru_cache(maxsize=1 << 14)
 def in_lyndon_words(word: Word) -> dict[Monomial, Fraction]:
-    """Return a word as a polynomial in Lyndon words; letters compare as they are (Reutenauer, Thm 6.1).
+    """Return a word as a polynomial in Lyndon words (Reutenauer, Thm 6.1). Letters are compared by Python's
+    operator ``<``.
 
     >>> for monomial, value in in_lyndon_words(("B", "A")).items():
     ...     print(value, *("".join(word) for word in monomial))

@@ -1,4 +1,5 @@
-"""The two products of words: shuffles, which multiply values, and concatenation, which multiplies series."""
+"""The two products of words: the shuffle product, for products of values, and concatenation, for products of
+series."""
 
 from __future__ import annotations
 
@@ -9,11 +10,12 @@ from math import factorial
 from typing import Any
 
 Letter = Any
-"""A letter: a hashable value; Lyndon words need letters with an order. Alphabets are not mixed."""
+"""A letter: a hashable value. For Lyndon words, letters must be comparable, and all letters of a word must
+have the same type."""
 
 Word = tuple[Letter, ...]
 Series = dict[Word, Fraction]
-"""Words with their non-zero coefficients."""
+"""A series: the words with non-zero coefficients, and their coefficients."""
 
 
 def shuffle(u: Sequence[Letter], v: Sequence[Letter]) -> Counter[Word]:
@@ -37,7 +39,8 @@ def shuffle(u: Sequence[Letter], v: Sequence[Letter]) -> Counter[Word]:
 
 
 def add(*scaled: tuple[Fraction | int, Mapping[Word, Fraction]]) -> Series:
-    """Add rational multiples of series, and drop words with coefficient zero.
+    """Return a linear combination of series with rational coefficients. Words with coefficient zero are
+    removed.
 
     >>> add((2, {("A",): Fraction(1)}), (-1, {("A",): Fraction(2), ("B",): Fraction(3)}))
     {('B',): Fraction(-3, 1)}
@@ -55,7 +58,7 @@ def concatenate(
     weight: int,
     weigh: Callable[[Letter], int] = lambda a: 1,
 ) -> Series:
-    """Multiply two series by concatenation, dropping words heavier than ``weight``.
+    """Return the product of two series by concatenation, without words of weight above ``weight``.
 
     >>> concatenate({("A",): Fraction(2)}, {("B",): Fraction(3), ("B", "B"): Fraction(1)}, 2)
     {('A', 'B'): Fraction(6, 1)}
@@ -72,7 +75,7 @@ def concatenate(
 def exponential(
     x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
 ) -> Series:
-    """Return exp(x) to a weight, for a series without constant term.
+    """Return exp(x) up to a weight, for a series x without constant term.
 
     >>> {"".join(word): str(value) for word, value in exponential({("A",): Fraction(1)}, 2).items()}
     {'': '1', 'A': '1', 'AA': '1/2'}
@@ -88,7 +91,7 @@ def exponential(
 def logarithm(
     x: Mapping[Word, Fraction], weight: int, weigh: Callable[[Letter], int] = lambda a: 1
 ) -> Series:
-    """Return log(x) to a weight, for a series with constant term 1.
+    """Return log(x) up to a weight, for a series x with constant term 1.
 
     >>> logarithm(exponential({("A",): Fraction(2)}, 3), 3)
     {('A',): Fraction(2, 1)}

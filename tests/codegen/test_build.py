@@ -31,7 +31,7 @@ def test_no_compiler_is_one_message(monkeypatch, tmp_path):
 
 def test_a_named_compiler_that_is_not_there_is_not_replaced_by_another(monkeypatch):
     monkeypatch.setenv("CC", "no-such-compiler -O3")
-    with pytest.raises(CompilerMissing, match=r"\$CC: no-such-compiler is not there"):
+    with pytest.raises(CompilerMissing, match=r"\$CC: no-such-compiler does not exist"):
         find_compiler()
 
 
@@ -94,7 +94,7 @@ def test_a_cache_that_cannot_be_written_to_is_replaced_by_a_temporary_folder(
     assert first.exists()
     assert not first.is_relative_to(tmp_path)
     assert caplog.text.count("the cache cannot be used") == 1
-    assert "set XDG_CACHE_HOME to a folder of yours" in caplog.text
+    assert "set XDG_CACHE_HOME to a folder that you own" in caplog.text
 
 
 def test_a_full_disk_is_bad_input_and_leaves_nothing(monkeypatch, tmp_path):
@@ -238,6 +238,6 @@ def test_a_compiler_that_cannot_be_read_is_bad_input(monkeypatch):
 def test_a_compiler_that_says_it_succeeded_and_wrote_nothing_is_told(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setenv("CC", "true")
-    with pytest.raises(CompileError, match=r"answer\.c: true wrote nothing"):
+    with pytest.raises(CompileError, match=r"answer\.c: true wrote no output"):
         build(SOURCE)
     assert list(cache_directory().iterdir()) == []

@@ -140,5 +140,5 @@ def test_bad_requests_are_refused(
 
 def test_an_inconsistent_method_has_no_modifying_equation() -> None:
     tableau = Tableau.loads('name = "half"\nfamily = "rk"\nA = [[]]\nb = ["1/2"]\n')
-    with pytest.raises(InputError, match="weights that sum to 1/2"):
+    with pytest.raises(InputError, match="the weights sum to 1/2"):
         modified_equation(tableau, 2, modifying=True)

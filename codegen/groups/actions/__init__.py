@@ -1,4 +1,4 @@
-"""Left actions of groups on manifolds, one file an action."""
+"""Left actions of groups on manifolds, one file for each action."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ class Action(ABC):
     """A left action: e.y = y and (g k).y = g.(k.y).
 
     A point y of the manifold is a flat tuple of scalars; its length may depend on the group. ``name`` is
-    printed in messages and headers. ``needs`` is the capability of the group that the formulas use.
+    printed in messages and headers. ``needs`` is the capability that the formulas require of the group.
     :func:`codegen.groups.register` adds the class to the list of actions.
     """
 

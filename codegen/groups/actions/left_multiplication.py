@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class LeftMultiplication(Action):
-    """A group acting on itself, g.y = g y; on R^n that is translation."""
+    """A group acting on itself, g.y = g y; on R^n these are translations."""
 
     name = "left multiplication"
 

@@ -20,7 +20,7 @@ class Linear(Action):
         return matvec(g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y; a group of rotations does not form the matrix."""
+        """Return exp(x) y; for rotations the matrix exp(x) is not formed."""
         rotations = group.offers(Rotations)
         return matvec(group.exp(d, x), y) if rotations is None else rotations.rotate(d, x, y)
 

@@ -10,7 +10,7 @@ from codegen.ir.domain import Domain
 
 
 class Motion(Action):
-    """Rigid motions of a space on its points, g.z = R z + a; SE(2) on the plane."""
+    """Rigid motions acting on points, g.z = R z + a: SE(2) on the plane."""
 
     name = "rigid motion"
     needs = PointMotions

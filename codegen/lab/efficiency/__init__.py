@@ -1,1 +1,1 @@
-"""Work-precision: error against CPU time of emitted methods and peers, and the fastest for an accuracy."""
+"""Work-precision diagrams of emitted methods and peers, and the fastest method for each accuracy."""

@@ -1,7 +1,7 @@
-"""A method with step-size control by its embedded row, as a candidate of a work-precision diagram.
+"""A method whose embedded row controls the step size, as a candidate of a work-precision diagram.
 
-In its rows, ``control`` is the relative and absolute tolerance, and ``steps`` counts accepted steps. The
-evaluations and the time include rejected steps.
+In the rows of this candidate, ``control`` is both the relative and the absolute tolerance. ``steps`` counts
+accepted steps only; the evaluations and the time include rejected steps.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from codegen.lab.timing import samples
 from codegen.loader import Arrival, Statistics, StepFailed
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""From loose to tight; the first is looser than for peers, because an estimate of low order is controlled."""
+"""Tolerances, from loose to tight. They begin looser than for peers, because error estimates of low order
+require short steps."""
 
 
 @dataclass
@@ -38,13 +39,16 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop as with equal steps, but never after a run that diverged: a tighter tolerance may succeed."""
+        """Whether to stop; never after a run that diverged, because a tighter tolerance may succeed."""
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
         return not diverged and super().enough(rows)
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
-        """Return the end of a run with a tolerance; an infinite tolerance means a run over an empty span."""
+        """Return the end of a run with a tolerance.
+
+        If the tolerance is infinite, the run covers an empty span; it measures the overhead of a call.
+        """
         first, last = map(float, self.scene.span)
         if math.isinf(tolerance):
             last, tolerance = first, 1.0

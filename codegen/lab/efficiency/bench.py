@@ -1,4 +1,4 @@
-"""A bench: candidates on a scene, measured, ranked, and written as a table and a picture."""
+"""The bench: measure emitted methods and peers on a scene, rank them, and write a table and a picture."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from codegen.lab.peers import find
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.method import Method
-from codegen.printers import TARGETS
+from codegen.printers import DEFAULT, names
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 
 @dataclass(frozen=True)
 class Result:
-    """All rows by candidate, the fastest for each decade of accuracy, and the files written."""
+    """The rows of each candidate, the fastest candidate for each accuracy, and the files written."""
 
     scene: Problem
     entries: dict[str, tuple[Row, ...]]
@@ -45,7 +45,7 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """Candidate, seconds of emission, and the largest number of seconds of compilation over all runs."""
+        """For each candidate: name, seconds of emission, and seconds of the longest compilation of a run."""
         return tuple(
             (label, rows[0].emit_seconds, max(r.compile_seconds for r in rows))
             for label, rows in self.entries.items()
@@ -54,7 +54,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """Candidates on one scene, ready to run; results are written to ``folder`` unless it is None."""
+    """Candidates on one scene; :meth:`run` measures them and writes the results to ``folder`` if given."""
 
     scene: Problem
     exact: Reference
@@ -62,18 +62,15 @@ class Bench:
     folder: Path | None = None
 
     def run(self, done: Callable[[Row], object], cache: MeasurementCache | None = None) -> Result:
-        """Measure all rows that the cache does not hold, rank the candidates, and write the files.
+        """Measure all rows that are not in the cache, rank the candidates, and write the files.
 
-        ``done`` is called with each row. The default cache is a hidden folder beside the files, from which an
-        interrupted bench continues. This folder is deleted when the files are complete.
+        ``done`` is called with each row. The default cache is a hidden folder beside the files, so that an
+        interrupted bench can continue. This folder is deleted when the files are complete.
         """
         name = self.scene.name
         own = MeasurementCache(self.folder / f".{name}.measured" if self.folder else None)
         entries = {
-            c.label + (" (python)" if c.target == "python" else ""): measure_rows(
-                c, name, self.exact, cache or own, done
-            )
-            for c in self.candidates
+            entry_name(c): measure_rows(c, name, self.exact, cache or own, done) for c in self.candidates
         }
         result = Result(self.scene, entries, places(entries))
         if self.folder is None:
@@ -98,15 +95,16 @@ def bench(
     progress: Progress,
     adaptive: Sequence[str] = (),
 ) -> Bench:
-    """Return a bench of methods (by default :func:`methods_for` the scene) and peers on a scene.
+    """Return a bench of methods and peers on a scene.
 
-    Methods in ``adaptive`` run with step-size control by their embedded rows. Names and options are checked
-    before anything is measured (InputError). A method that cannot be emitted for the scene becomes a row with
-    the reason.
+    If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
+    ``adaptive`` run with step-size control by their embedded rows. Names and options are checked before the
+    first measurement (InputError). If a method cannot be emitted for the scene, its only row contains the
+    reason.
     """
     for target in targets:
-        if target not in TARGETS:
-            raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(TARGETS)}")
+        if target not in names():
+            raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(names())}")
     problem = scenes.load(scene)
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
@@ -125,10 +123,16 @@ def bench(
     return Bench(problem, exact, (*ours, *theirs), folder)
 
 
+def entry_name(candidate: Candidate) -> str:
+    """Return the label of a candidate, followed by its target if this is not the default target."""
+    other = candidate.target in names() and candidate.target != DEFAULT
+    return f"{candidate.label} ({candidate.target})" if other else candidate.label
+
+
 def emitted(
     scene: Problem, method: Method, exact: Reference, target: str, budget: float, *, adaptive: bool = False
 ) -> Candidate:
-    """Return the candidate of a method, or a :class:`Refused` one if it cannot be emitted for the scene."""
+    """Return the candidate of a method; a :class:`Refused` if the method cannot be emitted for the scene."""
     kind = AdaptiveCandidate if adaptive else EmittedCandidate
     try:
         return kind(scene, method, exact, target, budget)
@@ -153,11 +157,11 @@ def table(rows: Sequence[Row]) -> str:
     """Return the rows as CSV with a header; unknown values are empty."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    names = [field.name for field in fields(Row)]
-    writer.writerow(names)
+    columns = [field.name for field in fields(Row)]
+    writer.writerow(columns)
     for row in rows:
         values = row.as_json()
-        writer.writerow(["" if values[n] is None else values[n] for n in names])
+        writer.writerow(["" if values[n] is None else values[n] for n in columns])
     return stream.getvalue()
 
 

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import math
-import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 
-from codegen.build import compile_files, find_compiler
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, compile_method
 from codegen.ir.operations import Operation
@@ -29,7 +26,8 @@ from codegen.lab.runner import Emitted, RunFailed
 from codegen.lab.timing import cost, samples
 from codegen.loader import Statistics
 from codegen.method import Method
-from codegen.printers.c.module import FLAGS
+from codegen.printers import DEFAULT
+from codegen.printers import target as known_target
 from codegen.scene.problem import Problem
 
 
@@ -37,13 +35,14 @@ from codegen.scene.problem import Problem
 class EmittedCandidate:
     """A method emitted to a target, compiled, and run over the span in equal steps.
 
-    ``precompiled`` is the compiled method, if it exists already. Its emission then takes almost no time.
+    ``precompiled`` is the result of :func:`compile_method`, if the caller has it. ``emit_seconds`` then does
+    not include the time of :func:`compile_method`.
     """
 
     scene: Problem
     method: Method
     exact: Reference
-    target: str = "c"
+    target: str = DEFAULT
     budget: float = BUDGET
     precompiled: Compiled | None = None
 
@@ -58,13 +57,14 @@ class EmittedCandidate:
         self.overhead = math.inf
 
     def controls(self) -> Iterator[float]:
-        """Yield numbers of steps, each twice the one before."""
+        """Yield numbers of steps: 1, 2, 4, ..."""
         return doubled_steps()
 
     def prepare(self) -> None:
         """Compile without the cache, to measure the time of the compiler, then load the module."""
-        if self.target == "c":
-            self.compile_seconds = _compile_seconds(self.runner.artifact.files)
+        measure = known_target(self.target).compile_seconds
+        if measure is not None:
+            self.compile_seconds = measure(self.runner.artifact.files)
         self.runner.final(0)
 
     def measure(self, control: float) -> Row:
@@ -84,14 +84,17 @@ class EmittedCandidate:
         return self._row(control, h, steps, error, times, statistics)
 
     def _net(self, spent: Sequence[float], nothing: Callable[[], object]) -> list[float]:
-        """Subtract the overhead of a call from short times; the overhead is the least time of ``nothing``."""
+        """Return times without the overhead of a call; ``nothing`` is a call that makes no step.
+
+        Times above :data:`COUNTED` are not changed, because the overhead is negligible there.
+        """
         if spent[0] >= COUNTED:
             return list(spent)
         self.overhead = min(self.overhead, cost(nothing))
         return [s - min(self.overhead, s) for s in spent]
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop when the budget is reached, or when rounding dominates."""
+        """Whether the budget is reached or rounding errors dominate, so that finer runs are not needed."""
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
     def _row(
@@ -125,9 +128,9 @@ class EmittedCandidate:
         )
 
     def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:
-        """Return how often operations are executed.
+        """Return the sum of ``cost`` over all operations that a run executes.
 
-        Operations outside of implicit blocks are executed once per step, others once per iteration.
+        Operations of an implicit block are executed once per iteration, all other operations once per step.
         """
         total, block = 0, 0
         parts = steps * max(1, len(self.compiled.program.substeps))
@@ -139,11 +142,3 @@ class EmittedCandidate:
             total += inside * iterations[block]
             block += 1
         return total
-
-
-def _compile_seconds(files: Mapping[str, str]) -> float:
-    with tempfile.TemporaryDirectory() as folder:
-        start = time.perf_counter()
-        flags = (*FLAGS, "-fPIC", "-shared")
-        compile_files(files, Path(folder), Path(folder) / "out", flags, find_compiler())
-        return time.perf_counter() - start

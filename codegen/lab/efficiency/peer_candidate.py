@@ -1,4 +1,4 @@
-"""A peer as a candidate of a work-precision diagram, on the ambient equations of the scene."""
+"""A peer (another integrator) as a candidate of a work-precision diagram, on the ambient equations."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from orderconds.errors import InputError
 
 @dataclass
 class PeerCandidate:
-    """A peer on a scene. A peer that refuses the scene has one row, with its reason."""
+    """A peer on a scene. If the peer does not support the scene, its only row contains the reason."""
 
     scene: Problem
     peer: Peer
@@ -39,14 +39,14 @@ class PeerCandidate:
         self.refused = False
 
     def controls(self) -> Iterator[float]:
-        """Yield tolerances from loose to tight, or numbers of steps, each twice the one before."""
+        """Yield tolerances from loose to tight, or numbers of steps 1, 2, 4, ..."""
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
     def prepare(self) -> None:
-        """Do nothing: the code of a peer may depend on its tolerance, so each run prepares it."""
+        """Do nothing: the code of a peer may depend on the tolerance, so each run prepares its own code."""
 
     def measure(self, control: float) -> Row:
-        """Prepare, run and time."""
+        """Prepare the peer for one tolerance or number of steps, run it, and measure its CPU time."""
         start = time.perf_counter()
         try:
             prepared = self.peer.prepare(self.scene, control)
@@ -84,7 +84,10 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop at the budget or after a refusal, and with equal steps also when rounding dominates."""
+        """Whether to stop: the budget is reached, the peer does not support the scene, or rounding dominates.
+
+        Rounding is tested only for peers with equal steps.
+        """
         if self.refused or beyond_budget(rows, self.budget):
             return True
         return self.peer.controlled != "tolerance" and at_rounding(rows, self.exact)

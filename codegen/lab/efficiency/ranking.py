@@ -11,7 +11,7 @@ from codegen.lab.efficiency.work_precision import Row
 
 @dataclass(frozen=True)
 class Place:
-    """The fastest candidate for an error of 10^-decade with its CPU seconds, and the second fastest."""
+    """The fastest candidate for an error of 10^-decade, and the second fastest, with their CPU seconds."""
 
     decade: int
     winner: str
@@ -21,13 +21,13 @@ class Place:
 
 
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds in which a candidate reaches an error, None if it never does.
+    """Return the CPU seconds that a candidate needs to reach ``error``; None if it does not reach it.
 
-    Rows are read from the smallest error towards coarser runs, as long as the errors are at most ``error``.
-    So an accidentally small error of a coarse run is not used. Time and error are interpolated
-    logarithmically between the last row read and the next coarser row. If there is no coarser row, the time
-    of the coarsest row is returned. A finer row that took less time is used instead, so the time never
-    increases with ``error``.
+    The search begins at the row with the smallest error and continues to coarser runs while their errors are
+    at most ``error``. In this way an accidentally small error of a coarse run is not used. Time and error are
+    interpolated logarithmically between the last row found and the next coarser row. If there is no coarser
+    row, the time of the coarsest row is returned. If a finer row took less time, its time is returned, so
+    that the result never increases with ``error``.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)

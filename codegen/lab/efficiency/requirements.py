@@ -1,8 +1,8 @@
-"""Requirements on a method besides accuracy, and the fastest method that meets each of them.
+"""Requirements on a method besides accuracy, and the fastest method that satisfies each requirement.
 
-A recommendation follows from the work-precision rows: for each requirement and accuracy, the fastest
-candidate that meets the requirement. Properties of a method are derived from its program and tableau, not
-declared.
+Recommendations are computed from the rows of a work-precision diagram. For each requirement and accuracy, the
+fastest candidate that satisfies the requirement is recommended. The properties of a method are computed from
+its program and its tableau.
 """
 
 from __future__ import annotations
@@ -16,12 +16,13 @@ from codegen.emitter import Compiled
 from codegen.lab.efficiency.ranking import seconds_to
 from codegen.lab.efficiency.work_precision import Row
 from codegen.lower import lowering
+from codegen.printers import target as known_target
 
 DECADES = (3, 6, 9, 12)
-"""The accuracies of the recommendations: errors of 10^-decade."""
+"""Recommendations are given for errors of 10^-k, for each k in this tuple."""
 
 STACK = 4096
-"""Bytes of stack of a call on a small processor."""
+"""The largest stack of a call, in bytes, that the requirement ``embedded target`` permits."""
 
 
 @dataclass(frozen=True)
@@ -29,8 +30,9 @@ class Features:
     """Properties of an emitted method.
 
     ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding.
-    ``explicit``: no equations are solved, so all steps take the same time. ``stack`` bounds the stack of a
-    call in bytes. ``lines`` is the number of lines of the emitted C.
+    ``explicit``: no equations are solved, so all steps take the same time. ``stack`` is an upper bound of the
+    stack of a call in bytes, 0 if it is not known. ``lines`` is the number of lines of the file that contains
+    the step.
     """
 
     label: str
@@ -43,9 +45,10 @@ class Features:
 
 
 def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
-    """Return the properties of a method as emitted to C; ``label`` defaults to the label of the method."""
-    source = artifact.files[f"{artifact.manifest['module']}.c"]
-    stack = re.search(r"stack: +at most (\d+) bytes", source)
+    """Return the properties of a method; ``label`` defaults to the label of the method."""
+    target = known_target(artifact.manifest["target"])
+    source = artifact.files[target.step_file(artifact.manifest["module"])]
+    stack = re.search(target.stack, source) if target.stack else None
     return Features(
         label or compiled.method.label,
         compiled.method.kind.keeps_manifold or compiled.scene.group.abelian,
@@ -60,7 +63,8 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Whether steps of constant size are symplectic maps.
 
-    False for methods with step-size control, which destroys the long-time behaviour of symplectic methods.
+    False for methods with step-size control, because variable steps destroy the long-time behaviour of
+    symplectic methods.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:
@@ -70,7 +74,7 @@ def is_symplectic(compiled: Compiled) -> bool:
 
 @dataclass(frozen=True)
 class Need:
-    """A requirement: its name, its meaning, and whether a method meets it."""
+    """A requirement: its name, its meaning, and a function that tests whether a method satisfies it."""
 
     name: str
     meaning: str
@@ -108,7 +112,7 @@ class Advice:
 
 
 def advise(entries: Mapping[str, Sequence[Row]], known: Sequence[Features]) -> tuple[Advice, ...]:
-    """Return the advice for every requirement, followed by an entry for the peers if any were measured."""
+    """Return the advice for every requirement. If peers were measured, the last entry is for the peers."""
     ours = [(need, [f.label for f in known if need.met(f) and f.label in entries]) for need in NEEDS]
     advice = [Advice(need.name, need.meaning, _best(entries, labels)) for need, labels in ours]
     peers = [label for label, rows in entries.items() if rows and rows[0].target == "peer"]

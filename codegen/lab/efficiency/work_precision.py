@@ -2,7 +2,7 @@
 
 A :class:`Candidate` is an emitted method or a peer. Each run produces one :class:`Row`: the error at the end
 of the span in the norm of the scene, and CPU time as :mod:`codegen.lab.timing` measures it. A run that fails
-produces a row with the reason, and so does a candidate that cannot be prepared.
+produces a row with the reason. A candidate that cannot be prepared produces a row with the reason as well.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ BUDGET = 1.0
 
 MOST_STEPS = 5 * 2**21
 COUNTED = 1e-3
-"""CPU seconds below which the overhead of a call from Python is subtracted."""
+"""The overhead of a call from Python is subtracted from times below this number of CPU seconds."""
 
 NEAR_ROUNDING = 1e-9
-"""Below this error, relative to the state, rounding may stop the convergence."""
+"""Below this error, relative to the size of the state, rounding errors may prevent further convergence."""
 
 
 @dataclass(frozen=True)
 class Row:
     """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step size.
 
-    ``seconds`` is the least CPU time of several batches, ``spread`` the relative excess of the largest time.
-    ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; None if they are not counted.
-    ``failure`` is the reason why the run has neither error nor time, else ''.
+    ``seconds`` is the least CPU time of several batches. ``spread`` is the largest CPU time divided by the
+    least, minus 1. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; None if they
+    are not counted. ``failure`` is the reason if the run failed, else ''.
     """
 
     scene: str
@@ -69,7 +69,7 @@ class Candidate(Protocol):
         """Yield numbers of steps or tolerances, from coarse to fine."""
 
     def prepare(self) -> None:
-        """Do the work before the first run; InputError if the candidate cannot run on the scene."""
+        """Prepare the first run; InputError if the candidate cannot run on the scene."""
 
     def measure(self, control: float) -> Row:
         """Run once for the error, then several times for the CPU time."""
@@ -114,7 +114,7 @@ def measure_rows(
 
 @dataclass
 class Refused:
-    """The candidate for a method that cannot be emitted for the scene; its only row contains the reason."""
+    """A method that cannot be emitted for the scene. Its only row contains the reason."""
 
     label: str
     target: str
@@ -153,7 +153,7 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 
 
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
-    """Whether the error is near rounding and two successive halvings of the step hardly reduced it."""
+    """Whether the errors are near rounding and the last two halvings of the step hardly reduced them."""
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))
     return len(errors) == 3 and errors[0] <= NEAR_ROUNDING * size and min(errors[1:]) > errors[0] / 3

@@ -1,7 +1,7 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
-A step y1 = y0 + d rounds the sum at the last bit of y0, however small d is. If the increment d is available,
-the rounding error of the sum, called the carry, is added to the increment of the next step: with
+A step y1 = y0 + d rounds the sum at the last bit of y0, however small d is. Compensation adds this rounding
+error, called the carry, to the increment d of the next step: with
 s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining errors are the rounding errors of d,
 which are smaller by the factor d/y0. A step exp(x) y0 of a group action also has an increment: it is
 y0 + (exp(x) - 1) y0, and the entries of exp(x) - 1 are computed without cancellation. The increments are
@@ -25,7 +25,9 @@ Statement = Let | Start | Loop
 
 
 def compensated(compiled: Compiled) -> Compiled:
-    """Return the method with an extended state: the coordinates, then a carry for each, initially zero.
+    """Return the method with an extended state: the coordinates, then one carry for each coordinate.
+
+    All carries are zero initially.
 
     :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
     """
@@ -39,7 +41,7 @@ def compensated(compiled: Compiled) -> Compiled:
 
 
 def with_carries(kernel: Kernel) -> Kernel:
-    """Return a kernel with a carry for each coordinate; MethodError as :func:`compensated`."""
+    """Return a kernel with a carry for each coordinate. Errors: those of :func:`compensated`."""
     space = kernel.outputs[0].space
     increments = Increments(kernel)
     symbols = [s for field in kernel.state for s in field.symbols]
@@ -78,7 +80,7 @@ def with_carries(kernel: Kernel) -> Kernel:
 
 
 def _live(body: Sequence[Statement], outputs: Sequence[Expr]) -> tuple[Statement, ...]:
-    """Return a body without assignments that are no longer read."""
+    """Return a body without the assignments whose values are not used."""
     needed = {n.payload for n in walk(outputs) if n.op == "sym"}
     kept: list[Statement] = []
     for statement in reversed(body):
@@ -94,7 +96,10 @@ _EMPTY = Kernel("", (), (), (), ())
 
 
 class Increments:
-    """Finds increments without cancellation: e - x for e = x + increment, f - 1 for f = 1 + increment."""
+    """Expressions for the differences e - x and f - 1 that avoid the cancellation of leading digits.
+
+    They exist if e has the form x + increment, and f the form 1 + increment.
+    """
 
     def __init__(self, kernel: Kernel) -> None:
         self.values = {let.name: let.value for let in kernel.lets()}

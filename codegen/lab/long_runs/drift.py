@@ -20,16 +20,17 @@ LOST = 1.0
 """Relative deviation from which a quantity counts as lost: the error is as large as the quantity itself."""
 
 BOUNDED, WALK = 0.25, 0.75
-"""Below the exponent BOUNDED a deviation counts as bounded, below WALK as a random walk."""
+"""A deviation counts as bounded if its growth exponent is below BOUNDED, and as a random walk if the exponent
+is between BOUNDED and WALK."""
 
 
 @dataclass(frozen=True)
 class Drift:
-    """The slope per unit of time with its half width at 95 %, the largest deviation, and the growth exponent.
+    """The slope per unit of time, the half width of its 95 % interval, the largest deviation, and its growth.
 
     ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random
-    walk, 1 for a drift. ``rounding`` is the largest deviation that rounding explains. A slope that cannot be
-    fitted, because too few values are finite, is NaN.
+    walk, 1 for a drift. ``rounding`` is the largest deviation that rounding errors can explain. If too few
+    values are finite, the slope is NaN.
     """
 
     slope: float
@@ -47,9 +48,10 @@ class Drift:
     def law(self) -> str:
         """The verdict in words.
 
-        ``lost`` if the deviation reaches the size of the quantity, ``exact`` without deviation, ``rounding``
-        if rounding explains it; otherwise ``bounded``, ``random walk`` or ``drift`` by its growth, and ``too
-        short to tell`` if it grows but the interval of the slope contains zero.
+        ``lost``: the deviation reaches the size of the quantity. ``exact``: there is no deviation.
+        ``rounding``: rounding errors can explain the deviation. Otherwise the growth exponent decides between
+        ``bounded``, ``random walk`` and ``drift``. The verdict is ``too short to tell`` if the deviation
+        grows but the interval of the slope contains zero.
         """
         if not self.largest < LOST:
             return "lost"
@@ -80,11 +82,12 @@ def fit(
     peaks: Sequence[float] | None = None,
     rounding: float = 0.0,
 ) -> Drift:
-    """Return the drift of relative deviations from an initial value, sampled after the start.
+    """Return the drift of a quantity from its relative deviations at sampled times.
 
-    ``times`` increase, or decrease in a backward run. A peak is the largest absolute deviation in the
-    interval that ends at a sample; ``peaks`` are by default the absolute values of the samples. If a value is
-    not finite, the slope is fitted to the values before it, and the largest deviation is infinite.
+    ``times`` are measured from the start; they decrease in a backward run. A peak is the largest absolute
+    deviation in the interval that ends at a sample; ``peaks`` are by default the absolute values of the
+    samples. If a value is not finite, the slope is fitted to the values before it, and the largest deviation
+    is infinite.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift

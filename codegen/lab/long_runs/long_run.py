@@ -25,14 +25,14 @@ from codegen.lab.runner import Emitted
 from codegen.loader import StepFailed
 
 ROUNDING_STEPS = 20_000
-"""Largest number of steps over which the growth of rounding is measured, for each of several starts."""
+"""The growth of rounding errors is measured from several starts over at most this number of steps."""
 
 
 @dataclass(frozen=True)
 class Kept:
-    """One conserved quantity: sample times, deviations and peaks relative to its size, and their drift.
+    """One conserved quantity: its relative deviations and peaks at the sample times, and their drift.
 
-    A peak is the largest absolute deviation of all steps since the sample before.
+    A peak is the largest absolute deviation over all steps since the previous sample.
     """
 
     name: str
@@ -48,11 +48,11 @@ class LongRun:
 
     ``failure`` is the message of a step that failed. The results then describe the steps before the failure,
     and ``kept`` is empty if there are too few steps. ``reversals`` are pairs: a number of steps, and the
-    distance from the initial state after that many steps forward and back. They describe the whole run and,
-    because chaos amplifies rounding, a hundredth of the run. ``symplectic`` is the symplectic defect of one
-    step; None if the scene is not Hamiltonian, if the run failed, or if the step is too long for the solver
-    in 60 digits. ``rounding`` is the growth of rounding errors in the quantities that the method conserves
-    exactly.
+    distance from the initial state after that many steps forward and back. One pair is for the whole run and
+    one for a hundredth of it, because chaos amplifies rounding errors in long runs. ``symplectic`` is the
+    symplectic defect of one step; None if the scene is not Hamiltonian, if the run failed, or if the step is
+    too long for the solver in 60 digits. ``rounding`` is the growth of rounding errors in the quantities that
+    the method conserves exactly.
     """
 
     scene: str
@@ -85,12 +85,12 @@ class LongRun:
 def long_run(
     compiled: Compiled, h: float, steps: int, *, back: bool = True, rounding: bool = False
 ) -> LongRun:
-    """Run emitted C from the initial state of the scene over many steps.
+    """Run emitted code from the initial state of the scene over many steps.
 
     ``back`` includes the run back, which doubles the time; ``rounding`` includes the growth of rounding
     errors with and without compensation (:mod:`codegen.lab.long_runs.rounding_growth`).
     """
-    scene, runner = compiled.scene, Emitted(compiled, "c")
+    scene, runner = compiled.scene, Emitted(compiled)
     first = float(scene.span[0])
     trajectory = record(scene, runner.integrator, runner.initial, h, steps, first)
     failure = trajectory.failure
@@ -127,7 +127,10 @@ def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple
 
 
 def _kept(trajectory: Trajectory, conserved: Collection[str]) -> tuple[Kept, ...]:
-    """Return the quantities with their drifts; the deviation of a ``conserved`` quantity is all rounding."""
+    """Return the quantities with their drifts.
+
+    The method conserves the quantities in ``conserved`` exactly; their deviation counts as rounding.
+    """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < 2 * BLOCKS:
         return ()

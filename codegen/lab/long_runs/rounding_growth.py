@@ -28,16 +28,17 @@ from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import DIGITS, precise_step
 from codegen.lab.straight_line_field import straight_line
 from codegen.loader import Integrator, StepFailed, load
+from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
 """Steps from one start to the next."""
 
 TIMES = 9
-"""Number of times at which deviations are measured; the number of steps doubles from one time to the next."""
+"""Deviations are measured after this many numbers of steps; each number is twice the previous number."""
 
 EXACT = 1e-30
-"""A quantity is conserved exactly if one step in 60 digits changes it by less than this, relatively."""
+"""A quantity counts as exactly conserved if one step in 60 digits has a smaller relative change."""
 
 
 NEARLY = 1e-14
@@ -46,9 +47,10 @@ NEARLY = 1e-14
 
 @dataclass(frozen=True)
 class Growth:
-    """The root mean square of the relative deviation of a quantity after numbers of steps, and its exponent.
+    """The root mean square of the relative deviation of a quantity, and the exponent of its growth.
 
-    ``half_width`` is the half width of the 95 % interval of the exponent.
+    ``sizes`` are the root mean squares after the numbers of steps in ``steps``. ``half_width`` is the half
+    width of the 95 % interval of the exponent.
     """
 
     quantity: str
@@ -60,7 +62,7 @@ class Growth:
 
     @property
     def law(self) -> str:
-        """The growth in words: the laws that the interval of the exponent does not exclude."""
+        """The laws of growth whose exponent is in the interval, in words."""
         if self.exponent + self.half_width < 0.25:
             return "bounded"
         laws = {"random walk": 0.5, "systematic": 1.0}
@@ -83,16 +85,17 @@ class Growth:
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
     """Return the growth of rounding in every exactly conserved quantity, plain and compensated.
 
-    If the step has no compensated form, only the plain results are returned. If a run fails, none are.
+    If the step has no compensated form, only the plain results are returned. If a run fails, the result is
+    empty.
     """
-    scene, plain = compiled.scene, Emitted(compiled, "c")
+    scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
     first = float(scene.span[0])
     if not exactly_conserved(compiled, [(first, plain.initial)], h):
         return ()
     runs: list[tuple[bool, Integrator]] = [(False, plain.integrator)]
     with suppress(MethodError):
-        runs.append((True, load(emit_compiled(compensated(compiled), "c"))))
+        runs.append((True, load(emit_compiled(compensated(compiled), DEFAULT))))
     counts = [steps >> k for k in reversed(range(TIMES)) if steps >> k]
     growths = []
     try:
@@ -115,7 +118,8 @@ def _starts(
 ) -> list[tuple[float, list[float]]]:
     """Return times and states along a trajectory, computed with the compensated step if there is one.
 
-    Starts must be accurate, because a state off the manifold keeps its distance from it while it rotates.
+    The starts must be accurate: rotations preserve the distance of a state from the manifold, so an initial
+    distance would remain during the whole run.
     """
     carried, integrator = run
     size, starts = len(initial), []
@@ -129,12 +133,12 @@ def _starts(
 def exactly_conserved(
     compiled: Compiled, starts: Sequence[tuple[float, Sequence[float]]], h: float
 ) -> dict[str, Evaluate]:
-    """Return the quantities, as functions over 60 digits, that steps in 60 digits do not change.
+    """Return the quantities that a step does not change, as functions of numbers with 60 digits.
 
-    ``starts`` are times and states. The first state is exact, so a change of at most :data:`EXACT` is
-    allowed. The other states are off the manifold by rounding, so a change up to :data:`NEARLY` is allowed. A
-    step from the initial state alone is not enough, because a quantity may be stationary there. The result is
-    empty if the interpreter cannot make a step.
+    ``starts`` are times and states. The first state is exact, and its step may change a quantity by at most
+    :data:`EXACT`. Rounding errors displace the other states from the manifold; their steps may change a
+    quantity by at most :data:`NEARLY`. One start is not enough, because a quantity may be stationary there.
+    The result is empty if the interpreter cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
@@ -157,7 +161,10 @@ def exactly_conserved(
 
 
 def _distance(name: str, values: Vector, before: Vector) -> float:
-    """Return the largest change; for an invariant, relative to its size before unless that is zero."""
+    """Return the largest change of a quantity.
+
+    The change of an invariant is relative to its previous value, unless this value is zero.
+    """
     scale = 1 if name == MANIFOLD else max(abs(x) for x in before) or 1
     return float(max(abs(a - b) for a, b in zip(values, before, strict=True)) / scale)
 
@@ -190,7 +197,10 @@ def _deviations(
 
 
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
-    """Return the growth of the root mean square over members, with the interval of the jackknife."""
+    """Return the growth of the root mean square over all starts, with the interval by the jackknife.
+
+    ``members`` contains, for each start, the deviation after each number of steps.
+    """
     import scipy.stats
 
     sizes = _rms(members)
@@ -208,7 +218,7 @@ def _rms(members: Sequence[Sequence[float]]) -> list[float]:
 
 
 def _slope(counts: Sequence[int], sizes: Sequence[float]) -> float:
-    """Return the least-squares slope of log size against log count, without zeros."""
+    """Return the least-squares slope of log size against log count; sizes of zero are ignored."""
     pairs = [(math.log(n), math.log(x)) for n, x in zip(counts, sizes, strict=True) if x > 0]
     if len(pairs) < 2:
         return 0.0

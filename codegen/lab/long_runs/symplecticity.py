@@ -1,9 +1,9 @@
-"""The symplectic defect of a step on T*G: the change of the canonical form under the tangent map of the step.
+"""The symplectic defect of a step on T*G: how much the tangent map of the step changes the canonical form.
 
 In right trivialisation the form at (q, mu) is <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H.
 Marthinsen, *Lie group integrators*, eq. (2.26)). The interpreter computes the tangent map by central
-differences in 60 digits. The result therefore shows the defect of the method and not the error of the
-difference quotient.
+differences in 60 digits. The error of the difference quotients is therefore negligible beside the defect of
+the method.
 """
 
 from __future__ import annotations
@@ -24,13 +24,15 @@ OFFSET = 15
 """The offset of a central difference is 10^-OFFSET; the error of the difference is about 10^(-2 OFFSET)."""
 
 SWEEPS = 100
-"""Largest number of iterations of an implicit block; longer steps contract too slowly for 60 digits."""
+"""Largest number of iterations of an implicit block. Longer steps may converge too slowly for 60 digits."""
 
 
 def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: float = 0.0) -> float:
-    """Return the largest entry of J^T Omega(end) J - Omega(start), divided by the largest of Omega(start).
+    """Return the largest entry of J^T Omega(end) J - Omega(start), relative to that of Omega(start).
 
-    ``state`` is flat: the group element, then the momentum. The scene must be Hamiltonian.
+    Entries are compared by absolute value.
+
+    ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
     :class:`NotConverged` if an implicit block takes more than :data:`SWEEPS` iterations.
     """
     scene = compiled.scene

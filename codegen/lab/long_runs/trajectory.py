@@ -1,7 +1,7 @@
 """The record of a long run: conserved quantities at every step, and states at evenly spaced samples.
 
-Quantities are evaluated on arrays of states, in chunks. So the largest deviation is over all steps, although
-only the samples are stored.
+Quantities are evaluated on arrays of states, one chunk of steps after another. The largest deviation is over
+all steps, although only the samples are stored.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CHUNK = 100_000
-"""Steps whose states are in memory at the same time."""
+"""Number of steps whose states are in memory at the same time."""
 
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
-"""A function of (coordinates by row, times) to rows of values."""
+"""A function of two arrays: states, with one coordinate in each row, and times. It returns rows of values."""
 
 FUNCTIONS = {name: getattr(numpy, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
 
 
 @dataclass
 class Series:
-    """One quantity: its signed deviations at the samples, and the largest deviation between samples (peaks).
+    """One quantity: signed deviations at the samples, and peaks, the largest deviations between samples.
 
     Deviations are differences from ``start``: the initial value of an invariant, or zero for the manifold
     equations.
@@ -44,7 +44,7 @@ class Series:
     def relative(self) -> tuple[list[float], list[float]]:
         """Return deviations and peaks relative to the initial value.
 
-        A quantity that starts at zero is divided by its largest value if that is above one.
+        If the initial value is zero, they are divided by the largest peak, or by one if this peak is smaller.
         """
         finite = (x for x in self.peaks if math.isfinite(x))
         scale = abs(self.start) or max(1.0, *finite, 1.0)
@@ -113,7 +113,7 @@ def _append(
     stride: int,
     evaluate: Mapping[str, ArrayFunction],
 ) -> None:
-    """Append the samples of a chunk; ``rows`` begins with the last state of the chunk before."""
+    """Append the samples of a chunk; the first of ``rows`` is the last state of the previous chunk."""
     count = len(rows) - 1
     if not count:
         return

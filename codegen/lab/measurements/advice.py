@@ -1,4 +1,4 @@
-"""Advice on the choice of a method: the fastest for each requirement and accuracy."""
+"""Advice on the choice of a method: the fastest method for each requirement and accuracy."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class Recommendations:
 
 
 class Advice(Measurement[Recommendations]):
-    """The fastest methods by requirement, from the work-precision rows."""
+    """The fastest method for each requirement, computed from the rows of the cost measurement."""
 
     name = "advice"
     title = "Which method"
@@ -60,7 +60,7 @@ class Advice(Measurement[Recommendations]):
 
 
 def table(result: Recommendations) -> dict[str, object]:
-    """Return the table by requirement and accuracy; ``unmet`` lists the requirements that no method meets."""
+    """Return the recommendations as a table; ``unmet`` lists the requirements that no method satisfies."""
     return {
         "errors": [decade(k) for k in DECADES],
         "rows": [

@@ -1,4 +1,4 @@
-"""Order conditions: the independent conditions of each family, and the first that each method violates."""
+"""Order conditions: the independent conditions of each family, and those that each method violates."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ DEEPEST = 4
 """Order up to which all conditions are shown; at higher orders only the violated conditions are shown."""
 
 LONGEST = 48
-"""Number of characters that fit a line; longer exact residuals are shown in decimals."""
+"""Largest number of characters of an exact residual; longer residuals are shown as decimals."""
 
 
 @dataclass(frozen=True)
@@ -39,14 +39,14 @@ class FamilyConditions:
 
 @dataclass(frozen=True)
 class ConditionTables:
-    """The conditions of all families of a page, and the studies of its methods."""
+    """The conditions of all families of a page, and the order studies of all methods of the page."""
 
     families: tuple[FamilyConditions, ...]
     methods: tuple[OrderStudy, ...]
 
 
 class Conditions(Measurement[ConditionTables]):
-    """The conditions that define the orders, and the violated ones with their residuals."""
+    """The order conditions of each family, and the violated conditions with their residuals."""
 
     name = "conditions"
     title = "Order conditions"
@@ -85,12 +85,12 @@ class Conditions(Measurement[ConditionTables]):
 
 
 def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
-    """Return the families of a study, each with the highest order that is shown, in order of appearance."""
+    """Return the families of the methods, each with the highest order whose conditions are shown."""
     highest: dict[str, int] = {}
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            continue  # no conditions, or those of a family that only the compiler knows, without index sums
+            continue  # no conditions, or those of a family that only the compiler defines, without index sums
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
 

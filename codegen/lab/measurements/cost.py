@@ -1,4 +1,4 @@
-"""Cost: error against CPU time, the fastest for each accuracy, and the operations of a step."""
+"""Cost: error against CPU time, the fastest method for each accuracy, and the operations of a step."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from codegen.lab.page.figures import efficiency_figure
 from codegen.lab.page.formatting import Picture, decade, duration
 from codegen.lab.peers import find
 from codegen.lab.subject import Subject
+from codegen.printers import DEFAULT
 
 
 @dataclass(frozen=True)
@@ -38,11 +39,11 @@ class Cost(Measurement[CostResult]):
         scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
         candidates: list[Candidate] = []
         for method in subject.compiled.measured:
-            own = EmittedCandidate(scene, method.compiled.method, exact, "c", budget, method.compiled)
+            own = EmittedCandidate(scene, method.compiled.method, exact, DEFAULT, budget, method.compiled)
             own.emit_seconds += method.seconds
             candidates.append(own)
-        candidates += [Refused(f.method, "c", f.reason) for f in subject.compiled.failures]
-        candidates += [emitted(scene, m, exact, "c", budget, adaptive=True) for m in subject.adaptive]
+        candidates += [Refused(f.method, DEFAULT, f.reason) for f in subject.compiled.failures]
+        candidates += [emitted(scene, m, exact, DEFAULT, budget, adaptive=True) for m in subject.adaptive]
         candidates += [PeerCandidate(scene, peer, exact, budget) for peer in find(subject.peers)]
 
         def done(row: Row) -> None:
@@ -72,7 +73,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     return {
         "picture": Picture(
             Markup(picture),
-            "Error against the CPU time of the whole run, the least of several measurements. Dashed: peers.",
+            "Error against the CPU time of the whole run (least of several measurements). Dashed: peers.",
             subject.bench_command(),
         ),
         "places": [

@@ -1,4 +1,4 @@
-"""Emitted code: operations of a step, files, and the parts that were left out."""
+"""Emitted code: operations of a step, files, and the simplifications that the scene and method allow."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from codegen.lab.subject import CompiledMethod, Subject
 
 
 class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
-    """The emitted C of every method, as its manifest describes it."""
+    """The emitted module of every method, as its manifest describes it."""
 
     name = "emitted"
     title = "Emitted code"
-    about = "operations of a step, emitted files, and the parts that were left out"
+    about = "operations of a step, emitted files, and the simplifications of the code"
     part_of = "orders"
 
     def run(self, subject: Subject) -> tuple[CompiledMethod, ...]:
@@ -20,7 +20,7 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         return subject.compiled.measured
 
     def as_json(self, result: tuple[CompiledMethod, ...]) -> object:
-        """Return module, operations and parts left out of every method."""
+        """Return the module, the operations and the simplifications of every method."""
         keys = ("module", "operations", "left_out", "command")
         return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
 

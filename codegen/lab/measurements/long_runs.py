@@ -22,7 +22,7 @@ Result = MethodResults[LongRun]
 
 
 class LongRuns(Measurement[Result]):
-    """Drift of conserved quantities over many steps of a hundredth of the span."""
+    """Drift of conserved quantities over many steps. The step size is a hundredth of the span."""
 
     name = "long"
     title = "Long runs"

@@ -1,4 +1,4 @@
-"""Orders: the order from the order conditions, and the slopes that emitted code shows."""
+"""Orders: the order computed from the order conditions, and the order observed with emitted code."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from codegen.lab.orders.order_study import COMPARED, OrderStudy, order_study
 from codegen.lab.page.figures import Curve, convergence_figure
 from codegen.lab.page.formatting import Picture, scientific
 from codegen.lab.subject import MethodResults, Subject
+from codegen.printers import targets
 
 OVERVIEW = '<p class="note">Observed order equals the computed order for {{ held }} of {{ all }} methods.</p>'
 
@@ -18,11 +19,11 @@ Result = MethodResults[OrderStudy]
 
 
 class Orders(Measurement[Result]):
-    """Observed orders of emitted C and Python against the certified order."""
+    """Observed orders of emitted code, in every target, against the certified order."""
 
     name = "orders"
     title = "Orders"
-    about = "observed orders of emitted C and Python against the order conditions"
+    about = "observed orders of emitted code against the order conditions"
     json_key = "methods"
 
     def run(self, subject: Subject) -> Result:
@@ -35,20 +36,21 @@ class Orders(Measurement[Result]):
         return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Whether every observed order is the computed one."""
+        """Whether every observed order equals the computed order."""
         return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
         """Return one line for each method."""
         name = subject.scene.name
         for study in result.measured:
-            yield f"{name} {study.method.label} {study.compiled.sentence()}"
+            yield f"{name} {study.method.label} {study.main.sentence()}"
         for failure in result.failures:
             yield f"{name} {failure.method} fails: {failure.reason}"
 
     def section(self, result: Result, subject: Subject) -> Section:
         """Return the table of orders and the convergence diagram."""
         values = {
+            "targets": [target.title for target in targets()],
             "rows": [_row(m) for m in result.measured],
             "failures": result.failures,
             "picture": _picture(result.measured, subject) if result.measured else None,
@@ -58,25 +60,24 @@ class Orders(Measurement[Result]):
         return Section('{% include "sections/orders.html.j2" %}', values)
 
     def overview(self, result: Result, subject: Subject) -> Section:
-        """Return the number of methods whose order holds."""
+        """Return the number of methods whose observed order equals the computed order."""
         held = sum(m.verdict == "holds" for m in result.measured)
         return Section(OVERVIEW, {"held": held, "all": len(result.measured) + len(result.failures)})
 
 
 def agreement(spread: float | None) -> str:
-    """Return the largest difference between the executors in words."""
+    """Return the largest difference between targets and interpreter, in words."""
     if spread is None:
         return "no run"
     return scientific(spread) if spread else "bit for bit"
 
 
-def _row(study: OrderStudy) -> dict[str, str]:
+def _row(study: OrderStudy) -> dict[str, object]:
     return {
         "label": study.method.label,
         "order": f"{'≥ ' if study.order.bound else ''}{study.order.order}",
         "certificate": study.order.certificate,
-        "c": _observed(study.compiled.observed),
-        "python": _observed(study.python.observed),
+        "slopes": [_observed(study.convergences[target.name].observed) for target in targets()],
         "verdict": study.verdict,
         "spread": agreement(study.spread),
         "ns": f"{study.times[-1].ns_per_step:.0f}" if study.times else "–",
@@ -92,10 +93,10 @@ def _picture(studies: Iterable[OrderStudy], subject: Subject) -> Picture:
     curves = [
         Curve(m.method.label, points, m.order.order, place=k)
         for k, m in enumerate(studies)
-        if (points := tuple((r.h, r.error) for r in m.compiled.refinement.clean))
+        if (points := tuple((r.h, r.error) for r in m.main.refinement.clean))
     ]
     return Picture(
         Markup(convergence_figure(f"{scene.name} convergence", curves, f"error at t = {scene.span[1]}")),
-        "Error of the emitted C against the step size. Dashed: the slope of each computed order.",
+        "Error of the emitted code against the step size. Dashed: the slope of each computed order.",
         subject.report_command("orders"),
     )

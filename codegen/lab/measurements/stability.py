@@ -16,7 +16,7 @@ from codegen.lab.stability.linear_stability import region
 from codegen.lab.stability.stability_study import Findings, Stability, StiffScenes, findings, stiff_scenes
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
-OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }}.</p>'
+OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }} cases.</p>'
 
 Result = MethodResults[Stability]
 
@@ -97,8 +97,8 @@ def _picture(methods: Sequence[Stability], command: str) -> Picture | None:
         return None
     return Picture(
         Markup(region_figure(f"{methods[0].scene} regions", functions)),
-        "The curves |R(hλ)| = 1 bound the regions of linear stability for y′ = λy. Zero lies on each curve; "
-        "the stable side is on its left.",
+        "The curves |R(hλ)| = 1 bound the regions of linear stability for y′ = λy. Each curve contains zero; "
+        "near zero, the stable region is to the left of the curve.",
         command,
     )
 
@@ -130,7 +130,7 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the cases of a method; neighbours with the same status share a row."""
+    """Return the cases of a method; consecutive cases with the same status are one row."""
     rows: list[dict[str, object]] = []
     names: list[str] = []
     for a in stability.findings.answers:
@@ -157,4 +157,4 @@ def endurance_text(run: Endurance) -> str:
     parts = [f"{run.steps} steps"]
     parts += [] if run.defect is None else [f"{scientific(run.defect)} off the manifold"]
     parts += [] if run.returned is None else [f"{scientific(run.returned)} from the start"]
-    return ", ".join(parts) + ("" if run.held else ": more than rounding explains")
+    return ", ".join(parts) + ("" if run.held else ": more than rounding errors explain")

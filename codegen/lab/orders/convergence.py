@@ -22,7 +22,7 @@ from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
 FEWEST = 4
-"""Number of runs that three slopes need."""
+"""Number of runs that are needed for three slopes."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Convergence:
         """Return the verdict and its reason in one line."""
         if self.observed is None:
             reasons = sorted({r.excluded for r in self.refinement.runs if r.excluded})
-            return f"undecided: no two neighbouring runs are usable ({'; '.join(reasons) or 'too few steps'})"
+            return f"undecided: no two consecutive runs are usable ({'; '.join(reasons) or 'too few steps'})"
         about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
         if self.verdict == "undecided":
             return f"undecided: {about}, but {self._unsettled()}"
@@ -79,7 +79,7 @@ class Convergence:
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
             return "rounding dominates before the slopes settle; use --target interpreter --digits 40"
         if len(self.refinement.clean) < FEWEST:
-            return f"{FEWEST} usable runs are needed, there are {len(self.refinement.clean)}"
+            return f"only {len(self.refinement.clean)} of {FEWEST} required runs are usable; try other steps"
         return "the slopes have not settled; try finer steps"
 
 
@@ -93,8 +93,9 @@ def converge(
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return its convergence.
 
-    ``steps`` prescribes the numbers of steps. Otherwise the number of steps is doubled from five until the
-    slopes settle (with ``to_rounding``: until rounding dominates), or up to the runner's largest number.
+    ``steps`` prescribes the numbers of steps. By default the first run has five steps, and each next run has
+    twice the number. The last run is the one after which the slopes have settled (with ``to_rounding``: after
+    which rounding dominates), or the longest run that ``runner.most_steps`` permits.
     """
     scene = runner.compiled.scene
     size = math.hypot(*(float(x) for x in exact.state))

@@ -26,14 +26,14 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """An exact ring as a domain, for polynomial scenes. There is no step size: ``h`` is one."""
+    """Arithmetic in an exact ring, for polynomial scenes. There is no step size, and ``h`` is one."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self.h = ring.one
 
     def number(self, value: Number) -> Element:
-        """Return the element of the ring for an exact number, which is rational or an element already."""
+        """Return an exact number, which is rational or in the ring, as an element of the ring."""
         if value.ring is self.ring:
             return value.element
         fraction = value.fraction()
@@ -44,11 +44,11 @@ class RingDomain(Domain):
         return self.ring.rational(p, q)
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Raise ArithmeticError: the scene is not polynomial."""
+        """Raise ArithmeticError, because a scene with function calls is not polynomial."""
         raise ArithmeticError(f"{function} is not polynomial")
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Raise ArithmeticError: there is nothing to iterate."""
+        """Raise ArithmeticError, because elementary differentials need no iteration."""
         raise ArithmeticError("elementary differentials are not iterated")
 
 
@@ -151,5 +151,5 @@ def _rows(flat: Vector) -> tuple[Vector, ...]:
 
 
 def element_coordinates(group: LieGroup, matrix: Sequence[Vector]) -> Vector:
-    """Return the coordinates of a group element, or of a difference of two, from its matrix."""
+    """Return the coordinates of a group element, or of a difference of two elements, from its matrix."""
     return group.require(MatrixRepresentation).element(tuple(x for row in matrix for x in row))

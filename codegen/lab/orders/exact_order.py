@@ -34,9 +34,10 @@ DENOMINATOR = 64
 class ExactLocalError:
     """The leading term of the local error of one step, with exact coefficients.
 
-    ``order`` is the exact order. If ``vanishes``, all coefficients up to h^order vanish and the next one was
-    not computed, so the order on this scene is at least ``order``. ``coefficients`` are the coefficients of
-    h^(order+1) by symbol, and empty if ``vanishes``. ``start`` is the initial state that was used.
+    ``order`` is the exact order if ``vanishes`` is false. ``coefficients`` are then the coefficients of
+    h^(order+1), one for each coordinate in ``symbols``. If ``vanishes`` is true, all computed coefficients
+    are zero: the order on this scene is at least ``order``, and ``coefficients`` is empty. ``start`` is the
+    initial state that was used.
     """
 
     scene: str
@@ -50,7 +51,7 @@ class ExactLocalError:
 
     @property
     def verdict(self) -> str:
-        """``holds`` if the order is at least the one that the order conditions state, else ``fails``."""
+        """``holds`` if the order is at least the order from the order conditions, else ``fails``."""
         return "holds" if self.order >= self.certified.order else "fails"
 
     def sentence(self) -> str:
@@ -86,7 +87,8 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     third = ring.rational(1, 3)
     if ring.is_zero(third - third) is not True:
         raise MethodError(
-            f"the coefficients of {method.label} are balls", expected="exact coefficients, for exact zeros"
+            f"the coefficients of {method.label} are intervals",
+            expected="exact coefficients, so that zeros can be decided",
         )
     certified = certified_order(method, scene)
     start = with_exact_start(scene, ring)
@@ -99,7 +101,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
         initial = tuple(ring.text(x.coefficients[0]) for x in problem.initial(domain))
     except ArithmeticError as reason:
         raise SceneError(
-            f"the local error is not computed exactly: {reason}",
+            f"the local error cannot be computed exactly: {reason}",
             where=scene.name,
             expected="a field and flows that are rational functions of the coordinates",
             hint="orderconds converge estimates the order from slopes",
@@ -123,7 +125,10 @@ def _texts(ring: Ring, error: Vector, power: int) -> tuple[str, ...]:
 
 
 def with_exact_start(scene: Problem, ring: Ring) -> Problem:
-    """Return a scene with initial coordinates in ``ring``: other coordinates become nearby rationals."""
+    """Return the scene with an initial state in ``ring``.
+
+    Initial coordinates that are not in ``ring`` are replaced by nearby rational numbers.
+    """
     values = iter(scene.initial(FloatDomain(0.0)))
     domain = SeriesDomain(ring, 1)
     parameters = {name: domain.number(number) for name, number in scene.parameters.items()}

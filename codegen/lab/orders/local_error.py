@@ -1,10 +1,10 @@
-"""The exact local error of a step program: its Taylor coefficients in h, and the values that conditions
-predict.
+"""The exact local error of a step program: its Taylor coefficients in h, computed in two ways.
 
 The interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of its step. Picard
-iteration gives the series of the exact flow. Their difference starts at h^(p+1), where p is the order. Its
-leading coefficient is the sum of the residuals of the order conditions times the elementary differentials of
-the scene. So the emitted program is compared with the conditions from which its order was derived.
+iteration returns the series of the exact flow. The difference of the two series starts at h^(p+1), where p is
+the order. By theory, its leading coefficient is the sum of the residuals of the order conditions times the
+elementary differentials of the scene. The comparison of both values tests the program against the order
+conditions.
 """
 
 from __future__ import annotations
@@ -102,7 +102,7 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return the residual of every condition of one order, with its tree or forest."""
+    """Return pairs of tree or forest and residual, for the conditions of one order that are not satisfied."""
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)
@@ -121,7 +121,7 @@ def _sum(ring: Ring, terms: list[tuple[Element, Vector]], width: int) -> Vector:
 
 
 def _trees(scene: Problem, method: Method, power: int) -> Vector:
-    """The B-series: sum over rooted trees of residual/symmetry F(t) (HLW III.1)."""
+    """Return the term of the B-series: the sum over rooted trees of residual/symmetry F(t) (HLW III.1)."""
     fields = FrozenFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, levels.symmetry(t)), fields.forest(t))
@@ -131,14 +131,14 @@ def _trees(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _forests(scene: Problem, method: Method, power: int) -> Vector:
-    """The Lie-Butcher series: sum over ordered forests of (value - exact value) F(w)."""
+    """Return a term of the Lie-Butcher series: a sum over ordered forests of (value - exact value) F(w)."""
     fields = FrozenFields(scene, method.ring)
     terms = [(x * method.ring.rational(1, scale(w)), fields.forest(w)) for w, x in _residuals(method, power)]
     return _sum(method.ring, terms, len(scene.symbols))
 
 
 def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
-    """The P-series: sum over trees with directed edges of residual/symmetry (xi, n)(t)."""
+    """Return a term of the P-series: a sum over trees with directed edges of residual/symmetry (xi, n)(t)."""
     fields = CanonicalFields(scene, method.ring)
     terms = [
         (x * method.ring.rational(1, directed.symmetry(t)), fields.tree(t))
@@ -148,7 +148,7 @@ def _partitioned(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _action(scene: Problem, method: Method, power: int) -> Vector:
-    """The action series: the words of the update minus their exact values."""
+    """Return the term of the action series: the words of the update minus their exact values."""
     ring = method.ring
     family = family_of(method)
     assert isinstance(family, ActionFamily)

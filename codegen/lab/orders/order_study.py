@@ -1,8 +1,8 @@
-"""The order of one method on a scene: convergence of emitted C and Python, their agreement, and times."""
+"""The order of one method on a scene: convergence in every target, agreement of the targets, and times."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from codegen.artifact import Artifact
@@ -16,9 +16,10 @@ from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, Interpreted, RunFailed, Runner
 from codegen.lab.timing import Timing, timings
 from codegen.method import Method
+from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""Number of steps after which C, Python and the interpreter are compared; larger if a run with it fails."""
+"""Number of steps after which all targets and the interpreter are compared. It is larger if a run fails."""
 
 MOST_TIMED = 2560
 """Number of steps of the longest run that is timed."""
@@ -26,24 +27,29 @@ MOST_TIMED = 2560
 
 @dataclass(frozen=True)
 class OrderStudy:
-    """One method: its certified order, convergence in C and Python, times of the C, and the artifact.
+    """One method: its certified order, and its convergence by target.
 
-    ``spread`` is the largest difference of a coordinate between emitted C, emitted Python and the interpreter
-    after at least :data:`COMPARED` steps; None if no such run succeeds.
+    ``times`` and ``artifact`` are those of the default target. ``spread`` is the largest difference of a
+    coordinate between the final states of all targets and of the interpreter, after at least
+    :data:`COMPARED` steps; None if no such run succeeds.
     """
 
     method: Method
     order: CertifiedOrder
-    compiled: Convergence
-    python: Convergence
+    convergences: Mapping[str, Convergence]
     times: tuple[Timing, ...]
     spread: float | None
     artifact: Artifact
 
     @property
+    def main(self) -> Convergence:
+        """The convergence in the default target."""
+        return self.convergences[DEFAULT]
+
+    @property
     def verdict(self) -> str:
-        """The worse of the verdicts in C and Python."""
-        verdicts = (self.compiled.verdict, self.python.verdict)
+        """The worst verdict of all targets."""
+        verdicts = {c.verdict for c in self.convergences.values()}
         return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
 
     def as_json(self) -> dict[str, object]:
@@ -51,8 +57,7 @@ class OrderStudy:
         return {
             "method": self.method.label,
             "verdict": self.verdict,
-            "c": self.compiled.as_json(),
-            "python": self.python.as_json(),
+            **{target: c.as_json() for target, c in self.convergences.items()},
             "spread": self.spread,
             "seconds": {str(t.steps): t.seconds for t in self.times},
         }
@@ -62,8 +67,7 @@ class OrderStudy:
 class _Measured:
     """The part of a study that is cached."""
 
-    compiled: Refinement
-    python: Refinement
+    refinements: dict[str, Refinement]
     times: tuple[Timing, ...]
     spread: float | None
 
@@ -76,24 +80,28 @@ def order_study(
     name = f"{scene.name}, {method.label}"
     progress(f"{name}: order conditions")
     order = certified_order(method, scene)
-    c, python = Emitted(compiled, "c", order), Emitted(compiled, "python", order)
+    runners = {target: Emitted(compiled, target, order) for target in names()}
+    main = runners[DEFAULT]
+
+    def refinement(runner: Emitted) -> Refinement:
+        return converge(runner, order, exact, to_rounding=runner is main).refinement
 
     def measure() -> _Measured:
         progress(f"{name}: convergence")
-        in_c = converge(c, order, exact, to_rounding=True).refinement
-        in_python = converge(python, order, exact).refinement
-        steps = [r.steps for r in in_c.clean if r.steps <= MOST_TIMED]
-        spread = largest_difference((c, python, Interpreted(compiled)), steps)
+        refinements = {target: refinement(runner) for target, runner in runners.items()}
+        steps = [r.steps for r in refinements[DEFAULT].clean if r.steps <= MOST_TIMED]
+        spread = largest_difference((*runners.values(), Interpreted(compiled)), steps)
         progress(f"{name}: times")
-        return _Measured(in_c, in_python, timings(c.final, steps), spread)
+        return _Measured(refinements, timings(main.final, steps), spread)
 
-    key = ("orders", *sorted({**c.artifact.files, **python.artifact.files}.items()), exact.digits())
+    files = [(target, *sorted(runner.artifact.files.items())) for target, runner in runners.items()]
+    key = ("orders", *files, exact.digits())
     measured = (cache or MeasurementCache(None)).get(key, _Measured, measure)
-    refinements = {"c": measured.compiled, "python": measured.python}
-    results = {t: Convergence(scene.name, method.label, t, order, r) for t, r in refinements.items()}
-    return OrderStudy(
-        method, order, results["c"], results["python"], measured.times, measured.spread, c.artifact
-    )
+    convergences = {
+        target: Convergence(scene.name, method.label, target, order, refinement)
+        for target, refinement in measured.refinements.items()
+    }
+    return OrderStudy(method, order, convergences, measured.times, measured.spread, main.artifact)
 
 
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:

@@ -24,15 +24,15 @@ CLEAR = 100.0
 slope by less than 0.03."""
 
 FIRST = 5
-"""Number of steps of the first run."""
+"""Number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""Numbers of steps of the runs added below :data:`FIRST`."""
+"""Numbers of steps, below :data:`FIRST`, of the runs that are added if there are too few slopes."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run: ``steps`` of size ``h``, its error, and the reason if it is excluded (else '')."""
+    """One run of ``steps`` steps of size ``h``. ``excluded`` is the reason why it is not used, or ''."""
 
     steps: int
     h: float
@@ -48,7 +48,7 @@ class Refinement:
 
     @property
     def clean(self) -> tuple[Run, ...]:
-        """The runs that are used: the longest sequence of neighbouring runs without an excluded run."""
+        """The runs that are used: the longest sequence of consecutive runs that are not excluded."""
         stretches: list[list[Run]] = [[]]
         for run in self.runs:
             if run.excluded:
@@ -60,7 +60,7 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """log(error ratio)/log(step ratio) of neighbouring clean runs."""
+        """log(error ratio)/log(step ratio) of consecutive clean runs."""
         return slopes(self.clean)
 
     @property
@@ -72,7 +72,7 @@ class Refinement:
 
     @property
     def observed(self) -> float | None:
-        """The last slope of clean runs, or None if there is none."""
+        """The last slope of the clean runs; None if there are fewer than two clean runs."""
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
@@ -83,7 +83,7 @@ class Refinement:
 
 
 def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
-    """Return the slopes between neighbouring runs.
+    """Return the slopes between consecutive runs.
 
     >>> slopes([Run(10, 0.1, 1e-2), Run(30, 0.1 / 3, 1e-2 / 9)])
     (2.0,)
@@ -92,12 +92,13 @@ def slopes(runs: Sequence[Run]) -> tuple[float, ...]:
 
 
 def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> Refinement:
-    """Double the number of steps from :data:`FIRST` until the slopes settle, rounding dominates, or ``most``.
+    """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
 
-    With ``to_rounding`` the refinement continues after the slopes have settled. It also continues after a run
-    that failed: Newton's method may converge to some solution for a long step, fail for half of it, and find
-    the right solution for shorter ones. If a method of high order reaches rounding before three slopes have
-    settled, runs with longer steps and intermediate runs are added.
+    The refinement ends when the slopes have settled or rounding dominates. With ``to_rounding`` it continues
+    after the slopes have settled. It also continues after a run that failed. The reason is that Newton's
+    method may converge to a wrong solution for a long step, fail for half of this step, and find the right
+    solution for shorter steps. If a method of high order reaches rounding before three slopes have settled,
+    runs with longer steps and intermediate runs are added.
     """
     runs: list[Run] = []
     steps = FIRST

@@ -38,7 +38,11 @@ def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
 def strict(
     method: Method, stated: CertifiedOrder, tell: Callable[[str], object] = str, alter: Alter = lambda c: c
 ) -> Iterator[Convergence]:
-    """Yield the convergence on each scene; tests of the protocol change the program by ``alter``."""
+    """Yield the convergence on each scene.
+
+    ``alter`` changes the step program before the runs. Tests use it to insert errors that the protocol must
+    find.
+    """
     for scene in strict_scenes(lowering(method.family).hamiltonian):
         tell(f"{method.label} on {scene.name}")
         compiled = alter(optimise_method(scene, method))

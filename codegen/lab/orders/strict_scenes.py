@@ -1,9 +1,9 @@
 """The scenes of the strict protocol, chosen so that an error in a method cannot cancel by symmetry.
 
-Published software has shipped methods of order 2 as order 4, because its tests used rotations about one
-axis, generators orthogonal to the state, or fields that do not depend on time. Here every field f is
-polynomial and depends on state and time, and its values at different points do not commute. On the sphere, f
-has a component along the state.
+In published software, methods of order 2 were documented as order 4, because the tests used rotations about
+one axis, generators orthogonal to the state, or fields that do not depend on time. In the scenes of this
+module, every field f is polynomial and depends on state and time, and the values of f at different points do
+not commute. On the sphere, f has a component along the state.
 The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three, acting on
 themselves or on vectors. Variational methods run on T*G with Hamiltonians that have no symmetry and depend
 on time.
@@ -20,7 +20,7 @@ from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
-"""The span is short, because solutions of polynomial equations may reach infinity soon."""
+"""The span is short, because solutions of polynomial equations may become infinite at a small time."""
 
 
 @cache
@@ -137,5 +137,5 @@ def hamiltonians() -> tuple[Problem, ...]:
 
 
 def strict_scenes(variational: bool) -> tuple[Problem, ...]:
-    """Return the scenes for variational methods, or for all others."""
+    """Return the Hamiltonian scenes if ``variational``, else the field scenes."""
     return hamiltonians() if variational else fields()

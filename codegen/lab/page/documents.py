@@ -1,6 +1,6 @@
 """The documents of the report: a page for each scene, and an overview with links to the pages.
 
-Each document is complete: style and pictures are inside, and nothing is fetched.
+Each document contains its style and its pictures and loads nothing from elsewhere.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """Figures as inline SVG with the colours and fonts of the page, in light and dark mode.
 
 Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text is
-written as SVG text, not as outlines. The identifiers in the SVG are hashes salted with the name of the
-figure. So equal data produces equal bytes, and two figures of a page do not share clip paths.
+written as SVG text, not as outlines. The identifiers in the SVG are hashes that depend on the data and on the
+name of the figure. Therefore equal data gives equal bytes, and two figures of a page have different
+identifiers.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ SERIES = tuple(f"#010b{k:02x}" for k in range(1, 11))
 COLOURS = {INK: "var(--ink)", MUTED: "var(--muted)", RULE: "var(--rule)"} | {
     colour: f"var(--series-{k})" for k, colour in enumerate(SERIES, start=1)
 }
-"""Placeholder colour to CSS variable of the page."""
+"""The CSS variable of the page for each placeholder colour."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h")
 
@@ -51,20 +52,20 @@ LIGHT = {
         start=1,
     )
 }
-"""CSS variable to fixed colour, for pictures that are not part of a page and have a white background."""
+"""The colour for each CSS variable, for pictures with a white background that are not part of a page."""
 SIZE = (4.7, 3.9)
 """Width and height in inches. On a phone the picture is shown at about this size, so its text is readable."""
 
 LINE = 0.175
-"""Height of a line of labels in inches; it is added for each line after the third."""
+"""Height of a line of labels in inches. The figure becomes higher by LINE for each line after the third."""
 
 
 @dataclass(frozen=True)
 class Curve:
     """A labelled sequence of points (x, y), and the order for a reference line (None: no line).
 
-    The curve of a ``peer`` is dashed and thin. ``place`` determines colour and marker, so a method can have
-    the same colour and marker in all pictures. By default ``place`` is the position of the curve.
+    The curve of a ``peer`` is dashed and thin. ``place`` is the number of the colour and marker, so that a
+    method can have the same colour and marker in all pictures. By default it is the position of the curve.
     """
 
     label: str
@@ -120,7 +121,7 @@ def growth_figure(name: str, curves: Sequence[Curve], label: str) -> str:
 
 
 PLANE = (-8.0, 4.0, -6.0, 6.0)
-"""The part of the complex plane in a picture of linear stability: real interval, then imaginary interval."""
+"""Bounds of a picture of linear stability: interval of real parts, then interval of imaginary parts."""
 
 GRID = 121
 """Number of grid points in each direction."""
@@ -129,7 +130,7 @@ GRID = 121
 def region_figure(name: str, functions: Sequence[tuple[str, int, Callable[[complex], complex]]]) -> str:
     """Return the boundaries |R(z)| = 1; ``functions`` are triples of label, place and stability function R.
 
-    Zero lies on every boundary, and the stable side of the boundary is on the left of zero.
+    Every boundary contains zero. Near zero, the stable region is to the left of the boundary.
     """
     left, right, low, high = PLANE
     xs, ys = ([a + (b - a) * k / (GRID - 1) for k in range(GRID)] for a, b in ((left, right), (low, high)))

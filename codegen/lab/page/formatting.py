@@ -12,7 +12,7 @@ from codegen.lab.page.figures import superscript
 
 @dataclass(frozen=True)
 class Picture:
-    """An SVG with its caption and the command that reproduces it."""
+    """An SVG picture with its caption and the command that reproduces the picture."""
 
     svg: Markup
     caption: str
@@ -20,7 +20,7 @@ class Picture:
 
 
 def scientific(x: float, digits: int = 2) -> str:
-    """Return a number with some significant digits in mathematical notation.
+    """Return a number in mathematical notation, with ``digits`` significant digits.
 
     >>> scientific(8.86e-35), scientific(0.0), scientific(-0.12345, 4), scientific(float("inf"))
     ('8.9 · 10⁻³⁵', '0', '−0.1235', '∞')

@@ -19,7 +19,7 @@ from orderconds.errors import InputError, UnknownName
 
 
 class PeerFailed(ArithmeticError):
-    """A peer that stopped before the end of the span; the message is the reason that the peer reports."""
+    """A peer did not reach the end of the span; the message is the reason that the peer reports."""
 
 
 @dataclass(frozen=True)
@@ -35,8 +35,9 @@ class Outcome:
 class Prepared:
     """A peer prepared for one scene and one tolerance or number of steps.
 
-    ``run`` integrates over the span; :class:`PeerFailed` if it does not reach the end. ``idle`` makes the
-    same call over an empty interval; it is None if its cost is negligible beside a run.
+    ``run`` integrates over the span; it raises :class:`PeerFailed` if it does not reach the end. ``idle``
+    integrates over an empty interval, to measure the overhead of a call; it is None if the overhead is
+    negligible.
     """
 
     run: Callable[[], Outcome]
@@ -45,9 +46,10 @@ class Prepared:
 
 @dataclass(frozen=True)
 class Peer:
-    """A peer by name; ``controlled`` is ``"tolerance"`` or ``"steps"``.
+    """A peer: an integrator of other software, or a classical integrator in C.
 
-    ``prepare(scene, control)`` returns a run over the span of the scene; ``version`` names the software.
+    ``controlled`` is ``"tolerance"`` or ``"steps"``. ``prepare(scene, control)`` returns a run over the span
+    of the scene with this tolerance or number of steps. ``version`` is the name and version of the software.
     """
 
     name: str
@@ -74,17 +76,17 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""Name -> (module of this package that runs it, package that it needs or '')."""
+"""For each peer: the module of this package that runs it, and the package that it needs ('' if none)."""
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
-"""From loose to tight; the absolute tolerance equals the relative tolerance."""
+"""The tolerances of peers, from loose to tight. Absolute and relative tolerance are equal."""
 
 GROUPS = {
     "scipy": tuple(n for n in PEERS if n.startswith("scipy")),
     "c": ("c-dop853", "c-rk4-projected"),
     "all": tuple(PEERS),
 }
-"""Names for several peers at once."""
+"""Names of groups of peers."""
 
 
 def installed(name: str) -> bool:
@@ -98,7 +100,7 @@ def installed(name: str) -> bool:
 
 
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
-    """Return the named peers in the order of :data:`PEERS`; the name of a group means its installed members.
+    """Return the named peers in the order of :data:`PEERS`. For a group, the installed members are returned.
 
     :class:`UnknownName` for an unknown name, :class:`InputError` for a named peer that is not installed.
     """

@@ -1,4 +1,4 @@
-"""Classical integrators in C on the ambient equations: DOP853 with its own step control, and projected RK4.
+"""Classical integrators in C on the ambient equations: DOP853 with step-size control, and projected RK4.
 
 The code is generated from the straight-line field that the other peers use, and is built with the flags of
 emitted modules. Coefficients of DOP853 come from the library of tableaux. The second error estimator of
@@ -60,7 +60,7 @@ def source(template: str, scene: Problem) -> str:
 
 
 def dop853() -> dict[str, object]:
-    """Return DOP853 in doubles: rows of A, b, c, and the weights of both error estimates."""
+    """Return DOP853 as doubles: rows of A, weights b, nodes c, and the weights of both error estimates."""
     tableau = Tableau.load(find("dop853"))
 
     def doubles(row: Sequence[Scalar]) -> list[float]:
@@ -79,7 +79,7 @@ def dop853() -> dict[str, object]:
 
 
 def third_order(nodes: Sequence[float]) -> list[float]:
-    """Return the weights of the interpolatory rule on three nodes of [0, 1].
+    """Return the weights of the interpolatory quadrature rule on [0, 1] with three given nodes.
 
     >>> [round(6 * w, 12) for w in third_order([0.0, 0.5, 1.0])]
     [1.0, 4.0, 1.0]

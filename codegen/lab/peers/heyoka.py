@@ -1,4 +1,4 @@
-"""heyoka: Taylor's method with a compiled recurrence for the field and adaptive order and step."""
+"""heyoka: the Taylor series method with compiled recurrences, adaptive order and adaptive step size."""
 
 from __future__ import annotations
 

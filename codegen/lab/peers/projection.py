@@ -1,8 +1,8 @@
 """Projection of a state onto its manifold, which users of general integrators apply after each step.
 
-A rotation matrix g is replaced by g (3 - g^T g)/2, one Newton step towards the polar factor of g. This step
-squares the distance of g from orthogonality. A point on which a rotation group acts is scaled to its initial
-distance from the origin. Momenta do not change.
+A rotation matrix g is replaced by g (3 - g^T g)/2, one Newton step towards the polar factor of g. A small
+distance e of g from orthogonality becomes O(e^2). A point on which a rotation group acts is scaled to its
+initial distance from the origin. Momenta do not change.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
 
 
 def projection_lines(scene: Problem) -> StraightLine:
-    """Return the projection as straight-line code."""
+    """Return the projection of a scene as straight-line code."""
     domain = ExprDomain()
     return straight_line(scene, project(scene, domain, tuple(domain.space.sym(s) for s in scene.symbols)))
 

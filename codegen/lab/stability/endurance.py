@@ -15,7 +15,7 @@ from codegen.loader import StepFailed
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""CPU seconds that a run may take. If all steps would take longer, fewer steps are made and reported."""
+"""CPU seconds that a run may take. A slower method makes fewer steps, and their number is reported."""
 
 TRIAL = 1000
 
@@ -26,8 +26,8 @@ class Endurance:
 
     ``defect`` is the distance from the manifold at the end (None if the manifold is a vector space).
     ``returned`` is the distance from the initial state after a run forward and back. ``failure`` is the
-    status message if the run stopped early. A run holds if it stopped with a status, or if the final state is
-    finite and its distance from the manifold can be explained by rounding.
+    status message if the run stopped early. A run holds if it stopped with a status. It also holds if
+    the final state is finite and rounding errors can explain its distance from the manifold.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """Whether the run stayed on the manifold up to rounding, or stopped with a status."""
+        """Whether the final state is on the manifold up to rounding, or the run stopped with a status."""
         return bool(self.failure) or self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
 
     def as_json(self) -> dict[str, object]:
@@ -54,7 +54,7 @@ class Endurance:
 
 
 def endure(compiled: Compiled, runner: Emitted) -> tuple[Endurance, ...]:
-    """Run a method twice with steps of a hundredth of the span: once forward, once forward and back."""
+    """Return two runs with steps of a hundredth of the span: one forward, one forward and back."""
     first, last = map(float, compiled.scene.span)
     h = (last - first) / 100
     start = time.process_time()

@@ -1,21 +1,22 @@
-"""Single steps on extreme input: emitted C compared with the interpreter in 60 digits on the same doubles.
+"""Single steps on extreme input: emitted code is compared with the interpreter in 60 digits.
 
-The result of a step is compared with the exact result and with probes. A probe is an exact step in which the
-input, the result of every operation of the step program, and both sides of the equations of an implicit step
-are changed by one rounding error. The change of the exact result under the probes shows how many digits are
-*determined* by the input.
+The result of a step is compared with the exact result and with probes. A probe is a step in 60 digits with
+simulated rounding errors: the input, the result of every operation of the step program, and both sides of the
+equations of an implicit step are changed by one rounding error. The difference between the probes and the
+exact result shows how many digits are *determined* by the input.
 
-- A result is *accurate* if it has at least :data:`LEAST` digits and rounding explains its error.
-- It is *undetermined* if rounding explains its error but leaves fewer digits (a rotation by 1e20 radians has
-  no correct digit). The emitted code should return a status for such a step.
-- It is *wrong* if it is finite and rounding does not explain its error.
+- A result is *accurate* if it has at least :data:`LEAST` correct digits and rounding explains its error.
+- A result is *undetermined* if rounding explains its error but fewer digits are correct. For example, a
+  rotation by 1e20 radians has no correct digit. The emitted code should return a status for this step.
+- A result is *wrong* if it is finite and rounding does not explain its error.
 
-Digits are relative to the size of a block of the state, before or after the step, whichever is larger.
-Numbers below the least normal double count as zero.
+The number of digits is relative to the size of a block of the state before or after the step; the larger size
+is used. Numbers below the least normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
 interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
-from the solution of emitted Python, which uses the algorithm of emitted C. Newton's method then converges to
+from the solution of emitted code of a target in which the solution can be observed; all targets use the same
+algorithm. Newton's method then converges to
 a solution near that result, or shows that there is none.
 """
 
@@ -34,8 +35,9 @@ from codegen.ir.interpret import flatten, interpret
 from codegen.ir.values import Kind
 from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.runner import Emitted, split_state
-from codegen.loader import InterpretedIntegrator, StepFailed
+from codegen.loader import StepFailed
 from codegen.lower import problem_for
+from codegen.printers import target
 
 DIGITS = 60
 EPSILON = 2.0**-53
@@ -51,7 +53,7 @@ LEAST = 3
 PROBES = 4
 
 SWEEPS, CORRECTIONS = 60, 30
-"""Largest numbers of iterations of the interpreter: fixed-point iteration, and Newton's method."""
+"""Largest numbers of fixed-point iterations and of Newton iterations in the interpreter."""
 
 ACCURATE, WRONG = "accurate", "WRONG"
 SILENT = f"undetermined: rounding leaves fewer than {LEAST} digits"
@@ -64,7 +66,7 @@ SCALES = (0.0, 5e-324, 1e-160, 1e-75, 1e75, 1e150, 1e308)
 
 @dataclass(frozen=True)
 class Case:
-    """One step: the name of the extreme feature, the state, the time and the step size."""
+    """The input of one step: state, time and step size. ``name`` states which number is extreme."""
 
     name: str
     state: tuple[float, ...]
@@ -76,8 +78,8 @@ class Case:
 class Answer:
     """The verdict of a case: ``accurate``, a status message, ``undetermined`` or ``WRONG``.
 
-    ``error`` is the largest relative error of a block of the state, ``determined`` the number of digits that
-    the input determines; both are None if there was no result to compare.
+    ``error`` is the largest relative error of a block of the state. ``determined`` is the number of digits
+    that the input determines. Both are None if the step has no result.
     """
 
     case: Case
@@ -98,7 +100,10 @@ class Answer:
 
 
 def cases(compiled: Compiled) -> Iterator[Case]:
-    """Yield extreme cases: changes of the scene's initial state, and of a step of a hundredth of its span."""
+    """Yield the extreme cases.
+
+    Each case changes the initial state of the scene or the step size of a hundredth of the span.
+    """
     scene = compiled.scene
     state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
     t, h = float(scene.span[0]), float((scene.span[1] - scene.span[0]) / 100)
@@ -133,7 +138,7 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state with its vectors scaled; None if it has no vector, or a number overflows."""
+    """Return the state with its vectors times ``scale``; None without vectors or if a number overflows."""
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
         free = block.kind is Kind.DUAL or scene.group.abelian
@@ -168,7 +173,7 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
         exact, probed = _exact(compiled, runner, case)
     except (NotConverged, ArithmeticError, ValueError):
         return Answer(
-            case, UNSOLVED if compiled.kernel.loops else f"{WRONG}: a result where the interpreter has none"
+            case, UNSOLVED if compiled.kernel.loops else f"{WRONG}: a result, but the interpreter fails"
         )
     error, determined, explained = 0.0, math.inf, True
     for block in _blocks(compiled):
@@ -192,7 +197,7 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
-    """Return the input with every number moved up or down by one rounding, at random."""
+    """Return the input of a case with a random rounding error of either sign in every number."""
     import mpmath
 
     draw = random.Random(number)
@@ -234,39 +239,28 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 
 
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
-    """Return the solved unknowns of each implicit block of a step of emitted Python, in order.
+    """Return the solved unknowns of each implicit block of one emitted step, in order.
 
-    None if the step fails or has no implicit block. Emitted code passes the unknowns of every substep to
-    ``_remember``, which prepares the next warm start. This function records the arguments of ``_remember``.
+    None if the step fails or has no implicit block.
     """
-    integrator = runner.python.integrator
-    assert isinstance(integrator, InterpretedIntegrator)
-    module: Scalar = integrator.module
     widths = [len(loop.unknowns) for loop in runner.compiled.kernel.loops]
     if not widths:
         return None
-    remember, solved = module._remember, dict[int, list[float]]()
-
-    def observe(memory: object, solution: Sequence[float]) -> None:
-        solved[id(memory)] = list(solution)
-        remember(memory, solution)
-
-    module._remember = observe
+    observed = runner.observed
     try:
-        integrator.run(list(state), h, 1, t)
+        solved = target(observed.target).solutions(observed.integrator, state, t, h)
     except StepFailed:
         return None
-    finally:
-        module._remember = remember
     ends = list(accumulate(widths))
-    return [x[end - n : end] for x in solved.values() for n, end in zip(widths, ends, strict=True)]
+    return [x[end - n : end] for x in solved for n, end in zip(widths, ends, strict=True)]
 
 
 class Rounding(PreciseDomain):
     """Numbers of many digits in which every result of an operation has one rounding error of a double.
 
-    One side of every equation gets a rounding error of its own size and a rounding error of the size of the
-    next equation. The signs are random but do not change during a probe, so the equations remain smooth.
+    The right-hand side of every equation has two rounding errors: one relative to its own size, and one
+    relative to the size of the next right-hand side. The signs are random, but they do not change during a
+    probe, so that the equations remain smooth.
     """
 
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
@@ -281,14 +275,14 @@ class Rounding(PreciseDomain):
         return value * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON))
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
-        """Return the images (right-hand sides) of the unknowns, with rounding errors."""
+        """Return the right-hand sides of the equations with rounding errors."""
         draw = random.Random(self.probe)
         moves = [[draw.choice((-1, 1)) * EPSILON for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
         return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset of a difference quotient; a few digits of the effect of rounding are enough."""
+        """Return the offset of a difference quotient, for a result with a few correct digits."""
         return self.context.mpf(2) ** -40 * max(1, abs(x))
 
 

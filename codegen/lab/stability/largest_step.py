@@ -1,9 +1,8 @@
-"""The largest usable step of a method on a scene, by bisection, and the reason why a longer step is not
-usable.
+"""The largest usable step of a method on a scene, by bisection, and the reason why no longer step is usable.
 
 A number of equal steps over the span is usable if no step fails, the final error is below a tenth of the
-state's size, and a conserved energy has changed by at most a tenth of its size. The stated reason is the
-failure with one step fewer: the solver, numbers that are not finite, the energy, or the accuracy.
+state's size, and a conserved energy has changed by at most a tenth of its size. The reported reason is
+the failure of the run with one step fewer: the solver, numbers that are not finite, energy, or accuracy.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The least usable number of steps and their size; ``reason`` is why one step fewer is not usable.
+    """The least usable number of steps, their size, and the reason why the next smaller number is not usable.
 
     ``h`` and ``steps`` are None if no number of steps up to :data:`MOST` is usable.
     """
@@ -41,7 +40,7 @@ class Limit:
 
 
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
-    """Return the largest usable step over the span: the number of steps is doubled, then bisected."""
+    """Return the largest usable step: double the number of steps until it is usable, then bisect."""
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "a single step over the span is usable", 0, 1
     while (failure := _failure(compiled, runner, exact, steps)) is not None:

@@ -54,7 +54,10 @@ class Region:
 
 
 def region(method: Method) -> Region | None:
-    """Return the linear stability of a tableau on R^n; None for splittings and inexact coefficients."""
+    """Return the linear stability of a method's tableau on R^n.
+
+    None for splitting methods, and for tableaux whose coefficients are not exact.
+    """
     known = get(method.family_label).stability_coefficients()
     if known is not None:
         polynomial = Quotient(tuple(map(float, known)), (1.0,))

@@ -1,9 +1,7 @@
-"""Order reduction: the observed order on stiff variants of a scene, with steps longer than the fast time
-scale.
+"""Order reduction: the observed order on stiff variants, for steps longer than the fast time scale.
 
-Steps are halved, beginning with one step over the span. The slopes between runs with h times the rate of the
-fast motion above one show the order in the stiff regime. The median of these slopes is compared with the
-stated order.
+Steps are halved, beginning with one step over the span. In the stiff regime, h times the rate of the fast
+motion is above one. The median of the slopes in this regime is compared with the stated order.
 """
 
 from __future__ import annotations
@@ -31,7 +29,7 @@ StiffRun: TypeAlias = tuple[float, float | None, str]
 """Step size, error (None if the run failed), and the reason of a failure."""
 
 CLOSE = 0.1
-"""Larger errors, relative to the size of the state, are not used for slopes."""
+"""Runs with a larger error, relative to the size of the state, are not used for slopes."""
 
 
 @dataclass(frozen=True)
@@ -64,7 +62,7 @@ def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> 
     scene = variant.scene
     compiled = compile_method(scene, method)
     order = certified_order(method, scene)
-    runner = Emitted(compiled, "c", order)
+    runner = Emitted(compiled, order=order)
     span = scene.span[1] - scene.span[0]
     size = max(1.0, math.hypot(*map(float, exact.state)))
     runs: list[StiffRun] = []
@@ -105,7 +103,8 @@ def _verdict(
         return f"no usable step down to h = {runs[-1][0]:.1e}" + (f" ({failed[-1]})" if failed else "")
     if observed is None:
         limit = "stability or accuracy requires steps that resolve the fast motion"
-        return f"usable up to h = {max(close):.1e}, h times rate {max(close) * variant.rate:.2g}: {limit}"
+        relative = f"{max(close) * variant.rate:.2g}/rate of the fast motion"
+        return f"usable up to h = {max(close):.1e} ({relative}): {limit}"
     if observed < stated - 0.5:
-        return f"order reduction {stated} to {max(observed, 0.0):.1f} while h times rate is above 1"
-    return f"order {stated} is preserved (observed {observed:.1f}) while h times rate is above 1"
+        return f"order reduction {stated} to {max(observed, 0.0):.1f} for h > 1/rate of the fast motion"
+    return f"order {stated} is preserved (observed {observed:.1f}) for h > 1/rate of the fast motion"

@@ -23,7 +23,7 @@ from codegen.scenes import stiff_variants
 
 @dataclass(frozen=True)
 class Findings:
-    """The measured results; linear stability is computed from the tableau and not part of them."""
+    """The results of all measured tests. Linear stability is not among them, because it is not measured."""
 
     limit: Limit
     answers: tuple[Answer, ...]
@@ -43,7 +43,7 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The results that rounding does not explain."""
+        """The results whose errors rounding does not explain."""
         return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
 
     @property
@@ -53,7 +53,7 @@ class Stability:
 
     @property
     def held(self) -> bool:
-        """Whether the method is honest and every result is accurate or a status, none undetermined."""
+        """Whether the method is honest and no result is undetermined."""
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
     def as_json(self) -> dict[str, object]:
@@ -113,7 +113,7 @@ def findings(
     """Run all stability tests of one compiled method, on its scene and on the stiff variants given."""
     method = compiled.method
     name = f"{compiled.scene.name}, {method.label}"
-    runner = Emitted(compiled, "c")
+    runner = Emitted(compiled)
     answers = []
     for case in cases(compiled):
         progress(f"{name}: {case.name}")

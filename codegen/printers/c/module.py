@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.printers.c.terms import literal
@@ -17,7 +18,6 @@ from codegen.run.identifiers import identify
 from codegen.run.language import Unit, terms
 from codegen.run.numbers import numbers_held
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.sweeps import WIDE
 from codegen.run.terms import STATUSES
 from codegen.run.trajectory import is_looped
@@ -43,14 +43,19 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
+        # Explicit kernels call each function a few times only; inlining all branches there would only add
+        # code.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
+        # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
         widest=max((len(loop.unknowns) for loop in kernel.loops if loop.newton is not None), default=0),
         chain=chain(kernel),
     )
     public = {f.name: f for f in unit.functions if f.public}
+    # Width 96: the comment adds a star and a space to each line of at most 100 characters.
     comments = header(recipe, layout(kernel), costs(kernel), 96, stack(unit, plan, interface), times(kernel))
     variables: dict[str, object] = {
+        # Titles and names come from users: an end of a comment in them must not end the header.
         "recipe": [comment(line) for line in comments],
         "usage": usage(interface, recipe),
         "module": interface.module,
@@ -65,6 +70,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
+        # Prototypes come from the same functions as definitions, so the two cannot differ.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -77,6 +83,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
 
 def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> list[list[str]]:
     """Return the lines of the definitions of a module: records, tables, functions."""
+    # Public records are in the header, because callers allocate them.
     definitions = [printer.record(record.name) for record in unit.records if not record.public]
     definitions += [printer.table(table) for table in unit.tables]
     real, n = interface.format.c_type, len(interface.inputs)
@@ -106,12 +113,14 @@ def helpers(unit: Unit) -> list[str]:
                 names.add("all_finite")
             elif term.op == "call":
                 names.add({"abs": "fabs", "greatest": "greater"}.get(term.text, term.text))
+    # pow and copysign are in math.h and need no helper.
     return sorted(names - {"power", "copysign"})
 
 
 def inverted(kernel: Kernel) -> int:
     """Return the size of the inverted matrices, 0 if they have several sizes or are large."""
     sizes = {len(x.unknowns) for x in kernel.loops if x.newton is not None and not x.newton.inverted}
+    # A single small size allows unrolled rows; with several sizes, each would need its own function.
     return next(iter(sizes)) if len(sizes) == 1 and max(sizes) <= WIDE else 0
 
 
@@ -122,6 +131,7 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     ``-fstack-usage``.
     """
     size = {"double": 8, "float": 4}[interface.format.c_type]
+    # Rounded up to 64 bytes, which covers the alignment of vector registers.
     rounded = -(-size * numbers_held(unit) // 64) * 64
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
     # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
@@ -186,12 +196,14 @@ def example_input(interface: Interface) -> list[str]:
 def usage(interface: Interface, recipe: Recipe) -> list[str]:
     """Return the lines of a program that runs the step from the scene's initial state."""
     real = interface.format
+    # printf converts float to double silently, about which -Wdouble-promotion warns.
     wide = "" if real is DOUBLE else "(double)"
 
     def number(x: float) -> str:
         return literal(real, real.round(float(x)))
 
     initial = ", ".join(map(number, recipe.initial))
+    # The example starts at t = 0; the order of the arguments is that of ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["constant", "NULL"] if interface.inputs else []

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import ClassVar
 
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.printers.c.text import closed_call, greatest
 from codegen.printers.expression import Style, render
 from codegen.printers.infix import (
@@ -20,7 +21,6 @@ from codegen.printers.infix import (
     joined,
 )
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE, Precision
 from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 
@@ -37,6 +37,7 @@ def style(precision: Precision) -> Style:
     """Return the constants and function names of C in a precision: ``0.5f`` and ``sqrtf``."""
 
     def called(name: str) -> str:
+        # isfinite is a macro for all types. The other functions without suffix would compute in double.
         return name + precision.suffix if name in LIBRARY and name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -61,6 +62,7 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
+        # No test is inverted to its opposite: for a NaN, !(a < b) and a >= b differ.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
@@ -82,6 +84,8 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
+                # The weakest precedence of arithmetic is assumed, so an expression of the kernel has
+                # parentheses wherever it may need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
                 return Text((self.upper + term.text,))
@@ -98,6 +102,7 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
+                # The function ``hold`` of the module copies the values behind its context.
                 return Text((f"hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
@@ -125,6 +130,7 @@ class Terms(Infix):
         if term.op == "part":
             start = int(term.number)
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
+        # A cell is a pointer to one value, so its entry is that value.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
         if base.shape[0] == 0 and len(base.shape) > 1:  # rows that a caller gives lie one after the other
@@ -133,6 +139,7 @@ class Terms(Infix):
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
+            # The rows of a caller lie one after the other in one array, so row and column become one index.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
@@ -153,6 +160,7 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the test that all values are finite."""
         first = values[0]
+        # An array has a helper with a loop, because its test would be as long as the array.
         if first.shape:
             return Text((f"all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:
@@ -168,6 +176,7 @@ class Terms(Infix):
             (array,) = term.args
             return Text((f"largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)
+        # Without the suffix, a function would convert its argument to double and the result back.
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
             return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))
@@ -177,6 +186,7 @@ class Terms(Infix):
         """Return a term as a double, or a double rounded to the format."""
         (x,) = term.args
         inner = self.text(x)
+        # In double precision only counts need a conversion.
         if self.precision is DOUBLE and (term.op == "narrow" or x.kind is Kind.REAL):
             return inner
         to = "double" if term.op == "wide" else self.precision.c_type

@@ -23,6 +23,8 @@ _WORDS = """
     input context hold
 """
 
+# All sets of orders, and not only those of one module: a name then does not depend on the functions
+# called.
 RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
 """Words that are excluded as names of variables, besides the names of the run representation.
 

@@ -153,7 +153,10 @@ def test_a_stated_flow_has_no_field():
     ("H", "reason"),
     [
         (lambda q, p: Symbol("t") * p[0], "it depends on the momentum and on t"),
-        (lambda q, p: p[0] ** 2 * q[0], "it is no quadratic function of q and mu with constant coefficients"),
+        (
+            lambda q, p: p[0] ** 2 * q[0],
+            "it is not a quadratic function of q and mu with constant coefficients",
+        ),
         (lambda q, p: p[0] * q[0], "the square of its matrix is not diagonal and non-positive"),
     ],
 )

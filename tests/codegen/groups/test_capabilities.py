@@ -126,7 +126,7 @@ class TestACallerRefuses:
 
     def test_linear_maps_of_a_group_that_has_no_matrices(self):
         group = Rn(2)
-        with pytest.raises(SceneError, match=r"expected one that R\^2 acts on by linear maps"):
+        with pytest.raises(SceneError, match=r"expected a point on which R\^2 acts by linear maps"):
             FieldScene(group=group, action=Linear(), y=group.dual("y"), f=[1, 2], y0=[0, 0], span=(0, 1))
 
     def test_a_jacobian_on_a_group_without_right_trivialisation(self):

@@ -65,7 +65,7 @@ def test_a_factor_one_widens_no_ball():
 
 
 def test_only_rationals_have_a_fraction():
-    with pytest.raises(TypeError, match="not held as a rational"):
+    with pytest.raises(TypeError, match="not stored as a rational"):
         field()[0].fraction()
 
 

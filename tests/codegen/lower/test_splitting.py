@@ -322,10 +322,12 @@ def test_what_cannot_be_split_is_told():
     scene = HamiltonianScene(H=mu.dot(mu) + mixed, parts={"T": mu.dot(mu), "V": mixed}, **start)
     message = refused(scene, "splitting:strang")
     assert (
-        "the part V has no exact flow: it is no quadratic function of the momentum in the body or in space"
+        "the part V has no exact flow: it is not a quadratic function of the momentum in the body or in space"
         in message
     )
-    assert "a tableau in 3 parts for a scene in 2" in refused(SCENES["symmetric top"](), "splitting:strang3")
+    assert "a tableau for 3 parts on a scene with 2 parts" in refused(
+        SCENES["symmetric top"](), "splitting:strang3"
+    )
     t = Symbol("t")
     scene = particle(lambda q, p: p.dot(p) / 2, lambda q, p: q[0] * t)
     kinetic = particle(lambda q, p: t * p.dot(p) / 2, lambda q, p: q[0] * t)
@@ -334,7 +336,9 @@ def test_what_cannot_be_split_is_told():
         kinetic, "splitting:strang"
     )
     both = particle(lambda q, p: q[1] * t, lambda q, p: q[0] * t)
-    assert "every part depends on t; expected one part without t" in refused(both, "splitting:strang")
+    assert "every part depends on t; expected one part that does not depend on t" in refused(
+        both, "splitting:strang"
+    )
     hyperbolic = particle(lambda q, p: p.dot(p) / 2 - q.dot(q) / 2, lambda q, p: q[0] ** 3)
     assert "the square of its matrix is not diagonal and non-positive" in refused(
         hyperbolic, "splitting:strang"
@@ -405,21 +409,21 @@ def test_a_flow_may_be_stated_where_it_is_not_recognised():
     ("flow", "message"),
     [
         # Summands that do not commute: the flow of p^2/2, then that of 3 p q.
-        (lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]), "moves at the rate"),
-        (lambda q, p: ([q + 1], [p]), "begins at 2"),
+        (lambda q, p: ([(q + TAU * p) * exp(3 * TAU)], [p * exp(-3 * TAU)]), "has the time derivative"),
+        (lambda q, p: ([q + 1], [p]), "has the value 2"),
     ],
 )
 def test_what_is_stated_to_be_a_flow_and_is_none_is_refused(flow, message):
     with pytest.raises(SceneError) as failure:
         stated(flow)
     assert f"the flow of T {message}" in str(failure.value)
-    assert "by the equations of the part; flows of summands that do not commute" in str(failure.value)
+    assert "by the equations of the part; if summands do not commute" in str(failure.value)
 
 
 def test_a_flow_is_that_of_a_part():
     group = Rn(1)
     q, p = group.point("q"), group.dual("p")
-    with pytest.raises(SceneError, match="a flow of 'W'; expected that of a part: T"):
+    with pytest.raises(SceneError, match="a flow of 'W'; expected a flow of one of the parts: T"):
         HamiltonianScene(
             group=group,
             q=q,

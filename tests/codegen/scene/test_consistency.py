@@ -83,7 +83,7 @@ class TestHandWrittenFields:
 
     def test_a_momentum_equation_without_the_coadjoint_term_is_refused(self):
         torque = (g * Matrix([0, 1, 0])).cross(Matrix([0, 0, -1]))
-        with pytest.raises(SceneError, match=r"n\[0\] is .*by differentiating H"):
+        with pytest.raises(SceneError, match=r"n\[0\] is .*by the derivatives of H"):
             top(n=torque)
 
     def test_have_as_many_components_as_the_state(self):

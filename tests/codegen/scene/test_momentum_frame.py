@@ -66,7 +66,7 @@ def test_the_frame_is_in_the_head_the_command_and_the_name():
 
 @pytest.mark.parametrize("scene", ["free_rigid_body", "linear_oscillator"])
 def test_a_scene_without_a_body_is_refused(scene):
-    with pytest.raises(SceneError, match="no momentum in a body"):
+    with pytest.raises(SceneError, match="no momentum in the body frame"):
         emit(scene, "rkmk:rk4", frame="body")
 
 

@@ -58,5 +58,5 @@ def test_a_formula_without_a_value_does_not_vanish():
 
 
 def test_a_start_where_the_field_is_not_finite_is_refused():
-    with pytest.raises(SceneError, match="f at the initial state is no finite real number"):
+    with pytest.raises(SceneError, match="f at the initial state is not a finite real number"):
         plane([log(y[1]), 0])

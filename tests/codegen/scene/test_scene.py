@@ -32,9 +32,9 @@ def sphere(**changes):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"group": "SO3"}, r"scene: the group 'SO3'; expected one of codegen\.groups, as SO3\(\)"),
-        ({"group": SO3}, "scene: the group SO3; expected one of"),
-        ({"action": Rotation}, r"scene: the action Rotation; expected one of .* as Rotation\(\)"),
+        ({"group": "SO3"}, r"scene: the group 'SO3'; expected an object of codegen\.groups, such as SO3\(\)"),
+        ({"group": SO3}, "scene: the group SO3; expected an object of"),
+        ({"action": Rotation}, r"scene: the action Rotation; expected an object of .* such as Rotation\(\)"),
         ({"f": 3}, "scene: f is 3; expected a column of 3 components"),
         ({"y0": None}, "scene: y0 is None; expected a column of 3 components"),
     ],
@@ -191,7 +191,7 @@ class TestParameters:
             param("a", Rational(10) ** power)
 
     def test_have_one_value(self):
-        with pytest.raises(SceneError, match="two values of the parameter a; expected one"):
+        with pytest.raises(SceneError, match="two values of the parameter a; expected one value"):
             with_runtime(sphere(f=param("a", 3) * y), ["a=1", "a=2"])
 
     def test_of_one_scene_mean_nothing_in_another(self):
@@ -269,7 +269,7 @@ def test_a_hamiltonian_is_a_scalar(wrong):
 
 def test_a_point_must_be_one_that_the_group_acts_on():
     with pytest.raises(
-        SceneError, match=r"a point with 3 coordinates; expected one that SO\(3\) acts on by left"
+        SceneError, match=r"a point with 3 coordinates; expected a point on which SO\(3\) acts by left"
     ):
         sphere(action=LeftMultiplication())
     with pytest.raises(SceneError, match="a point with 3 coordinates"):

@@ -1,4 +1,4 @@
-# 9: the coordinate 2*y2; expected symbols
+# 9: the coordinate 2*y2; expected a sympy symbol
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation

@@ -1,4 +1,4 @@
-# 8: a coordinate of the initial state is no finite real number; expected real numbers
+# 8: a coordinate of the initial state is not a finite real number; expected real numbers
 from sympy import Matrix, log, symbols
 
 from codegen.groups import LeftMultiplication, Rn

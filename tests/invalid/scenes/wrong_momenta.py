@@ -1,4 +1,4 @@
-# 10: 9 coordinates of q and 2 of mu; expected 9 and 3, those of SO(3)
+# 10: 9 coordinates of q and 2 of mu; expected 9 and 3 coordinates for SO(3)
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3

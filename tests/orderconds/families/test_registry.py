@@ -161,8 +161,8 @@ def test_a_family_that_was_forgotten_is_unknown() -> None:
         ({"description": ""}, "no description"),
         ({"formats": ()}, "no formats"),
         ({"name": "Capital"}, "the name 'Capital'"),
-        ({"name": "rk"}, "the name 'rk' is taken"),
-        ({}, "the name 'quadrature' is taken"),
+        ({"name": "rk"}, "another family has the name 'rk'"),
+        ({}, "another family has the name 'quadrature'"),
     ],
 )
 def test_a_family_needs_a_free_name_a_description_and_formats(
@@ -207,7 +207,7 @@ def test_the_family_of_an_installed_package_is_found_by_its_entry_point(
     ("name", "target", "message"),
     [
         ("absent", "installed_family:Absent", "cannot load the family"),
-        ("other", "installed_family:Installed", "a Family with the name 'other'"),
+        ("other", "installed_family:Installed", "a subclass of Family with the name 'other'"),
     ],
 )
 def test_an_entry_point_that_is_no_family_of_that_name_is_an_error(
@@ -241,7 +241,7 @@ def test_a_built_in_family_is_complete_without_options(name: str) -> None:
 def test_a_family_with_an_order_bound_has_no_conditions_beyond_it() -> None:
     result = run("derive", "discrete_gradient", "--order", "3")
     assert (result.exit_code, result.stdout) == (2, "")
-    assert "no discrete gradient method has a higher one" in result.stderr
+    assert "no discrete gradient method has a higher order" in result.stderr
     (found,) = check("gauss3", family="discrete_gradient").orders
     assert (found.order, found.failing, found.limit) == (2, (), None)
     (below,) = check("euler", family="discrete_gradient").orders

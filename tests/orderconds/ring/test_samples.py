@@ -46,7 +46,7 @@ def test_what_cannot_be_divided_by_is_refused() -> None:
         ring.one / ring.element([1, 0, 2])
     with pytest.raises(ValueError, match="not invertible"):
         ring.rational(1, 101)
-    with pytest.raises(ValueError, match="200 samples modulo 101"):
+    with pytest.raises(ValueError, match="the prime 101 must be larger than the number of samples, 200"):
         Samples(101, 200)
 
 

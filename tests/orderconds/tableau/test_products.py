@@ -265,12 +265,12 @@ def test_without_claims_the_format_names_the_family() -> None:
 @pytest.mark.parametrize(
     ("family", "text", "message"),
     [
-        ("splitting(3)", SPLITTING + 'step = [["T", 1]]', "ask for the family 'splitting'"),
-        ("rkn", SPLITTING + 'step = [["T", 1]]', "without rkn"),
+        ("splitting(3)", SPLITTING + 'step = [["T", 1]]', "use the family 'splitting'"),
+        ("rkn", SPLITTING + 'step = [["T", 1]]', "without the key rkn"),
         ("symmetric_composition", PAIR + 'alpha = ["1"]\nbeta = ["0"]', "symmetric-2"),
-        ("cf_magnus", MAGNUS + 'exponents = [{ "[1,2]" = 1 }]', "ask for the family 'magnus'"),
-        ("magnus", MAGNUS + 'map = "cay"\nexponents = [{ "1" = 1 }]', "ask for the family 'cayley'"),
-        ("cayley", MAGNUS + 'exponents = [{ "1" = 1 }]', "ask for the family 'magnus'"),
+        ("cf_magnus", MAGNUS + 'exponents = [{ "[1,2]" = 1 }]', "use the family 'magnus'"),
+        ("magnus", MAGNUS + 'map = "cay"\nexponents = [{ "1" = 1 }]', "use the family 'cayley'"),
+        ("cayley", MAGNUS + 'exponents = [{ "1" = 1 }]', "use the family 'magnus'"),
         ("fer", MAGNUS + 'exponents = [{ "1" = 1 }, { "[1,2]" = 1 }]', "last exponent"),
         ("rk", MAGNUS + 'exponents = [{ "1" = 1 }]', "is no Runge-Kutta method"),
         ("magnus", SPLITTING + 'step = [["T", 1]]', "cannot be read in family magnus"),

@@ -62,7 +62,7 @@ def test_coordinates_reproduce_a_lie_element_and_agree_with_lyndon_coordinates()
 
 
 def test_what_is_too_heavy_is_refused():
-    with pytest.raises(ValueError, match="heavier than 3"):
+    with pytest.raises(ValueError, match="weight of the bracket is above 3"):
         HallBasis("AB", 3).rewrite(("A", ("A", ("A", "B"))))
     with pytest.raises(ValueError, match="positive"):
         HallBasis("AB", 3, lambda letter: 0)

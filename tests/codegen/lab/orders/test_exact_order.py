@@ -80,7 +80,7 @@ def test_a_field_that_is_not_rational_has_no_exact_local_error() -> None:
 
 
 def test_coefficients_that_are_balls_have_no_exact_local_error() -> None:
-    with pytest.raises(MethodError, match="balls"):
+    with pytest.raises(MethodError, match="intervals"):
         error_of("free_rigid_body", "cg:cg4a")
 
 

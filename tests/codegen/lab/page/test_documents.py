@@ -167,7 +167,7 @@ def test_the_overview_links_to_the_page_and_names_each_requirement(
     for need in NEEDS:
         assert need.name in overview
     assert re.findall(r"No method on this[^<]*", overview) == [
-        "No method on this page meets: symplectic, adaptive."
+        "No method on this page satisfies: symplectic, adaptive."
     ]
 
 

@@ -146,5 +146,5 @@ class Answering:
     """A runner whose integrator gives one answer."""
 
     def __init__(self, runner: Emitted, found) -> None:
-        self.compiled, self.python = runner.compiled, runner.python
+        self.compiled, self.observed = runner.compiled, runner.observed
         self.integrator = Spoilt(runner.integrator, lambda *_: found)

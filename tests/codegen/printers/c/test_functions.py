@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from codegen.ir.precision import DOUBLE
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.run.identifiers import identify
 from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Table, Unit, While
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import Kind, count, number, real, whole
 
 X, Y, N, INDEX = real("x"), real("y"), count("n"), count("i")

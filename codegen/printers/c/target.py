@@ -1,0 +1,17 @@
+"""C as a target."""
+
+from __future__ import annotations
+
+from codegen.printers.target import Target
+
+TARGET = Target(
+    name="c",
+    title="C",
+    about="C11 without dependencies: a header and a source file",
+    printer="codegen.printers.c.module:print_module",
+    loader="codegen.loader:load_compiled",
+    suffix=".c",
+    most_steps=81920,
+    compiler="codegen.build:compile_seconds",
+    stack=r"stack: +at most (\d+) bytes",
+)

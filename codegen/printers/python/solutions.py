@@ -1,0 +1,37 @@
+"""The solved unknowns of implicit steps of an emitted Python module."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import ModuleType
+from typing import Protocol
+
+
+class LoadedModule(Protocol):
+    """An integrator that runs an emitted Python module."""
+
+    module: ModuleType
+
+    def run(self, state: list[float], h: float, steps: int, t: float) -> object:
+        """Make steps; ArithmeticError if a step fails."""
+
+
+def solutions(integrator: LoadedModule, state: Sequence[float], t: float, h: float) -> list[list[float]]:
+    """Make one step and return the solved unknowns of all implicit blocks, one list for each substep.
+
+    Emitted code passes the unknowns of every substep to ``_remember``, which prepares the next warm start.
+    This function records the arguments of ``_remember``. Errors: those of ``integrator.run``.
+    """
+    module = integrator.module
+    remember, solved = module._remember, dict[int, list[float]]()
+
+    def observe(memory: object, solution: Sequence[float]) -> None:
+        solved[id(memory)] = list(solution)
+        remember(memory, solution)
+
+    vars(module)["_remember"] = observe
+    try:
+        integrator.run(list(state), h, 1, t)
+    finally:
+        vars(module)["_remember"] = remember
+    return list(solved.values())

@@ -1,0 +1,93 @@
+"""The registered targets of the compiler, in the order of listings.
+
+To add a target to this package, write a package beside this file with a module ``target.py`` and add a line
+to :data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
+``orderconds.targets``.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import metadata
+from pkgutil import resolve_name
+
+from codegen.printers.target import Target
+from orderconds.errors import InputError, UnknownName
+
+BUILT_IN = ("codegen.printers.c.target:TARGET", "codegen.printers.python.target:TARGET")
+"""The targets of this package, as ``module:variable``."""
+
+DEFAULT = "c"
+"""The target of commands and measurements if the user names no target."""
+
+GROUP = "orderconds.targets"
+"""The entry-point group in which other packages declare targets."""
+
+_registered: dict[str, Target] = {}
+
+
+def register(new: Target) -> Target:
+    """Add a target for all commands and measurements, and return it.
+
+    InputError if another target has this name.
+    """
+    known = {each.name: each for each in targets()}
+    if known.get(new.name, new) != new:
+        raise InputError(f"there is a target {new.name!r} already", expected="a new name")
+    _registered[new.name] = new
+    return new
+
+
+def unregister(name: str) -> None:
+    """Remove a target that was added by :func:`register`."""
+    _registered.pop(name, None)
+
+
+def targets() -> tuple[Target, ...]:
+    """Return all targets; the built-in targets are first."""
+    every = (*_built_in(), *_from_entry_points(), *_registered.values())
+    # By name: a target that is registered a second time appears once in listings.
+    return tuple({each.name: each for each in every}.values())
+
+
+@cache
+def _built_in() -> tuple[Target, ...]:
+    # Cached, because it imports modules. Registered targets are not cached, because they may change.
+    return tuple(map(resolve_name, BUILT_IN))
+
+
+@cache
+def _from_entry_points() -> tuple[Target, ...]:
+    # Reading the metadata of all installed packages takes milliseconds, so it is done once.
+    return tuple(entry.load() for entry in metadata.entry_points(group=GROUP))
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of all targets.
+
+    >>> names()
+    ('c', 'python')
+    """
+    return tuple(each.name for each in targets())
+
+
+def target(name: str) -> Target:
+    """Return a target by name; an unknown name raises UnknownName with the known targets.
+
+    >>> target("python").title
+    'Python'
+    """
+    for each in targets():
+        if each.name == name:
+            return each
+    raise UnknownName(f"unknown target {name}", expected=" or ".join(sorted(names())))
+
+
+def observable() -> Target:
+    """Return the first target in which the solved unknowns of an implicit step can be observed."""
+    return next(each for each in targets() if each.observer)
+
+
+def listing() -> list[dict[str, str]]:
+    """Return name and description of every target, for ``orderconds list targets``."""
+    return [{"name": each.name, "about": each.about} for each in targets()]

@@ -1,0 +1,75 @@
+"""A target of the compiler: a language of emitted modules, with the functions that print and load them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pkgutil import resolve_name
+from typing import TYPE_CHECKING, TypeAlias, cast
+
+if TYPE_CHECKING:
+    from codegen.ir.kernel import Kernel
+    from codegen.loader import Integrator
+    from codegen.printers.interface import Interface
+    from codegen.printers.recipe import Recipe
+
+Files: TypeAlias = Mapping[str, str]
+"""The files of an emitted module: text by file name."""
+
+PrintModule: TypeAlias = "Callable[[Kernel, Interface, Recipe], dict[str, str]]"
+Load: TypeAlias = "Callable[[Interface, Mapping[str, float], Files], Integrator]"
+CompileSeconds: TypeAlias = Callable[[Files], float]
+Solutions: TypeAlias = "Callable[[Integrator, Sequence[float], float, float], list[list[float]]]"
+
+
+@dataclass(frozen=True)
+class Target:
+    """A target. Its functions are given as ``module:function`` and imported at their first use.
+
+    ``name`` is the name in commands, ``title`` the name in headings, ``about`` one line for listings.
+    ``printer`` is a function (kernel, interface, recipe) -> files. ``loader`` is a function (interface,
+    parameter values, files) -> :class:`codegen.loader.Integrator`. ``suffix`` is the suffix of the file that
+    contains the step. ``most_steps`` is the number of steps that a module makes in about one second.
+
+    The other fields are optional. ``compiler`` is a function that compiles the files of a module without a
+    cache and returns the seconds. ``observer`` is a function (integrator, state, t, h) that makes one step
+    and returns the solved unknowns of each substep; the lab uses it to test implicit steps. ``stack`` is a
+    regular expression; its first group is the stack of a call in bytes, as stated in the file that contains
+    the step.
+    """
+
+    name: str
+    title: str
+    about: str
+    printer: str
+    loader: str
+    suffix: str
+    most_steps: int
+    compiler: str = ""
+    observer: str = ""
+    stack: str = ""
+
+    @property
+    def print_module(self) -> PrintModule:
+        """The function that prints a module."""
+        # Resolved at each use: a description of a target then needs no import of its printer and templates.
+        return cast("PrintModule", resolve_name(self.printer))
+
+    @property
+    def load(self) -> Load:
+        """The function that loads the files of a module as an integrator."""
+        return cast("Load", resolve_name(self.loader))
+
+    @property
+    def compile_seconds(self) -> CompileSeconds | None:
+        """The function that measures the compilation of a module; None if modules are not compiled."""
+        return cast("CompileSeconds", resolve_name(self.compiler)) if self.compiler else None
+
+    @property
+    def solutions(self) -> Solutions:
+        """The function that returns the solved unknowns of a step; ValueError without ``observer``."""
+        return cast("Solutions", resolve_name(self.observer))
+
+    def step_file(self, module: str) -> str:
+        """Return the name of the file that contains the step of a module."""
+        return f"{module}{self.suffix}"
