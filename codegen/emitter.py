@@ -250,13 +250,16 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
+    # Without a tableau there are no coefficients that could be rounded.
+    tableau = method.coefficients is not None
+    digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
             ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
             ("source", method.source),
             ("order", order.text()),
-            ("digits", rounding_of_digits(method, order, target, scene)),
+            *digits,
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),

@@ -49,7 +49,8 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 
 def near_inverse_root(d: Domain, e: S) -> S:
     """Return 1 + e/2 + 3 e^2/8, which is 1/sqrt(1 - e) up to O(e^3)."""
-    return d.rational(1) + e * (d.rational(1, 2) + d.rational(3, 8) * e)
+    factor: S = d.rational(1) + e * (d.rational(1, 2) + d.rational(3, 8) * e)
+    return factor
 
 
 def cross(a: Vector[S], b: Vector[S]) -> Vector[S]:

@@ -13,14 +13,14 @@ and expressions that are linear in the time cost one term in a convolution.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TypeAlias
 
 from codegen.errors import SceneError
 from codegen.ir.domain import Domain, Scalar
-from codegen.ir.expr import Expr, walk
+from codegen.ir.expr import Expr, power, walk
 from codegen.ir.number import Number
 
 TIME = "t"
@@ -160,8 +160,6 @@ class Power(Series):
 
     def _first(self, a: Scalar) -> Scalar:
         """Return a^e for a scalar."""
-        from codegen.ir.expr import power
-
         size = abs(self.exponent)
         whole, half = divmod(size.numerator, size.denominator)
         factors = [power(a, whole)] if whole else []
@@ -273,10 +271,10 @@ def _late_last(n: int, indices: range) -> list[int]:
     return sorted(indices, key=lambda j: max(j, n - j))
 
 
-def _total(terms: Sequence[Coefficient] | object) -> Coefficient:
+def _total(terms: Iterable[Coefficient]) -> Coefficient:
     """Return the sum of terms in order."""
     total: Coefficient = None
-    for x in terms:  # type: ignore[attr-defined]
+    for x in terms:
         total = _add(total, x)
     return total
 
@@ -327,7 +325,7 @@ class _Builder:
 
     def operands(self, node: Expr) -> tuple[Expr, ...]:
         """Return the expressions whose series the series of a node reads."""
-        number, base, exponent = self.monomial(node)
+        _, base, _ = self.monomial(node)
         if base is not node:
             return (base,)
         if node.op == "div":
@@ -381,7 +379,10 @@ class _Builder:
         number, base, exponent = self.monomial(node)
         if base is not node:
             return self.multiple(number, self.power(self.known[base.id], base, exponent))
-        args = [self.known[a.id] if a.id in self.known else None for a in node.args]
+
+        def arg(i: int) -> Series:
+            return self.known[node.args[i].id]
+
         match node.op:
             case "const":
                 return Given(domain, domain.number(node.payload))
@@ -389,20 +390,20 @@ class _Builder:
                 found = self.series.get(node.payload)
                 return found if found is not None else Given(domain, self.values[node.payload])
             case "add" | "sub":
-                return Sum(domain, args[0], args[1], node.op == "sub")
+                return Sum(domain, arg(0), arg(1), node.op == "sub")
             case "mul":
-                return Product(domain, args[0], args[1])
+                return Product(domain, arg(0), arg(1))
             case "pow":
-                return self.integer_power(args[0], node.payload)
+                return self.integer_power(arg(0), node.payload)
             case "div":
                 c, divisor, e = self.monomial(node.args[1])
                 below = self.known[divisor.id]
                 if e == 1:
-                    return self.multiple(Number.rational(1) / c, Quotient(domain, args[0], below))
+                    return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
                 other = self.power(below, divisor, -e)
-                return self.multiple(Number.rational(1) / c, Product(domain, args[0], other))
+                return self.multiple(Number.rational(1) / c, Product(domain, arg(0), other))
             case _:
-                return self.function(node.payload, node.args[0], args[0])
+                return self.function(node.payload, node.args[0], arg(0))
 
     def multiple(self, number: Number, a: Series) -> Series:
         """Return c a."""

@@ -12,11 +12,11 @@ from dataclasses import replace
 from codegen.errors import MethodError
 from codegen.ir.expr import Expr
 from codegen.ir.kernel import Expansion, Field, Kernel, Let
+from codegen.ir.program import Program
 from codegen.ir.taylor_loop import OrderLoop, order_loop
 from codegen.kernel.assignments import Assignments
 from codegen.kernel.carried_momentum import Frames
 from codegen.kernel.shared_angles import SharedArguments
-from codegen.ir.program import Program
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.taylor import coefficients, recurrence
 
@@ -24,14 +24,16 @@ UNROLLED = 3500
 """The largest estimate of the operations of unrolled code, products times P^2.
 
 The instruction cache of most processors holds 32 KB, about 4000 operations. On heavy_top, with 21 products,
-unrolled code takes PLACEHOLDER."""
+a step of taylor(12) takes 0.42 us unrolled and 0.53 us in a loop, a step of taylor(16) 1.5 us and 0.82 us. On
+dipole, with 85 products, a step of taylor(6) takes 0.39 us and 0.53 us, a step of taylor(8) 1.4 us and 0.88
+us."""
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
     """Return the kernel that computes the coefficients in a loop, None if unrolled code is short enough."""
     if problem.body_group is not None:
         return None
-    loop, domain = _loop(problem)
+    loop = _loop(problem)
     if len(loop.sums) * degree**2 <= UNROLLED:
         return None
     fields = Frames(problem, program).fields()
@@ -56,11 +58,11 @@ def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
     return replace(kernel, expansion=_expansion(kernel, problem, degree, None))
 
 
-def _loop(problem: Problem) -> tuple[OrderLoop, SharedArguments]:
+def _loop(problem: Problem) -> OrderLoop:
     domain = SharedArguments()
     state = tuple(map(domain.space.sym, problem.symbols))
     terms = recurrence(problem, domain, state, domain.space.sym(TIME), domain.space.one)
-    return order_loop(terms, domain.space), domain
+    return order_loop(terms, domain.space)
 
 
 def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | None) -> Expansion:
