@@ -23,8 +23,7 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
-from codegen.kernel.operations import STEP, operations
-from codegen.kernel.schedule import arrange
+from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
@@ -149,7 +148,7 @@ def compile_method(
 def work(kernel: Kernel) -> int:
     """Estimate the cost of a step in additions: SWEEPS sweeps of each block, and the rest once."""
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
-    for key, counts in operations(arrange(kernel)).items():
+    for key, counts in step_operations(kernel).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
         total += cost * (1 if key == STEP else sweeps)
     return total
@@ -298,7 +297,7 @@ def emit_kernel(
         "interface": interface.as_json(),
         "defaults": {p: float(recipe.defaults[p]) for p in interface.parameters if p in recipe.defaults},
         "files": {name: digest(text) for name, text in files.items()},
-        "operations": operations(arrange(kernel)),
+        "operations": step_operations(kernel),
         "state": [{"name": f.name, "symbols": list(f.symbols), "meaning": f.meaning} for f in kernel.state],
         "command": recipe.command,
         "version": recipe.version,

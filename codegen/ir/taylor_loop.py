@@ -12,7 +12,8 @@ from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
-from codegen.ir.taylor_recurrence import (
+from codegen.ir.taylor_recurrence import Recurrence
+from codegen.ir.taylor_series import (
     Circular,
     Exponential,
     Given,
@@ -21,7 +22,6 @@ from codegen.ir.taylor_recurrence import (
     Power,
     Product,
     Quotient,
-    Recurrence,
     Root,
     Series,
     Slope,

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
-from codegen.ir.taylor_recurrence import Coefficient, Recurrence
+from codegen.ir.taylor_recurrence import Recurrence
+from codegen.ir.taylor_series import Coefficient
 
 if TYPE_CHECKING:
     from codegen.scene.problem import Problem
