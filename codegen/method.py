@@ -181,8 +181,12 @@ def with_estimate() -> tuple[str, ...]:
 def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
     """Return the method of a label such as ``taylor(12)``, None if a text is no label of such a family."""
     match = ALONE.fullmatch(text.strip())
-    if match is None or match["family"] not in families or family_class(match["family"]).has_tableau:
+    if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
         return None
+    if match["family"] not in families:
+        raise MethodError(
+            f"family {match['family']} on this scene", where=text, expected=f"one of {', '.join(families)}"
+        )
     number = None if match["number"] is None else int(match["number"])
     # The family checks its number: InputError for a number that is missing or out of range.
     get(text.strip()).degree_of_step()

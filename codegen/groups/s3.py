@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.groups.capabilities import Coadjoint, Projection, RightTrivialisation
-from codegen.groups.linear_algebra import S, Vector, cross, dot, near_inverse_root
+from codegen.groups.linear_algebra import S, Vector, cross, dot, rescaled
 from codegen.ir.domain import Domain
 
 
@@ -81,8 +81,7 @@ class S3(Coadjoint, RightTrivialisation, Projection):
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g times 1 + e/2 + 3 e^2/8 with e = 1 - |g|^2, which leaves a defect O(e^3)."""
-        factor = near_inverse_root(d, d.rational(1) - dot(g, g))
-        return tuple(factor * a for a in g)
+        return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return q.q = 1."""

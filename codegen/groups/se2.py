@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from codegen.groups.capabilities import Coadjoint, PointMotions, Projection
-from codegen.groups.linear_algebra import S, Vector, near_inverse_root
+from codegen.groups.linear_algebra import S, Vector, rescaled
 from codegen.ir.domain import Domain
 
 if TYPE_CHECKING:
@@ -93,8 +93,7 @@ class SE2(Coadjoint, PointMotions, Projection):
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g with (c, s) times 1 + e/2 + 3 e^2/8, e = 1 - c^2 - s^2, which leaves a defect O(e^3)."""
-        factor = near_inverse_root(d, d.rational(1) - (g[0] * g[0] + g[1] * g[1]))
-        return (factor * g[0], factor * g[1], *g[2:])
+        return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return c^2 + s^2 = 1."""

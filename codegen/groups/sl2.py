@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.groups.capabilities import Projection
-from codegen.groups.linear_algebra import S, Vector, dot, near_inverse_root, units
+from codegen.groups.linear_algebra import S, Vector, dot, rescaled, units
 from codegen.groups.matrix import MatrixGroup
 from codegen.ir.domain import Domain
 
@@ -42,8 +42,7 @@ class SL2(MatrixGroup, Projection):
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g times 1 + e/2 + 3 e^2/8 with e = 1 - det g, which leaves a defect O(e^3)."""
-        factor = near_inverse_root(d, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
-        return tuple(factor * a for a in g)
+        return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return det g = 1."""

@@ -65,8 +65,11 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
     for number, slope in recurrence.slopes:
         x = work.of(slope)
         following.append(space.zero if x is None else scale * (space.const(number) * x))
-    # The coefficients of the operands are values of the same order, so they come last.
-    left, right = ([_known(work.of(pair[side])) for pair in work.pairs] for side in (0, 1))
+    left, right = [], []
+    # The list grows: an operand that no derivative reads, as the cosine in a sine, may need sums of its own.
+    for a, b in work.pairs:
+        left.append(_known(work.of(a)))
+        right.append(_known(work.of(b)))
     count = len(work.pairs)
     return OrderLoop(
         tuple(f"first.{k}" for k in range(len(work.first))),

@@ -119,6 +119,15 @@ def names() -> tuple[str, ...]:
     return (*BUILT_IN, *(name for name in _registered if name not in BUILT_IN))
 
 
+def with_conditions() -> tuple[str, ...]:
+    """Return those of :func:`names` whose methods are given by a tableau that satisfies order conditions.
+
+    >>> set(names()) - set(with_conditions())
+    {'taylor'}
+    """
+    return tuple(name for name in names() if family_class(name).has_tableau)
+
+
 def installed_names() -> tuple[str, ...]:
     """Return :func:`names`, followed by the names of families in installed packages.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from codegen.groups.actions.base import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import MatrixElements, Rotations
-from codegen.groups.linear_algebra import S, Vector, dot, matvec, near_inverse_root
+from codegen.groups.linear_algebra import S, Vector, dot, matvec, rescaled
 from codegen.ir.domain import Domain
 
 
@@ -34,8 +34,7 @@ class Linear(Action):
         squared = dot(start, start)
         # The quotient is zero where the orbit is the origin alone.
         defect = d.call("quotient", squared - dot(y, y), squared)
-        factor = near_inverse_root(d, defect)
-        return tuple(factor * a for a in y)
+        return rescaled(d, y, defect)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return hat(x) y."""
