@@ -94,7 +94,7 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
     residual = rounded_residual(method, family, order.order, target)
     rounded = f"the coefficients rounded to {target.name} precision"
     if residual is None:
-        return f"the order conditions were not evaluated at {rounded}: they are too many"
+        return f"the order conditions were not evaluated at {rounded}: there are too many conditions"
     how = f"to {upwards(residual)}" if residual else "exactly"
     return f"the order conditions hold {how} at {rounded}"
 

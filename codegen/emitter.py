@@ -240,7 +240,8 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    options += [f"--parameter {p}={value}" for p, value in scene.fixed]  # for an input: its default
+    # If a fixed parameter is also a run-time argument, the value is the default of the argument.
+    options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
 

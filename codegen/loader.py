@@ -164,7 +164,8 @@ class Integrator(ABC):
         """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
 
         TypeError is raised for a module without an error estimate (``emit --adaptive``). StepFailed is raised
-        if a step fails, and with the status ``LIMIT`` if ``limit`` steps do not reach the end.
+        if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not reach the
+        end.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with --adaptive")
@@ -270,7 +271,7 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            self._ffi.dlclose(self._library)  # an open library would hide a rebuilt one of the same name
+            self._ffi.dlclose(self._library)  # an open library would hide a rebuilt library of the same name
             raise
 
     def _call(

@@ -1,4 +1,6 @@
-"""Order conditions at rounded coefficients: how well they hold for the digits that a target can represent."""
+"""Order conditions at rounded coefficients: the residuals that remain after rounding to a target's
+precision.
+"""
 
 from __future__ import annotations
 
@@ -17,10 +19,14 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""The balls in which residuals are evaluated: residuals cancel, so they need more bits than coefficients."""
+"""The balls in which residuals are evaluated; they have more bits than the coefficients, because terms of
+residuals cancel.
+"""
 
 MOST = 3000
-"""The most conditions of one order that are evaluated; more would dominate the time of an emission."""
+"""The most conditions of one order that are evaluated; with more, the evaluation would take most of the time
+of ``emit``.
+"""
 
 
 def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: compare orders on built-in scenes, in 50 digits, with the claims; give no SCENE.",
+    help="strict: on built-in scenes, compare orders measured in 50 digits with the claims; give no SCENE.",
 )
 @click.option(
     "--stated", type=click.IntRange(1, 20), help="The order that the observed order is compared with."

@@ -176,7 +176,7 @@ def _iterate(
             return
         for unknown, image in zip(block.unknowns, block.images, strict=True):
             env[unknown] = env[image]
-    raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
+    raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
 
 
 def _differenced(domain: Domain) -> Differenced:
@@ -241,7 +241,7 @@ def _correct(
             if sharp:
                 return now
             sharp = True  # one more correction, because slow convergence leaves some rounding errors
-    raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
+    raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
 
 
 def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:

@@ -90,7 +90,7 @@ class Newton:
 
 @dataclass(frozen=True)
 class Loop:
-    """Solve unknowns = images over body until the largest change is at rounding level.
+    """Solve unknowns = images, where ``body`` computes the images, until changes are at rounding level.
 
     ``label`` names the block in messages and statistics ("stage 2"). ``starts`` are evaluated before the
     loop, and are empty if a :class:`Start` computes the first values. Without ``newton`` the change of the
@@ -142,7 +142,7 @@ class Loop:
 
 @dataclass(frozen=True)
 class Start:
-    """unknowns = values over body, if no solutions of earlier steps are known.
+    """Set the unknowns to ``values``, which ``body`` computes, if no solutions of earlier steps are known.
 
     If earlier solutions are known, the unknowns begin at the polynomial through the last solutions,
     extrapolated by one step. With the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1
@@ -243,8 +243,9 @@ class Expansion:
     """The Taylor polynomial of the solution at a state: a step evaluates it, and a run may choose h from it.
 
     The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
-    other. ``correction`` moves a state back to the manifold: it reads the old state and then the new one. It
-    is None where there is nothing to correct.
+    other. It is that of other coordinates than the state where ``enter`` computes them from the state;
+    ``leave`` computes the new state from the old one, followed by the new coordinates. Both are None where
+    there is nothing to compute.
 
     With ``following`` the coefficients are computed in a loop over their order n
     (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values for
@@ -254,7 +255,8 @@ class Expansion:
 
     degree: int
     coefficients: Kernel
-    correction: Kernel | None
+    enter: Kernel | None
+    leave: Kernel | None
     following: Kernel | None = None
     sums: int = 0
     controlled: bool = True
@@ -283,10 +285,10 @@ class Kernel:
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times at which they are
     read. ``vary`` is the kernel of the variational equation: its state is the state of this kernel followed
     by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats this
-    kernel for each of its parts, and h and t are those of the part. ``outlined`` are functions that the
-    expressions of the kernel call. With ``carried`` the kernel reads and returns the momentum m of
-    :class:`Carried` in place of mu. With ``expansion`` or ``estimate`` there is a run with step control.
-    A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
+    kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
+    functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
+    momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate`` there is a run with step
+    control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
     """
 
     name: str

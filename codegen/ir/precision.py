@@ -54,7 +54,7 @@ class Precision:
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format, rounded once; InputError if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # Negated, so that a NaN is refused, too.
+        # The condition is negated, because comparisons with a NaN are false: a NaN is refused, too.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -67,7 +67,7 @@ class Precision:
         # Python's ``repr`` of a float is already the shortest text that reads back as the same double.
         if self.bits == 53:
             return repr(x)
-        # Python prints the shortest digits of a double; for a single they are found by trial.
+        # Python prints the shortest digits of a double; the shortest digits of a single are found by trial.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
@@ -94,7 +94,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # Rounding to a double first would round twice, and the second rounding may decide ties wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths determine the exponent only up to one; this comparison decides.
+    # The bit lengths give two candidates for the exponent; this comparison decides.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits: the last place has a fixed exponent there.
     exponent = max(exponent, SUBNORMAL[bits])

@@ -48,8 +48,8 @@ class Assignments:
             # If the kernel remembers solutions, one statement before all loops starts all of them.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # Before the body: the leading matrix is computed outside the sweeps and must not read body
-            # values.
+            # The leading matrix comes before the body, because it is computed outside the sweeps and must not
+            # read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # Skip corrected values that nothing reads later: they would cost assignments in every sweep.
@@ -58,7 +58,7 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # After the body, because an exact matrix depends on the unknowns and reads body values.
+            # An exact matrix comes after the body, because it depends on the unknowns and reads body values.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # Newton's last correction changes the unknowns after the body; body values belong to the unknowns
             # before it.
@@ -75,7 +75,7 @@ class Assignments:
                 only_unknowns_read=recomputed,
             )
             self.body.append(loop)
-        # Last, because outputs may read body values of every loop.
+        # The outputs come last, because they may read body values of every loop.
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)
 
@@ -111,7 +111,8 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a block starts from the unknowns of another")
         for node in walk(values):
-            # Shared with the rest of the step: assign it before the start, where every step computes it.
+            # The value is shared with the rest of the step, so it is assigned before the start: every step
+            # computes it there.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -155,14 +156,15 @@ class Assignments:
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return ``root`` with every named subexpression replaced by its symbol; append new assignments."""
-        # Iterative, because expressions are deeper than Python's recursion limit.
+        # The traversal is iterative, because expressions are deeper than Python's recursion limit.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
             # Loop-invariant code motion: only nodes that depend on the unknowns of this loop stay inside.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # Built without simplification, so that the value is rounded like the shared expression.
+            # The node is built without simplification, so that its value is rounded like the shared
+            # expression.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
             # A value from outside the loop needs a name even with one reader, else it would be computed

@@ -43,17 +43,19 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # Without flows all variants give the same columns; only the order of constant factors is tried.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    parted = None if scene.inputs else part(program, scene)  # inputs are sampled in every step
-    # The core is the part that runs in every step, so only the core is compared.
+    # Run-time inputs are sampled in every step, so no flow is deferred if the scene has any. The core is the
+    # step without its deferred flows; only the core is computed in every step, so only the core is compared.
+    parted = None if scene.inputs else part(program, scene)
     core = program if parted is None else parted.core
-    # Compiled and compared, not predicted: the common subexpressions of the scene decide which is shortest.
+    # All variants are compiled and compared, because the common subexpressions of the scene decide which is
+    # shortest.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice: with reordering alone, and with the critical path shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
             candidates.append((to_kernel(core, problem, chains=chains), problem, chains))
-    # Compared by identity, because two candidates may have equal kernels.
+    # Kernels are compared by identity, because two candidates may have equal kernels.
     best = _shortest([kernel for kernel, _, _ in candidates])
     kernel, problem, chains = next(candidate for candidate in candidates if candidate[0] is best)
     return kernel if parted is None else with_deferred(kernel, parted, problem, chains)
@@ -70,5 +72,5 @@ def time(kernel: Kernel) -> tuple[float, int]:
     """Return a step's estimated time, in additions, and its number of operations, which decides ties."""
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
-    # The sum of a latency bound and a throughput bound: a simple model of the time of a step.
+    # A simple model of the time of a step is the sum of a latency bound and a throughput bound.
     return chain(kernel) + work / WIDTH, work

@@ -104,7 +104,7 @@ class _Chains:
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
-        # Backward, users come before arguments: find the longest chain that follows each node.
+        # In backward order users come before arguments: find the longest chain that follows each node.
         for node in reversed(self.nodes):
             # All users have been visited, so the chain that follows this node is final.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
@@ -117,7 +117,8 @@ class _Chains:
         # late.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
-        # Constant in a run: a compiler moves products of such values out of the loop over the steps.
+        # A value is fixed if it is constant in a run: a compiler moves products of such values out of the
+        # loop over the steps.
         own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
@@ -126,7 +127,7 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # Without simplification, so that a node that is not rewritten keeps its operation and its
+            # The node is built without simplification: if it is not rewritten, it keeps its operation and its
             # rounding.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
@@ -192,7 +193,7 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Not linear in other late values: the node is a late value itself.
+        # The node is not linear in other late values, so it is a late value itself.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -210,7 +211,7 @@ class _Chains:
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
-            # As in Huffman coding: adding the two earliest terms first gives the earliest sum.
+            # Adding the two earliest terms first gives the earliest sum, as in Huffman coding.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
             # A subtraction includes the sign at no cost; only a sum of two negative terms needs a negation at

@@ -2,7 +2,7 @@
 
 If a step of a splitting ends with the flow that the next step begins with, these two flows are joined. The
 leading flow is then applied once before the first step. A part that commutes with every other part is applied
-once for all steps. Both are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
+once for all steps. Both changes are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
 """
 
 from __future__ import annotations
@@ -43,7 +43,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # Commuting is tested at sample points: the bracket of two commuting formulas need not simplify to zero.
+    # Commuting is tested at sample points, because the bracket of two commuting formulas need not simplify to
+    # zero.
     commute = commuting(scene)
     # If a flow has a duration other than h, or a stage time, its place in the step matters.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
@@ -56,7 +57,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # One pair of durations for all, because ``_joined`` keeps only flows with the same durations.
+    # All joined flows have the same pair of durations, because ``_joined`` keeps only flows with the same
+    # durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
@@ -84,7 +86,8 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Whether a flow has duration h, as each part of a consistent splitting does, proved or not."""
-    # Compared in doubles: the ball of a sum that equals one rounds to one, but cannot prove the equality.
+    # The duration is compared in doubles, because a ball around one cannot prove equality, but is rounded to
+    # one.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
@@ -92,7 +95,9 @@ Timed = tuple[Letter, Var | None]
 """A flow, and the variable that replaces its duration; None keeps the duration of the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""The index of a first flow, the index of a last flow, the duration of the last flow, and of both joined."""
+"""The index of a first flow, the index of a last flow, the duration of the last flow, and the duration of
+both flows joined.
+"""
 
 
 def _joined(

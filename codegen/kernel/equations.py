@@ -128,7 +128,7 @@ def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
     """Return the variables that a program reads after a block."""
-    # The statements after this block: what they or the outputs read is read after the block.
+    # Variables that later statements or the outputs read are read after this block.
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 

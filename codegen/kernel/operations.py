@@ -44,7 +44,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # A stored inverse times the residual: n^2 products and n (n - 1) additions.
+                    # The product of a stored inverse and the residual takes n^2 products and n (n - 1)
+                    # additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -69,7 +70,7 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         return operations(arrange(kernel))
     total = operations(arrange(expansion.coefficients))[STEP]
     # Horner's rule takes an addition and a product for each coefficient.
-    number = expansion.degree * sum(len(f.symbols) for f in kernel.state)
+    number = expansion.degree * sum(len(f.symbols) for f in expansion.coefficients.state)
     if expansion.following is not None:
         last = expansion.degree - 1
         each = operations(arrange(expansion.following))[STEP]
@@ -77,8 +78,8 @@ def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
         # The inner sum of order n has n - 1 terms.
         number += expansion.sums * (last * (last - 1) // 2)
     total = _plus(total, {"add": number, "mul": number})
-    if expansion.correction is not None:
-        total = _plus(total, operations(arrange(expansion.correction))[STEP])
+    for part in (expansion.enter, expansion.leave):
+        total = total if part is None else _plus(total, operations(arrange(part))[STEP])
     return {STEP: total}
 
 
@@ -142,7 +143,7 @@ def _counted(
             roots.append(statement.value)
     for root in roots:
         total = _plus(total, _operations_in_text(root))
-    # Arithmetic operations first, then calls in alphabetical order.
+    # Arithmetic operations come first, then calls in alphabetical order.
     first = ("add", "mul", "div")
     return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
 

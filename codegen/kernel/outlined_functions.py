@@ -49,16 +49,18 @@ class _Inputs:
 
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
-) -> tuple[Function, list[int]]:
-    """Return the function for a tree, and the positions of those inputs of the tree that are arguments.
+) -> tuple[Function, list[int], list[str]]:
+    """Return the function for a tree, and its arguments: positions of inputs of the tree, then parameters.
 
+    The parameters are those of the scene that operations of the tree read at run time.
     ``read`` are the indices of the results that the function computes. ``fixed`` has, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
     None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # Executed again on symbols, because the expressions of the step are simplified for their operands.
+    # The tree is executed again with symbols as inputs, because the expressions of the step are already
+    # simplified for their operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -98,7 +100,9 @@ def function(
     outputs = tuple(ends[k] for k in read)
     # An argument may be read by unused results only; such arguments are dropped.
     taken = inputs.read(outputs)
-    return Function(name, tuple(inputs.symbols[p].payload for p in taken), (), outputs, texts[-1]), taken
+    own_inputs = [inputs.symbols[p].payload for p in taken]
+    parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
+    return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
@@ -138,7 +142,7 @@ class WithFunctions:
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # Evaluated in this domain, because functions may call functions.
+            # The body is evaluated in this domain, because functions may call other functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value

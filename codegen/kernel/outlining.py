@@ -27,7 +27,7 @@ from codegen.kernel.repeated_trees import Key, Tree, Trees
 from codegen.scene.problem import Problem
 
 LONG, LONG_EXPLICIT = 700, 500
-"""Shorter steps, in assignments, are not outlined; the limits are for implicit and for explicit steps.
+"""Steps with fewer assignments are not outlined; the limits are for implicit steps and for explicit steps.
 
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
 dipole has 545 lines, not 2345, and takes a third less time. Doubling either limit gives the same kernels for
@@ -71,7 +71,7 @@ class Outline:
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # First, because a call must come before or in the loop to which its operands belong.
+        # The levels come first, because a call must be before or in the loop to which its operands belong.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -113,14 +113,15 @@ class Outline:
                 for x, *others in zip(*inputs, strict=True)
             ]
             # The first tree is the pattern: trees with the same key differ only in operands and coefficients.
-            outlined, places = function(name, self.trees, trees[0], self.scene, key[1], fixed)
+            outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
+            constant = [self.domain.space.sym(x) for x in parameters]
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
                     # Two trees may share a result, because equal expressions are one node; the first call
                     # computes it.
-                    calls.setdefault(results[out].id, (name, k, [flat[p] for p in places]))
+                    calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
@@ -138,7 +139,7 @@ class Outline:
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # In the order of execution, so that functions are numbered by their first call.
+            # The order is that of execution, so that functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -195,8 +196,9 @@ class Outline:
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # Roots of negative numbers or overflow at one point prove nothing; try shorter steps.
-            values |= {x: 0.5**attempt for x in names if x == "h"}  # long steps overflow
+            # Roots of negative numbers or overflow at one point prove nothing, so each attempt has a shorter
+            # step.
+            values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
             if attempt > ATTEMPTS:
                 domain = precise = PreciseDomain(0.1, DIGITS)

@@ -54,7 +54,8 @@ class SharedArguments(ExprDomain):
             polynomial = self.normal.polynomial(argument)
         except TooLong:
             return argument
-        # Compared one by one, because polynomials are dicts and have no hash. A step has few angles.
+        # Angles are compared one by one, because polynomials are dicts and have no hash. This is fast,
+        # because a step has few angles.
         for known, first in self.arguments:
             if known == polynomial:
                 return first

@@ -17,28 +17,28 @@ from codegen.ir.taylor_loop import OrderLoop, order_loop
 from codegen.kernel.assignments import Assignments
 from codegen.kernel.carried_momentum import Frames
 from codegen.kernel.shared_angles import SharedArguments
+from codegen.scene.evolution import Evolution
 from codegen.scene.problem import TIME, Problem
-from codegen.scene.taylor import coefficients, recurrence
 
-UNROLLED = 3500
+UNROLLED = 5000
 """The largest estimate of the operations of unrolled code, products times P^2.
 
-The instruction cache of most processors holds 32 KB, about 4000 operations. On heavy_top, with 21 products,
-a step of taylor(12) takes 0.42 us unrolled and 0.53 us in a loop, a step of taylor(16) 1.5 us and 0.82 us. On
-dipole, with 85 products, a step of taylor(6) takes 0.39 us and 0.53 us, a step of taylor(8) 1.4 us and 0.88
-us."""
+The instruction cache of most processors holds 32 KB, about 4000 operations. On heavy_top, with 18 products, a
+step of taylor(16) takes 0.53 us unrolled and 0.64 us in a loop. With 24 products, for all coordinates of the
+matrix, it takes 1.5 us and 0.82 us."""
 
 
 def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | None:
     """Return the kernel that computes the coefficients in a loop, None if unrolled code is short enough."""
     if problem.body_group is not None:
         return None
-    loop = _loop(problem)
+    assert problem.evolution is not None
+    loop = _loop(problem.evolution)
     if len(loop.sums) * degree**2 <= UNROLLED:
         return None
     fields = Frames(problem, program).fields()
     empty = Kernel(program.name, fields, (TIME, "h", *problem.runtime), (), ())
-    expansion = replace(_expansion(empty, problem, degree, loop), controlled=False)
+    expansion = replace(_expansion(empty, problem.evolution, degree, loop), controlled=False)
     return replace(empty, expansion=expansion)
 
 
@@ -55,46 +55,58 @@ def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
         )
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
-    return replace(kernel, expansion=_expansion(kernel, problem, degree, None))
+    assert problem.evolution is not None
+    return replace(kernel, expansion=_expansion(kernel, problem.evolution, degree, None))
 
 
-def _loop(problem: Problem) -> OrderLoop:
+def _loop(inner: Evolution) -> OrderLoop:
     domain = SharedArguments()
-    state = tuple(map(domain.space.sym, problem.symbols))
-    terms = recurrence(problem, domain, state, domain.space.sym(TIME), domain.space.one)
+    state = tuple(map(domain.space.sym, inner.inner.symbols))
+    terms = inner.recurrence(domain, state, domain.space.sym(TIME), domain.space.one)
     return order_loop(terms, domain.space)
 
 
-def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | None) -> Expansion:
+def _expansion(kernel: Kernel, work: Evolution, degree: int, loop: OrderLoop | None) -> Expansion:
     """Return the expansion of a problem: a loop where one is given, else unrolled."""
-    correction = _correction(kernel, problem)
+    enter, leave = _enter(kernel, work), _leave(kernel, work)
+    fields = (Field("start", work.inner.symbols, "coordinates of the polynomial"),)
     if loop is None:
-        return Expansion(degree, _unrolled(kernel, problem, degree), correction)
+        return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
     name = _names(kernel)
-    first = _kernel(kernel, kernel.state, (*loop.first, *loop.start), name)
+    first = _kernel(kernel, fields, (*loop.first, *loop.start), name)
     following = _kernel(kernel, (), (*loop.left, *loop.right, *loop.following), name)
-    return Expansion(degree, first, correction, following, len(loop.sums))
+    return Expansion(degree, first, enter, leave, following, len(loop.sums))
 
 
-def _unrolled(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
+def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: int) -> Kernel:
     domain = SharedArguments()
     space = domain.space
-    state = tuple(map(space.sym, problem.symbols))
+    state = tuple(map(space.sym, work.inner.symbols))
     # In powers of the time itself: the step size is not known when they are computed.
-    rows = coefficients(problem, domain, degree, state, space.sym(TIME), space.one)
+    rows = work.coefficients(domain, degree, state, space.sym(TIME), space.one)
     ends = [space.zero if row[n] is None else row[n] for n in range(1, degree + 1) for row in rows]
+    return _kernel(kernel, fields, ends, _names(kernel))
+
+
+def _enter(kernel: Kernel, work: Evolution) -> Kernel | None:
+    domain = SharedArguments()
+    state = tuple(s for f in kernel.state for s in f.symbols)
+    given = tuple(map(domain.space.sym, state))
+    ends = work.enter(domain, given)
+    if ends == given:
+        return None
     return _kernel(kernel, kernel.state, ends, _names(kernel))
 
 
-def _correction(kernel: Kernel, problem: Problem) -> Kernel | None:
+def _leave(kernel: Kernel, work: Evolution) -> Kernel | None:
     domain = SharedArguments()
-    old = tuple(map(domain.space.sym, problem.symbols))
-    names = tuple(f"{s}.moved" for s in problem.symbols)  # a dot: no name that a user gives
+    old = tuple(domain.space.sym(s) for f in kernel.state for s in f.symbols)
+    names = tuple(f"{s}.moved" for s in work.inner.symbols)  # a dot: no name that a user gives
     new = tuple(map(domain.space.sym, names))
-    ends = problem.to_orbit(domain, new, old)
-    if all(a is b for a, b in zip(ends, new, strict=True)):
+    ends = work.leave(domain, new, old)
+    if ends == new:
         return None
-    fields = (*kernel.state, Field("moved", names, "the state after the step"))
+    fields = (*kernel.state, Field("moved", names, "the coordinates after the step"))
     return _kernel(kernel, fields, ends, _names(kernel))
 
 

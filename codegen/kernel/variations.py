@@ -73,7 +73,8 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # Back to the algebra, at the new element: ``rate`` inverts ``velocity`` on tangent vectors.
+            # The rates are converted back to the algebra at the new element: ``rate`` inverts ``velocity`` on
+            # tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 

@@ -6,7 +6,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
-from codegen.ir.collect_constants import gathered
 from codegen.ir.program import Assign, Program
 from codegen.ir.scene_operations import TaylorStep, ToOrbit
 from codegen.ir.values import Kind, Var
@@ -14,6 +13,7 @@ from codegen.ir.verify import verify
 from codegen.lower.base import Lowering, Objection
 from codegen.method import Method
 from codegen.scene.ambient import ambient
+from codegen.scene.evolution import evolution
 from codegen.scene.problem import Problem
 
 LEAST = 2
@@ -43,10 +43,8 @@ class Taylor(Lowering):
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the coordinates of its state, with its group and action as ``orbit``."""
-        field, flat = scene.as_field(), ambient(scene)
-        # Products of two series are the cost of a step, so numeric factors are moved out of them.
-        return replace(flat, roots=gathered(flat.roots), orbit=(field.group, field.action))
+        """Return the scene in the coordinates of its state, with the coordinates of the polynomials."""
+        return replace(ambient(scene), evolution=evolution(scene))
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program: the polynomial, then the projection."""

@@ -25,12 +25,12 @@ are shortened."""
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """Negative powers of two for steps in DIGITS decimal digits, where doubles overflow or do not converge.
 
-With a coefficient of 1e300 the last of them is short enough."""
+Even with a coefficient of 1e300 in the scene, the last of these steps is short enough."""
 
 REACH = 0.5
 """The largest move along the field in one step: longer steps would amplify rounding.
 
-Its value matters little: :data:`AGREE` leaves a factor of 2^15 above the rounding that occurs."""
+The value matters little, because :data:`AGREE` is 2^15 times as large as the rounding errors that occur."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """Errors of an interpretation; a root of a negative number raises ValueError."""
@@ -43,25 +43,28 @@ A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower b
 is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""Sweeps and digits of the step in which a difference of doubles is confirmed."""
+"""The number of sweeps and of digits in a step that is repeated to confirm a difference of doubles."""
 
-NOT_A_NUMBER = "moved by nan"
-"""A difference that a result causes which is not finite: the step is too long to compare."""
+NOT_A_NUMBER = "differs by nan"
+"""The end of the message if a result is not finite: the step is then too long for a comparison."""
 
 APART = 16
-"""The smallest ratio between step sizes, after the first in which a program can be compared.
+"""The smallest ratio of consecutive step sizes at which programs are compared.
 
 Rewritten equations may need smaller steps to converge by iteration; one step in which they converge is
 enough."""
 
 LARGEST = 2.0**512
-"""Results above it are not compared: the steps are too long."""
+"""Results above this number are not compared, because the steps are too long."""
 
 CLOSE = 2.0**-200
-"""Relative difference of equal results in DIGITS digits: above the rounding of ball coefficients."""
+"""Results in DIGITS digits count as equal up to this relative difference, which is above the rounding of ball
+coefficients.
+"""
 
 AGREE = 2.0**-36
-"""Relative difference of equal results: far above rounding and the tolerance of a block.
+"""Results count as equal up to this relative difference, which is far above rounding and the tolerance of a
+block.
 
 In 170 comparisons of eight methods of the gallery the passes moved results by 2^-51 at most. A coefficient
 that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
@@ -84,7 +87,7 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """Many digits, but no number without a correct digit: iterations that diverge end soon."""
+    """A domain of many digits in which diverging iterations raise an error early."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function; OverflowError for an argument with few correct digits."""
@@ -96,7 +99,7 @@ class _Bounded(PreciseDomain):
         """Return as :class:`PreciseDomain`; NotConverged if the iteration diverges."""
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
-            raise NotConverged("a fixed-point iteration left the finite numbers")
+            raise NotConverged("a fixed-point iteration diverges")
         return done, change
 
 
@@ -149,7 +152,7 @@ class Reference:
         # A state where the field is not finite is skipped; the other state may be usable.
         if not math.isfinite(speed):
             return
-        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
+        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # 2**excess is the next power of two
         last = math.inf
         for moderate in STEPS:
             # The step is a power of two: h^k then has no rounding error that could look like a difference.
@@ -234,7 +237,8 @@ class Reference:
     def _confirmed(self, program: Program, step: _Step, account: str) -> str:
         """Return the difference in a step of the same size in many digits; ``account`` if there is none.
 
-        Doubles differ by more than rounding where a step is ill-conditioned.
+        If a step is ill-conditioned, results in doubles may differ by more than rounding although the
+        programs are equal.
         """
         if NOT_A_NUMBER in account:
             return account
@@ -251,7 +255,8 @@ class Reference:
             if name not in step.after:
                 continue
             x, y = (self._numbers(name, side) for side in (step.after, after))
-            # Relative for large values, absolute for small ones: some components may vanish by symmetry.
+            # The comparison is relative for large values and absolute for small values, because components
+            # may vanish by symmetry.
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
@@ -259,9 +264,9 @@ class Reference:
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # Negated on purpose: a gap that is not a number counts as a difference.
+            # The condition is negated on purpose, so that a gap that is not a number counts as a difference.
             if not gap <= agree * scale:
-                return f"{name} moved by {float(gap / (scale if step.tiny else 1)):.3g}"
+                return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""
 
 

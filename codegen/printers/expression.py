@@ -58,7 +58,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
     ``names`` maps symbols to identifiers of the target; other symbols keep their names.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
-    # By node, because expressions share nodes and are deeper than Python's recursion limit.
+    # Text is formed node by node, because expressions share nodes and are deeper than Python's recursion
+    # limit.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]
@@ -87,7 +88,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _product(args[0], "/", args[1])
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
-                    raise ValueError("a power reached the printer unarranged")
+                    raise ValueError("the printer received a power that the schedule has not rewritten")
                 # Products are rounded alike in every target, but the last bit of a library's pow may differ.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:

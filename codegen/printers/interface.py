@@ -75,7 +75,7 @@ class Interface:
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
-        # Lists, so that the data equal what a JSON file yields when it is read.
+        # Tuples become lists, so that the data equal the data read from a JSON file.
         return asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
 
     @classmethod

@@ -16,5 +16,5 @@ def functions_of(unit: Unit) -> tuple[str, ...]:
                 names |= {n.payload for n in walk([term.value]) if n.op == "call"}
         calls = (s.function for s in statements(function.body) if isinstance(s, Call))
         names |= {name for name in calls if name not in unit.parts and name != "sample"}
-    # Sorted, so that emitted text does not depend on the order of a set.
+    # The names are sorted, so that emitted text does not depend on the order of a set.
     return tuple(sorted(names))

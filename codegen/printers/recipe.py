@@ -63,7 +63,8 @@ def header(
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
     """
-    # An empty line, because Python tools read the first paragraph of a docstring as its summary.
+    # An empty line follows the title, because Python tools read the first paragraph of a docstring as its
+    # summary.
     lines = [*textwrap.wrap(recipe.title, width), ""]
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)

@@ -4,7 +4,8 @@ The first attempt repeats the whole step without the solutions of earlier steps,
 if the motion has changed. Then the step is halved until its equations converge. From there on, each solution
 is the initial guess for a longer step. The factor between consecutive step sizes grows on success and shrinks
 on failure. The equations of a long step may have several solutions; the result is on the branch of solutions
-that tends to the exact motion as h tends to zero. A step with h = 0 changes nothing.
+that tends to the exact motion as h tends to zero. A step with h = 0 is the identity, so it needs no
+continuation.
 """
 
 from __future__ import annotations
@@ -49,7 +50,8 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
     # Without stored solutions there is nothing to follow from a shorter step to a longer one.
     if plan.start is None:
         return []
-    # A diverging iteration may overflow before it reaches its limit of sweeps: retry after both.
+    # A diverging iteration may overflow before it reaches its limit of sweeps, so the step is repeated after
+    # either failure.
     failed = either(STATUS.equals(code(NOT_CONVERGED)), STATUS.equals(code(NOT_FINITE)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -71,7 +73,7 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
-        # A separate variable, because every attempt overwrites STATUS.
+        # The failure to return is a separate variable, because every attempt overwrites STATUS.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
@@ -82,7 +84,7 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # A factor near 1 makes no progress: the branch of solutions probably ends before the whole
+        # With a factor near 1 there is no progress: the branch of solutions probably ends before the whole
         # step.
         going_on = both(
             negated(self.done),
@@ -103,7 +105,7 @@ class _Continuation:
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.failure),)),
-            # Only the whole step changes the state: shorter ones just provide initial guesses.
+            # Only the whole step changes the state: shorter steps only provide initial guesses.
             Assign(state, self.trial),
             # The earlier solutions belong to shorter steps; a polynomial through them would be wrong.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),

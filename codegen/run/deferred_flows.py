@@ -1,11 +1,10 @@
 """Runs of a splitting that defer flows: the last flow of a step and the first flow of the next step are
 computed as one flow, and flows that commute with all others are applied once for many steps.
 
-Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only after the
-deferred flows have been applied. They are applied when a row is due, after the last step, and after
-:data:`codegen.ir.kernel.LONGEST` steps. A NaN persists through later steps, so the next complete
-state shows it. The run is then repeated with the deferred flows applied in every step, to find the last good
-state.
+Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
+after the deferred flows have been applied. They are applied when a row is due, after the last step, and after
+:data:`codegen.ir.kernel.LONGEST` steps. A NaN persists through later steps, so the next complete state shows
+it. The run is then repeated with the deferred flows applied in every step, to find the last good state.
 """
 
 from __future__ import annotations
@@ -83,7 +82,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # No test for finiteness here: NaNs and infinities persist, and the run tests complete states.
+    # This function does not test for finiteness, because NaNs and infinities persist, and the run tests
+    # complete states.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
@@ -108,8 +108,8 @@ class _Deferring:
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
-        # Rounded once from exact numbers: in single precision, arithmetic on rounded doubles would round
-        # twice.
+        # The durations are rounded once from exact numbers: in single precision, arithmetic on rounded
+        # doubles would round twice.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
@@ -129,8 +129,8 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
-            # A single step joins no flows, so its last flow has the duration without the first flow of a
-            # next step.
+            # A single step joins no flows, so the duration of its last flow does not include the first flow
+            # of a next step.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -157,7 +157,7 @@ class _Deferring:
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
-            # A copy of the number of steps, because a failure reduces it to the number of good steps.
+            # The number of steps is copied, because a failure reduces the copy to the number of good steps.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -198,7 +198,8 @@ class _Deferring:
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
             # The fast attempt only shows that some state is not finite. The careful attempt applies the
-            # deferred flows in every step and stops at the first bad state. The caller gets the state before.
+            # deferred flows in every step and stops at the first bad state. The caller gets the state before
+            # the bad state.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -221,8 +222,8 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If the run continues, the last flow of this step and the first flow of the next step are
-                # one flow, whose length is the sum of both.
+                # If the run continues, the last flow of this step and the first flow of the next step are one
+                # flow, whose duration is the sum of both durations.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),

@@ -81,10 +81,12 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # Converted once: a conversion to a ring of many digits at each access would dominate the time.
+            # Entries of tables are converted once, because converting them at each access would take most of
+            # the time.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
-        # No word is reserved: identifiers are keys of a dictionary here, not names of a language.
+        # No word is reserved, because the executor uses identifiers as keys of a dictionary and not as names
+        # of a language.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -141,7 +143,7 @@ class Machine:
         changed = written(self.unit, function)
         for parameter, argument in zip(function.parameters, arguments, strict=True):
             if parameter.text in changed:
-                # In place, because the caller holds the same list.
+                # The list is changed in place, because the caller holds the same list.
                 argument[:] = [math.nan] * len(argument)
         return math.nan
 
@@ -243,7 +245,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that changes a name, an entry, a part, a field or a record."""
         if value.op == "fresh":
-            # Clear in place: other functions hold the same record.
+            # The record is cleared in place, because other functions hold the same record.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -301,13 +303,13 @@ class _Compiler:
                 return False
 
             return sample
-        # Looked up when the closure is built, so that no call in a run compares names.
+        # The function is looked up when the closure is built, so that no call in a run compares names.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
-            # Not strict: a function without a result returns None, which has no target.
+            # zip is not strict, because a function without a result returns None, which has no target.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -377,7 +379,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # A domain has a single precision, so there is nothing to convert.
+            # All numbers of a domain have the same precision, so nothing is converted.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -407,8 +409,8 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
-                # Exact rings have no negative zero, so the sign of the second argument is its comparison
-                # with zero.
+                # Exact rings have no negative zero, so comparing the second argument with zero gives its
+                # sign.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -468,7 +470,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     for k in range(n):
         # ``max`` returns the first of equal candidates, like the strict comparison in the emitted code.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
-        # Negated, so that a NaN counts as a singular matrix, too.
+        # The comparison is negated, so that a NaN counts as a singular matrix, too.
         if not abs(rows[pivot][k]) > 0:
             return 0
         order.append(pivot)

@@ -24,7 +24,7 @@ class EmittedFloats(FloatDomain):
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)
-        # Computed once: the limit depends on the kernel, not on the argument.
+        # The limit is computed once, because it depends on the kernel and not on the argument.
         self.limit = limit(DOUBLE, chain)
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:

@@ -22,7 +22,7 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier of a name."""
-        # KeyError for an unknown name of the kernel: to print it unchanged could produce an illegal
+        # An unknown name of the kernel raises KeyError, because the unchanged name could be an illegal
         # identifier.
         return self.by_name[name.text] if name.own else name.text
 
@@ -48,7 +48,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # Arguments first: they have the same identifiers in every function, whatever else a function names.
+    # Arguments come first, because they have the same identifiers in every function, whatever other names it
+    # has.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     for statement in statements(function.body):

@@ -50,7 +50,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the functions of the derivative, none if it was not requested."""
     if plan.kernel.vary is None:
         return ()
-    # A separate plan, because the kernel of variations has other inputs, outputs and loops than the step.
+    # The derivative has a separate plan, because the kernel of variations has other inputs, outputs and loops
+    # than the step.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -72,7 +73,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
         # Sweeps for a derivative are not counted: the statistics describe the integration.
         *computed(varying, counting=False),
         *ends,
-        # Tested before ``vector`` is overwritten, so that a failure leaves no partial result.
+        # The result is tested before ``vector`` is overwritten, so that a failure leaves no partial result.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -112,8 +113,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
-            # A copy, because the caller's array is constant, and C passes the values of a signal through
-            # a pointer to data that may change.
+            # The inputs are copied, because the caller's array is constant, and C passes the values of a
+            # signal through a pointer to data that may change.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),
@@ -131,9 +132,9 @@ class _Jacobian:
         return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]
 
     def composed(self) -> list[Statement]:
-        """Return the loop over the substeps: the variation first, then the state."""
+        """Return the loop over the substeps, which advance the variation before the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
-        # One memory for each substep, because substeps have different lengths and solutions.
+        # Each substep has its own memory, because substeps have different lengths and solutions.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
         # The caller's statistics count the steps of the integration only, not the substeps repeated here.
@@ -152,7 +153,8 @@ class _Jacobian:
             # The variation comes first: it is linearised at the point where the substep begins.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
-            # Also advanced after a failure: the status ends the loop, and the number is not read again.
+            # The number of the substep is increased even after a failure: the status ends the loop, and the
+            # number is not read again.
             Assign(part, part + 1),
         )
         return [

@@ -148,7 +148,7 @@ class Unit:
     records: tuple[Record, ...]
     tables: tuple[Table, ...]
     functions: tuple[Function, ...]
-    # A derived index of ``functions``: printers look callees up by name at each call.
+    # The functions by name, because printers look up the callee at each call.
     parts: dict[str, Function] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -200,7 +200,7 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 def terms(body: Iterable[Statement]) -> Iterator[Term]:
     """Yield every term of a body with all its parts."""
-    # An explicit stack, because sums over many unknowns are deeper than Python's recursion limit.
+    # The stack is explicit, because sums over many unknowns are deeper than Python's recursion limit.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
         term = waiting.pop()

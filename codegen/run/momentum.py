@@ -65,8 +65,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
 def _leave(plan: Plan, carried: Carried, n: int) -> Function:
     state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
     momentum, i = real("momentum", n), count("i")
-    # The difference comes first: it is small, so adding it to the initial momentum rounds once. Another
-    # grouping would round the whole momentum twice.
+    # The difference is formed first: it is small, so its rounding error is small, too, and adding it to the
+    # initial momentum rounds once. Another grouping would round the whole momentum twice.
     gained = state[i + carried.first] + (momentum[i] - before[i])
     body = (
         Array(momentum),

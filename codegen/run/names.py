@@ -17,7 +17,7 @@ class Names:
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
-        # Sorted, so that emitted names do not depend on the order of a set.
+        # The words are sorted, so that emitted names do not depend on the order of a set.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
         self.identifiers: dict[str, str] = {}
@@ -35,7 +35,8 @@ class Names:
 
     def fresh(self, proposal: str) -> str:
         """Return an unused identifier, close to the proposal."""
-        # ASCII only: compilers differ in which other letters they allow in identifiers.
+        # Only ASCII letters are kept, because compilers differ in the other letters that they allow in
+        # identifiers.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):

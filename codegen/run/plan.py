@@ -40,7 +40,7 @@ class Plan:
     @cached_property
     def arrangement(self) -> Arrangement:
         """The statements of the kernel."""
-        # Cached, because every function of a unit reads the statements, and arranging rewrites all
+        # The statements are cached, because every function of a unit reads them, and scheduling rewrites all
         # expressions.
         return arrange(self.kernel)
 
@@ -51,12 +51,13 @@ class Plan:
 
     @property
     def size(self) -> int:
-        """The number of numbers in a state."""
+        """The number of components of a state."""
         return len(self.symbols)
 
     @cached_property
     def _used(self) -> tuple[str, ...]:
-        # Cached, because nearly every property below reads it, and it walks through the whole kernel.
+        # The result is cached, because nearly every property below reads it, and computing it walks through
+        # the whole kernel.
         return self.kernel.used_scalars()
 
     @property
@@ -104,7 +105,7 @@ class Plan:
     @property
     def memories(self) -> Term:
         """The memory of each substep, or of the step."""
-        # Substeps have different lengths, so extrapolating from one to the next would be meaningless.
+        # Substeps have different lengths, so extrapolating from one substep to the next would be meaningless.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
@@ -146,7 +147,8 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the scalars that the kernel's statements read."""
-        # The arrangement and not the kernel: rewriting may have removed the last reader of a scalar.
+        # The scheduled statements are searched and not the kernel, because scheduling may have removed the
+        # last reader of a scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

@@ -77,7 +77,8 @@ class _Scopes:
     def place(self, body: Body, variables: dict[str, Term]) -> None:
         """Declare variables that no statement outside the body mentions."""
         inside: dict[int, dict[str, Term]] = {}
-        # One pass over the body for all variables: a pass for each would be quadratic for long kernels.
+        # One pass over the body finds the uses of all variables: a pass for each variable would take
+        # quadratic time.
         holders: dict[str, list[int]] = {name: [] for name in variables}
         for k, statement in enumerate(body):
             for name in self.mentioned(statement):
@@ -87,7 +88,8 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
-            # As deep as possible: a small scope shows readers and compilers how long a value lives.
+            # Variables are declared as deep as possible, because a small scope shows readers and compilers
+            # how long a value is used.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)
@@ -121,8 +123,8 @@ class _Scopes:
             if name in {self.identifiers.variable(x) for x in reads(statement)}:
                 return False
             if isinstance(statement, Assign | Call):
-                # A call with several results writes through pointers, but each result is assigned all the
-                # same.
+                # A call with several results writes them through pointers; this counts as an assignment to
+                # each result.
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
@@ -136,7 +138,8 @@ class _Scopes:
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
         """Declare a variable in this block."""
         first = body[places[0]]
-        # Counted in the whole block: a variable that an inner block assigns again must not be constant.
+        # Assignments are counted in the whole block, because a variable that an inner block assigns again is
+        # not constant.
         times = sum(self.assignments(body[k], name) for k in places)
         # `x = x + 1` cannot be a declaration, because it reads x.
         direct_first = isinstance(first, Assign) and self.assignments(first, name) > 0

@@ -56,7 +56,9 @@ SWEEPS = 50
 """The most sweeps that a robust solver needs in the longer step: half of the limit of a loop."""
 
 PRICE = 4.0
-"""A robust solver is accepted if its step takes at most PRICE times as long as with the fastest solver."""
+"""A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
+solver.
+"""
 
 LARGE = 64
 """Above LARGE unknowns a trial has FEW_STEPS steps. It omits continuation in h: thousands of sweeps."""

@@ -16,17 +16,17 @@ SWEEPS = count("sweep")
 
 def statistics_record(plan: Plan) -> Record:
     """Return the record of a unit's statistics."""
-    # Counted for each block, because a single slow block would be invisible in a total.
+    # Sweeps are counted for each block, because a single slow block would be invisible in a total.
     labels = [loop.label for loop in plan.kernel.loops]
     fields = [
         (count("sweeps", len(labels)), "by block: " + ", ".join(labels)),
-        (count("most"), "the most sweeps of one block in one step"),
-        # Numbered from one, so that a record of zeros means no failure.
-        (count("failed"), "1 + the block that failed, 0 if none has"),
+        (count("most"), "largest number of sweeps of one block in one step"),
+        # Blocks are numbered from one, so that a record of zeros means no failure.
+        (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
-    # Simplified Newton computes one matrix in each step, so only Newton's own number needs a counter.
+    # Simplified Newton computes one matrix in each step, so its number of matrices needs no counter.
     if plan.newton:
-        fields.append((count("matrices"), "how many Newton matrices were computed"))
+        fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
     return Record(STATISTICS, about, tuple(fields), public=True)
 

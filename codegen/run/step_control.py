@@ -58,10 +58,11 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 def weighted(plan: Plan) -> Function:
     """Return the function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
-    # A separate function, so that the long body of the run contains no loop over components.
+    # The norm has a separate function, so that the long body of the run contains no loop over components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
-    # The larger value of both ends: a component that crosses zero would otherwise demand a tiny error.
+    # The larger of the values at both ends of the step is used, because a component that crosses zero would
+    # otherwise require a tiny error.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -77,7 +78,10 @@ def weighted(plan: Plan) -> Function:
         ),
         Return(call("sqrt", total / float(n))),
     )
-    about = "The root mean square of error over atol + rtol |y|; |y| is the larger of before and after."
+    about = (
+        "The root mean square of error_i / (atol + rtol |y_i|), where |y_i| is the larger of its values "
+        "before and after the step."
+    )
     parameters = (before, after, error, RTOL, ATOL)
     return Function("weighted", about, parameters, body, Kind.REAL, RAISES_NAN)
 
@@ -120,8 +124,8 @@ class _Controlled:
         body: tuple[Statement, ...] = (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
-            # Stored after a failure, too: the caller then knows the last good time and can continue from
-            # there.
+            # Time and step size are stored after a failure, too: the caller then knows the last good time and
+            # can continue from there.
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
@@ -133,7 +137,8 @@ class _Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # Tested once, before the loop, because the loop only scales step sizes by bounded factors.
+        # The arguments are tested once, before the loop, because the loop only scales step sizes by bounded
+        # factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
@@ -196,7 +201,7 @@ class _Controlled:
 
     def power(self, base: Term, exponent: float) -> Term:
         """Return a power of an error."""
-        # The order is known at compile time, so the quotient is a constant of the text.
+        # The order is known at compile time, so the exponent is a constant in emitted code.
         return call("power", base, number(self.plan.format.round(exponent / self.order)))
 
     def rounded(self, x: float) -> Term:

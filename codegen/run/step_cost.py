@@ -49,7 +49,7 @@ class Amounts:
     cubes: float = 0.0
 
     def __add__(self, other: Amounts) -> Amounts:
-        # By position, so that a new kind of work needs no change here.
+        # Fields are added by position, so that a new kind of work needs no change of this method.
         return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def times(self, factor: float) -> Amounts:
@@ -123,7 +123,7 @@ class StepCost:
     """
 
     def __init__(self, kernel: Kernel) -> None:
-        # Counted once: a choice of solvers asks for many sums with the same operations.
+        # Operations are counted once, because a choice of solvers needs many sums of the same operations.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:

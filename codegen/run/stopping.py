@@ -54,10 +54,14 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""Added to the rate: the last change is also applied, and its relative error is about this large."""
+"""This number is added to the rate, because the last change is applied, too, and its relative error is about
+this large.
+"""
 
 FOUR_ROUNDINGS = 2.0**-50
-"""Four roundings, relative to the sum of the absolute values of the unknowns (see :meth:`Stopping.sums`)."""
+"""The stopping bound of loops over residuals: four roundings of the sum of the absolute values of the
+unknowns (see :meth:`Stopping.sums`).
+"""
 
 CHANGE, SCALE = real("change"), real("scale")
 
@@ -84,7 +88,7 @@ class Stopping:
     @property
     def kept_rate(self) -> Term:
         """The rate that a step stores for the next."""
-        # Stored for each loop separately, because blocks of one step contract at different rates.
+        # The rate is stored for each loop separately, because blocks of one step contract at different rates.
         return self.plan.memory.field(f"rate_{self.number}")
 
     @cached_property
@@ -167,7 +171,7 @@ class Stopping:
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that measure a sweep over residuals, by sums of absolute values."""
         return [
-            # Sums and not maxima: they keep NaNs, so no separate test for finiteness is needed.
+            # Sums are used and not maxima, because sums keep NaNs: no separate test for finiteness is needed.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]

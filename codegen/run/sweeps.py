@@ -320,7 +320,8 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            # An array initialiser and one copy: n^2 separate assignments would make the function very long.
+            # An array initialiser and one copy store the entries, because n^2 separate assignments would make
+            # the function very long.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 

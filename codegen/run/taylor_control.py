@@ -57,7 +57,7 @@ from codegen.run.terms import (
     whole,
 )
 
-EXPAND, EVALUATE, PROJECT, ADVISE = "expand", "evaluate", "project", "advise"
+ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "moved_state", "advise"
 """The names of the functions that a run calls."""
 
 LEAST = 1e-30
@@ -135,54 +135,75 @@ class _Controlled:
 
     def __init__(self, plan: Plan, expansion: Expansion) -> None:
         self.plan, self.expansion = plan, expansion
-        self.degree, self.correction = expansion.degree, expansion.correction
+        self.degree = expansion.degree
         self.own = Plan(expansion.coefficients, plan.format)
+        self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
-        self.series = real("series", self.degree * plan.size)
+        # Where the coordinates are those of the state, no arrays are copied.
+        self.start = self.state if expansion.enter is None else real("start", self.size)
+        self.moved = self.trial if expansion.leave is None else real("moved", self.size)
+        self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
-        """Return the functions that compute, evaluate and correct the polynomial."""
-        corrected = []
-        if self.correction is not None:
-            about = "Move the second half of the array, a new state, back to the manifold of the first half."
-            own = Plan(self.correction, self.plan.format)
-            corrected.append(filling(own, PROJECT, about, self.trial))
-        expanded = self.expand() if self.expansion.following is None else self.expand_in_loop()
-        return expanded, self.evaluate(), *corrected
+        """Return the functions that compute and evaluate the polynomial, and those of its coordinates."""
+        enter, leave = self.expansion.enter, self.expansion.leave
+        listed = []
+        if enter is not None:
+            about = "The coordinates of the polynomial, from the state."
+            listed.append(filling(Plan(enter, self.plan.format), ENTER, about, self.start))
+        listed.append(self.expand() if self.expansion.following is None else self.expand_in_loop())
+        listed.append(self.evaluate())
+        if leave is not None:
+            about = "The new state on the manifold, from the old state followed by the new coordinates."
+            listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
+        return tuple(listed)
 
     def advance(self) -> Function:
         """Return the function for a step of size h."""
         plan = self.plan
         body: list[Statement] = [
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
-            Array(self.series),
-            Array(self.trial),
-            Call(EXPAND, (self.state, *self.moment, self.series)),
-            Call(EVALUATE, (self.state, self.series, STEP, self.trial)),
-            *self.projected(),
-            If(negated(all_finite(self.trial)), (Return(code(NOT_FINITE)),)),
+            *self.arrays(),
+            *self.entered(),
+            Call(EXPAND, (self.start, *self.moment, self.series)),
+            Call(EVALUATE, (self.start, self.series, STEP, self.moved)),
+            *self.returned(),
+            If(negated(self.is_sound()), (Return(code(NOT_FINITE)),)),
             Assign(self.state, self.trial),
             Return(code(OK)),
         ]
         parameters = (self.state, *plan.moment(), *plan.parameters)
         return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
 
-    def projected(self) -> tuple[Statement, ...]:
-        """Return the statements that move the trial state back to the manifold."""
-        if self.correction is None:
+    def arrays(self) -> tuple[Statement, ...]:
+        """Return the definitions of all arrays of a step."""
+        separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
+        return tuple(map(Array, (self.series, self.trial, *separate)))
+
+    def entered(self) -> tuple[Statement, ...]:
+        """Return the statements that compute the coordinates."""
+        return () if self.expansion.enter is None else (Call(ENTER, (self.state, self.start)),)
+
+    def returned(self) -> tuple[Statement, ...]:
+        """Return the statements that compute the new state."""
+        if self.expansion.leave is None:
             return ()
         n = self.plan.size
-        pair = real("pair", 2 * n)
+        pair = real("pair", n + self.size)
         return (
             Array(pair),
             Assign(pair.part(0, n), self.state),
-            Assign(pair.part(n, n), self.trial),
-            Call(PROJECT, (pair, self.trial)),
+            Assign(pair.part(n, self.size), self.moved),
+            Call(LEAVE, (pair, self.trial)),
         )
+
+    def is_sound(self) -> Term:
+        """Return the test of both states: the new one may not depend on some entries of the old one."""
+        return both(all_finite(self.trial), all_finite(self.state))
 
     def expand_in_loop(self) -> Function:
         """Return the function that computes the coefficients in a loop over their order."""
-        first, n, following = self.own, self.plan.size, self.expansion.following
+        first, n, following = self.own, self.size, self.expansion.following
         assert following is not None
         every = Plan(following, self.plan.format)
         ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
@@ -208,7 +229,7 @@ class _Controlled:
             *(Assign(self.series[k * n + (n + i)], x) for i, x in enumerate(operands[2 * m :])),
         )
         body = (
-            *loaded(first.symbols, self.state, first.arrangement.symbols()),
+            *loaded(first.symbols, self.start, first.arrangement.symbols()),
             *computed(first),
             Array(own("first", values), tuple(map(value, ends[:values]))),
             *stored(self.series, [value(x) for x in ends[values:]]),
@@ -222,7 +243,7 @@ class _Controlled:
             f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other. "
             "left and right are the coefficients of the operands of all products."
         )
-        return Function(EXPAND, about, (self.state, *self.moment, self.series), body, guard=RAISES_NAN)
+        return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
         """Return the statements that compute the numbers of one order which its code reads."""
@@ -239,29 +260,29 @@ class _Controlled:
         """Return the function that computes the Taylor coefficients."""
         own = self.own
         body = [
-            *loaded(own.symbols, self.state, own.arrangement.symbols()),
+            *loaded(own.symbols, self.start, own.arrangement.symbols()),
             *computed(own),
             *stored(self.series, [value(x) for x in own.arrangement.outputs]),
         ]
         about = f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other."
-        parameters = (self.state, *self.moment, self.series)
+        parameters = (self.start, *self.moment, self.series)
         return Function(EXPAND, about, parameters, tuple(body), guard=RAISES_NAN)
 
     def evaluate(self) -> Function:
         """Return the function that evaluates the polynomial by Horner's rule."""
-        n, i, result = self.plan.size, count("i"), real("total")
+        n, i, result = self.size, count("i"), real("total")
         entries = [self.series[i + k * n] for k in range(self.degree)]
         horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
-        inner = (Assign(result, entries[-1]), *horner, Assign(self.trial[i], self.state[i] + STEP * result))
+        inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
         about = "The polynomial at the time h."
-        parameters = (self.state, self.series, STEP, self.trial)
+        parameters = (self.start, self.series, STEP, self.moved)
         return Function(EVALUATE, about, parameters, (For(i, whole(n), inner),), guard=RAISES_NAN)
 
     def advise(self) -> Function:
         """Return the function that computes the step size."""
-        n, p = self.plan.size, self.degree
+        n, p = self.size, self.degree
         epsilon, found, reached = real("epsilon"), real("found"), real("reached")
-        body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.state))]
+        body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
         for k, result in ((p - 1, found), (p, reached)):
             norm = real(f"norm_{k}")
             body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
@@ -270,7 +291,7 @@ class _Controlled:
         least = select(found < reached, found, reached)
         body.append(Return(self.rounded(math.exp(-0.7 / (p - 1))) * least))
         about = "The step size at which the last two terms of the polynomial are as large as the tolerance."
-        parameters = (self.state, self.series, RTOL, ATOL)
+        parameters = (self.start, self.series, RTOL, ATOL)
         return Function(ADVISE, about, parameters, tuple(body), Kind.REAL, RAISES_NAN)
 
     def rounded(self, x: float) -> Term:
@@ -293,8 +314,7 @@ class _Controlled:
             Assign(self.length, size(self.h[0])),
             Assign(self.advised, self.length),
             If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
-            Array(self.trial),
-            Array(self.series),
+            *self.arrays(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.advised),
@@ -306,15 +326,16 @@ class _Controlled:
 
     def step(self) -> tuple[Statement, ...]:
         """Return the statements of one step."""
-        n, p = self.plan.size, self.degree
+        n, p = self.size, self.degree
         moment = tuple(self.now if x is TIME else x for x in self.moment)
         bounded = both(self.length > 0.0, self.advised > self.length)
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
-            Call(EXPAND, (self.state, *moment, self.series)),
+            *self.entered(),
+            Call(EXPAND, (self.start, *moment, self.series)),
             # An infinity or NaN in a coefficient reaches the later ones, and no shorter step removes it.
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
-            Call(ADVISE, (self.state, self.series, RTOL, ATOL), (self.advised,)),
+            Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),
             Assign(self.length, number(0.0)),
             Assign(self.left, self.end - self.now),
@@ -332,10 +353,10 @@ class _Controlled:
     def move(self) -> tuple[Statement, ...]:
         """Return the statements that change the state and the time."""
         return (
-            Call(EVALUATE, (self.state, self.series, self.taken, self.trial)),
-            *self.projected(),
+            Call(EVALUATE, (self.start, self.series, self.taken, self.moved)),
+            *self.returned(),
             If(
-                all_finite(self.trial),
+                self.is_sound(),
                 (
                     Assign(self.state, self.trial),
                     Assign(self.now, self.following),

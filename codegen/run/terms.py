@@ -29,7 +29,7 @@ class Kind(Enum):
     REAL = "real"
     WIDE = "wide"
     COUNT = "count"
-    # A separate kind, because array languages distinguish booleans from integers.
+    # Flags have a separate kind, because array languages distinguish booleans from integers.
     FLAG = "flag"
     STATUS = "status"
     RECORD = "record"
@@ -137,8 +137,8 @@ class Term:
 
 Operand = Term | float | int
 
-# An example of a count: it makes an index that is a Python number a count, whatever the array
-# contains.
+# A Python number gets the kind of the other operand; with this count as other operand, an index becomes a
+# count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -228,7 +228,7 @@ INFINITY = Term("infinity")
 
 def both(*tests: Term) -> Term:
     """Return the conjunction of tests; evaluation ends at the first that is false."""
-    # A chain to the left, which all targets print without parentheses.
+    # The tests are joined from the left, because all targets print this form without parentheses.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
@@ -263,7 +263,7 @@ def size(x: Term) -> Term:
 def greatest(terms: Iterable[Term]) -> Term:
     """Return the greatest of some reals."""
     listed = tuple(terms)
-    # One term without a call: ``max`` of a single number is an error in Python.
+    # A single term is returned without a call, because ``max`` of a single number is an error in Python.
     return listed[0] if len(listed) == 1 else call("greatest", *listed)
 
 
@@ -331,7 +331,8 @@ def narrow(x: Term) -> Term:
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
     """Yield every name in terms, including names in expressions of the kernel."""
-    # Reversed, because the stack is read from its end, and names must appear in the order of the text.
+    # The terms are reversed, because the stack is read from its end, and names must appear in the order of
+    # the text.
     waiting = list(terms)[::-1]
     while waiting:
         term = waiting.pop()

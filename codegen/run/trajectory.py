@@ -82,7 +82,8 @@ class Rows:
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
-            # Tested once: in the loop, one flag is cheaper than two tests.
+            # The stride and the array are tested once, because one flag in the loop is cheaper than two
+            # tests.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -96,7 +97,8 @@ class Rows:
     def add(self, state: Term) -> list[Statement]:
         """Return the statements that write another row."""
         return [
-            # A counter of rows and not step / stride: a division in each step would cost more than the row.
+            # Rows are counted, because computing the index as step / stride in each step would cost more than
+            # writing the row.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
@@ -104,7 +106,7 @@ class Rows:
 
 def own_memory(plan: Plan) -> list[Statement]:
     """Return the statement that creates the memory of a run."""
-    # Local to a run: a run therefore depends on its arguments only and can run in several threads.
+    # The memory is local to a run, so a run depends on its arguments only, and several threads can make runs.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
@@ -130,13 +132,14 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step; run-time inputs are constant over it."""
     state = plan.state()
-    # A single step has no use for a function of time, because its caller may change the inputs between
-    # steps.
+    # A single step needs values of the inputs and no function of time, because its caller may change the
+    # values between steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # The public step calls a run of one step here, because a second copy of the kernel would add code.
+        # If the kernel is inlined in the run, the step calls a run of one step, because a second copy of the
+        # kernel would add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)

@@ -51,9 +51,11 @@ class Trials:
         # Error estimates and derivatives do not change the number of sweeps, but would make the trial
         # longer.
         plain = replace(kernel, estimate=None, vary=None)
-        # Always in doubles: the choice of a solver should not depend on the format of the module.
+        # Trials always compute in doubles, because the choice of a solver should not depend on the format of
+        # the module.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
-        # Functions rounded as in emitted code, because a last bit can decide on one more sweep.
+        # Functions are rounded as in emitted code, because a difference in the last bit can cause one more
+        # sweep.
         self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
         self.initial, self.span = initial, scene.span
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
@@ -66,9 +68,9 @@ class Trials:
         time = [float(first)] if self.plan.time else []
         # The signals of the user are not known, and a system without control is the usual first test.
         signals = [lambda t: (0.0,) * number] if number else []
-        # Computed from exact rationals and rounded once, as in the usage example.
+        # The step size is computed from exact rationals and rounded once, as in the usage example.
         h = float(longer * (last - first) / PARTS)
-        # No rows of a trajectory are stored: only the counts are read.
+        # No rows of a trajectory are stored, because only the counts are read.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
         # The record counts the matrices of all blocks together, so each block gets the mean.

@@ -43,7 +43,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *taylor_control.polynomial_step(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
-        # After the kernel, which it calls, and before the composition and the run, which call it.
+        # The continuation comes after the kernel, which it calls, and before the composition and the run,
+        # which call it.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))

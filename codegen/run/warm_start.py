@@ -145,7 +145,7 @@ class WarmStart:
 
     def functions(self) -> tuple[Function, ...]:
         """Return the functions of the warm start, callees first."""
-        # Printed in this order, because C needs a declaration before each call.
+        # The functions are printed in this order, because C needs a declaration before each call.
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
@@ -163,8 +163,7 @@ class WarmStart:
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    # The loop over the solutions is outside, so that the inner loop reads contiguous
-                    # memory.
+                    # The outer loop is over the solutions, so that the inner loop reads contiguous memory.
                     count("back"),
                     order + 1 - first,
                     (Assign(j, first + count("back")), inner),
@@ -214,7 +213,8 @@ class WarmStart:
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
             Return(size_now),
         )
-        # A sum and not a maximum: it needs no comparison, and only ratios of sizes are compared.
+        # The size is a sum and not a maximum, because a sum needs no comparison. Both are suitable, because
+        # only ratios of sizes are compared.
         about = "The sum of the absolute values of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
@@ -222,7 +222,7 @@ class WarmStart:
         """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three solutions the guess is a copy of the last one and is not judged"),
+            Note("with fewer than three solutions, the guess copies the last one; its error is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from codegen.groups.actions import Action, LeftMultiplication
 from codegen.groups.base import LieGroup
@@ -22,11 +23,14 @@ from codegen.ir.domain import Domain, ExprDomain, Values
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.number import Number
 from codegen.ir.values import Kind
-from codegen.scene import energy, taylor
+from codegen.scene import energy
 from codegen.scene.body_frame import BodyField, body_field
 from codegen.scene.flow import Flow
 from codegen.scene.operations import BY_ACTION, ON_GROUP, TRUNCATED
 from codegen.scene.values import Bindings
+
+if TYPE_CHECKING:
+    from codegen.scene.evolution import Evolution
 
 TIME = "t"
 """The symbol of the time in formulas."""
@@ -55,8 +59,7 @@ class Problem:
     not the default. ``roots`` contain the formulas of signals, ``open_roots`` are the roots with the symbols
     of ``signals`` instead. ``inputs`` are the signals that emitted code reads at run time. ``forced`` says
     that n is not a derivative of the Hamiltonian alone. If emitted code reads and returns momenta in the body
-    frame, ``body_group`` is the group. In a problem on R^n whose states lie on an orbit of another group,
-    ``orbit`` holds that group and its action.
+    frame, ``body_group`` is the group. ``evolution`` are the coordinates that a Taylor step uses.
     """
 
     name: str
@@ -77,7 +80,7 @@ class Problem:
     inputs: tuple[str, ...] = ()
     forced: bool = False
     body_group: Coadjoint | None = None
-    orbit: tuple[LieGroup, Action] | None = None
+    evolution: Evolution | None = None
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
@@ -136,9 +139,9 @@ class Problem:
             return (energy.apply(self, domain, name, args),)
         match name:
             case "taylor_polynomial":
-                return (taylor.step(self, domain, order or 0, *args),)
+                return (self._evolution().step(domain, order or 0, *args),)
             case "to_orbit":
-                return (self.to_orbit(domain, *args),)
+                return (self._evolution().leave(domain, *args),)
             case "legendre":
                 return (self._require_body().momentum(domain, *args),)
             case "velocity" | "velocityt":
@@ -148,12 +151,9 @@ class Problem:
             case _:
                 return self._field(domain, args)
 
-    def to_orbit(self, domain: Domain, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y moved back to the orbit of ``start``; y itself in a problem without ``orbit``."""
-        if self.orbit is None:
-            return y
-        group, action = self.orbit
-        return action.to_orbit(domain, group, y, start)
+    def _evolution(self) -> Evolution:
+        assert self.evolution is not None
+        return self.evolution
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
         """Return (q, mu) after the exact flow of a part for the time tau; ``args`` are q, mu, and t if the

@@ -18,9 +18,9 @@ enum {
 /* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */
 typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
-    size_t most; /* the most sweeps of one block in one step */
-    size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how many Newton matrices were computed */
+    size_t most; /* largest number of sweeps of one block in one step */
+    size_t failed; /* number of the block that failed, counted from 1; 0 if none */
+    size_t matrices; /* number of Newton matrices that were computed */
 } dipole_vcg_midpoint_statistics;
 
 /* Make one step of size h. When the status is not DIPOLE_VCG_MIDPOINT_OK, the state is unchanged. */

@@ -79,9 +79,9 @@ class Statistics:
     def clear(self):
         """Set all fields to zero."""
         self.sweeps = [0] * 1  # by block: the equations of xi1, n1
-        self.most = 0  # the most sweeps of one block in one step
-        self.failed = 0  # 1 + the block that failed, 0 if none has
-        self.matrices = 0  # how many Newton matrices were computed
+        self.most = 0  # largest number of sweeps of one block in one step
+        self.failed = 0  # number of the block that failed, counted from 1; 0 if none
+        self.matrices = 0  # number of Newton matrices that were computed
 
     labels = [
         "the equations of xi1, n1",
@@ -361,8 +361,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is a copy of the last one and is not
-    # judged
+    # with fewer than three solutions, the guess copies the last one; its error is
+    # not tested
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

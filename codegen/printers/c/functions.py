@@ -33,40 +33,39 @@ from codegen.run.language import (
 from codegen.run.scope import declarations
 from codegen.run.terms import Kind, Term, own, symbols
 from codegen.run.writes import written
+from codegen.snippets.graph import LIBRARY
 
 MANY = 20
 """More than MANY consecutive short statements share lines."""
 
-ONE_TEST = (
-    "one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite"
-)
+ONE_TEST = "one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN"
 
 
 class FunctionPrinter:
-    """Writes the functions of one unit in C; names of functions start with a prefix."""
+    """Writes the functions of one unit in C; names of functions, records and tables start with a prefix."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
-        # Computed once for each function: the analysis follows calls through the whole unit.
+        # The changed parameters are found once for each function, because the search follows calls through
+        # the whole unit.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
 
     def called(self, name: str) -> str:
         """Return the name of a function in C."""
-        function = self.unit.parts.get(name)
-        # Only external names need the prefix: private ones are static and local to the file.
-        return f"{self.prefix}{name}" if function is not None and function.public else name
+        return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def type_of(self, kind: Kind) -> str:
         """Return the type of a scalar."""
-        # size_t for counts: indices and sizes then need no conversions, about which -Wconversion warns.
+        # Counts have the type size_t, so that indices and sizes need no conversions, about which -Wconversion
+        # warns.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
         """Return the type of a record."""
-        return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
+        return f"{'' if self.unit.record(name).public else 'struct '}{self.prefix}{name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
         """Return the declaration of a parameter; without ``static`` sizes in a ``header``, as in C++."""
@@ -86,7 +85,8 @@ class FunctionPrinter:
         # Scalars are passed by value; a const on them would mean nothing to callers.
         if not parameter.shape:
             return f"{kind} {name}"
-        # A pointer, because such an argument may be NULL, and ``static`` sizes promise that it is not.
+        # An optional array is declared as a pointer, because it may be NULL; a ``static`` size would promise
+        # that it is not.
         if parameter.cell or parameter.optional:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -95,8 +95,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
-        # Private functions are static: the compiler may inline them, and two modules in one program have no
-        # name conflicts.
+        # Private functions are static, so that the compiler may inline them. They have the prefix as well:
+        # two modules may be included in one file, and no header declares such a name.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -120,7 +120,7 @@ class FunctionPrinter:
         """Return the lines of a constant array."""
         rows = [[literal(self.precision, x) for x in row] for row in table.rows]
         size = "".join(f"[{n}]" for n in table.name.shape)
-        start = f"static const {self.real} {table.name.text}{size} ="
+        start = f"static const {self.real} {self.prefix}{table.name.text}{size} ="
         # Tables are static const, so that compilers can fold their entries into the code.
         about = [f"/* {comment(table.about)} */"]
         if len(table.name.shape) == 1:
@@ -132,7 +132,7 @@ class FunctionPrinter:
         """Return the lines of a record's type."""
         record = self.unit.record(name)
         lines = block_comment(record.about)
-        lines.append("typedef struct {" if record.public else f"struct {record.name} {{")
+        lines.append("typedef struct {" if record.public else f"{self.record_type(name)} {{")
         for field, about in record.fields:
             size = "".join(f"[{n}]" for n in field.shape)
             note = f" /* {comment(about)} */" if about else ""
@@ -158,7 +158,8 @@ class _Body:
         self.declared = declarations(function, self.identifiers)
         # Records among the parameters are pointers, local records are not: their fields need -> or a dot.
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
-        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers)
+        tables = [table.name.text for table in printer.unit.tables]
+        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers, tables)
         self.pointers = pointers
 
     def lines(self) -> list[str]:
@@ -275,7 +276,8 @@ class _Body:
         name = self.identifiers.of(target) if target.op == "name" else ""
         # ``const`` for variables that are assigned once: a reader sees that the value is final, and the
         # compiler checks it.
-        # By identity, because equal statements at different places declare different variables.
+        # Statements are identified by id, because equal statements at different places declare different
+        # variables.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -299,8 +301,8 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # Compound assignments only where the target is the first operand: x = x + y, not x = y + x, whose
-        # operands would be exchanged.
+        # Compound assignments are printed only where the target is the first operand: for x = x + y, but not
+        # for x = y + x, because x += y would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed and not kind:
             more = self.terms.text(value.args[1])
@@ -357,8 +359,8 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "sample":
-            # A signal is printed as two arguments, function and context. Sampling calls the first with the
-            # second.
+            # A signal is printed as two arguments, function and context. Sampling calls the function with the
+            # context.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")

@@ -10,8 +10,8 @@ from codegen.printers.infix import closed
 WIDTH = 100
 
 
-def greatest(terms: list[str]) -> tuple[str, ...]:
-    """Return the maximum of terms as a balanced tree of two-argument calls, in segments that end in commas.
+def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
+    """Return the maximum of terms as a balanced tree of two-argument calls of ``name``, in segments.
 
     >>> greatest(["a", "b", "c"])
     ('greater(a,', 'greater(b,', 'c))')
@@ -20,8 +20,8 @@ def greatest(terms: list[str]) -> tuple[str, ...]:
         return (terms[0],)
     # A balanced tree has logarithmic depth; in a linear chain each comparison would wait for the one before.
     middle = len(terms) // 2
-    first, second = greatest(terms[:middle]), greatest(terms[middle:])
-    return (*closed("greater(", first, ","), *closed("", second, ")"))
+    first, second = greatest(terms[:middle], name), greatest(terms[middle:], name)
+    return (*closed(f"{name}(", first, ","), *closed("", second, ")"))
 
 
 def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:

@@ -74,7 +74,7 @@ class FunctionPrinter:
         rows = [[self.constants.text(x) for x in row] for row in table.rows]
         about = [f"# {table.about}"] if table.about else []
         if len(table.name.shape) == 1:
-            # A tuple and not a list, because nothing may change a table.
+            # A table is a tuple and not a list, because nothing may change a table.
             return [*about, *filled(f"{table.name.text} = (", rows[0], ")", 0)]
         lines = [*about, f"{table.name.text} = ("]
         for row in rows:
@@ -89,7 +89,8 @@ class FunctionPrinter:
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
         if len(shape) > 1 or kind is Kind.RECORD:
-            # A comprehension: ``[[0.0] * n] * m`` would hold the same row m times.
+            # The rows are created by a comprehension, because ``[[0.0] * n] * m`` would contain the same row
+            # m times.
             return f"[{inner} for _ in range({shape[0]})]"
         return f"[{inner}] * {shape[0]}"
 
@@ -98,7 +99,7 @@ class FunctionPrinter:
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
-            # Notes would make the lines of large arrays too long.
+            # Large arrays have no note, because it would make their lines too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)
@@ -267,7 +268,7 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # Compound assignments only where the target is the first operand, as in C.
+        # Compound assignments are printed only where the target is the first operand, as in C.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -296,7 +297,7 @@ class _Body:
 
 def _entry(term: Term) -> int | None:
     """Return the constant index of an entry of a list of scalars; None for any other term."""
-    # A variable index is unknown here, so the neighbours of such an entry are unknown, too.
+    # A variable index has no value at compile time, so the neighbours of such an entry are unknown.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

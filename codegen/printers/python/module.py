@@ -98,7 +98,8 @@ class _Module:
     def imports(self) -> tuple[list[str], list[str]]:
         """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
-        # Imported only if used, because linters of the user's project report unused imports.
+        # Names are imported only if they are used, because linters of the user's project report unused
+        # imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
         # The helper for powers returns an infinity for a negative power of zero.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
@@ -118,7 +119,8 @@ class _Module:
     def keyword_arguments(self) -> list[str]:
         """Return the run-time parameters, with the scene's values as defaults if all values are known."""
         known = self.recipe.defaults
-        # All or none: a parameter with a default must not precede one without.
+        # Either all parameters have defaults or none has, because a parameter with a default must not precede
+        # a parameter without a default.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)

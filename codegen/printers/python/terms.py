@@ -34,7 +34,7 @@ class Constants:
         # Literals of doubles are constants of the byte code, which need no name.
         if self.precision is DOUBLE:
             return text
-        # One constant for both signs: negation is exact and needs no second object.
+        # Both signs use one constant, because negation is exact.
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)

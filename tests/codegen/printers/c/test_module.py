@@ -11,12 +11,13 @@ import pytest
 from codegen.emitter import compile_method
 from codegen.ir.kernel import Kernel
 from codegen.ir.precision import DOUBLE, SINGLE
-from codegen.printers.c.module import inverted, own_names, print_module, prototypes, stack, usage
+from codegen.printers.c.module import helpers, inverted, own_names, print_module, prototypes, stack, usage
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.plan import Plan
 from codegen.run.terms import STATUSES
 from codegen.run.unit import unit_of
+from codegen.snippets.graph import LIBRARY
 
 PREFIX = "m_"
 RECIPE = Recipe("title", (), (1.0,))
@@ -89,14 +90,21 @@ def test_the_example_passes_each_argument_of_a_run(kernels: SimpleNamespace, nam
     assert len(call[1].split(", ")) == len(heads(header)["m_run"])
 
 
-def test_names_of_a_module_are_hidden_by_no_variable() -> None:
-    interface = Interface(PREFIX, 1, False, (), ())
-    names = own_names(interface)
+@pytest.mark.parametrize("name", NAMES)
+def test_names_of_a_module_are_hidden_by_no_variable(kernels: SimpleNamespace, name: str) -> None:
+    kernel = getattr(kernels, name)()
+    interface = interface_of(kernel)
+    unit = unit_of(Plan(kernel, interface.format))
+    names = own_names(interface, unit)
     assert {"m_step", "m_run", "M_H"} <= names
+    assert {f"m_{function.name}" for function in unit.functions} <= names
+    assert {f"m_{helper}" for helper in helpers(unit) if helper not in LIBRARY} <= names
     assert {f"M_{status}" for status in STATUSES} <= names
 
 
-def test_the_bound_on_the_stack_grows_with_the_kernel_and_the_format(kernels: SimpleNamespace) -> None:
+def test_the_bound_on_the_stack_grows_with_the_kernel_and_is_the_same_in_both_formats(
+    kernels: SimpleNamespace,
+) -> None:
     def bound(kernel: Kernel, precision: str) -> int:
         interface = interface_of(kernel, precision)
         plan = Plan(kernel, interface.format)
@@ -110,8 +118,9 @@ def test_the_bound_on_the_stack_grows_with_the_kernel_and_the_format(kernels: Si
     for kernel in (small, large):
         # At least the state itself, as an array and as local copies.
         size = sum(len(f.symbols) for f in kernel.state)
-        assert 2 * 8 * size < bound(kernel, "double") <= 2 * bound(kernel, "single")
-        assert bound(kernel, "single") < bound(kernel, "double")
+        assert 2 * 8 * size < bound(kernel, "double")
+        # Pairs of singles take as much space in vector registers as doubles.
+        assert bound(kernel, "single") == bound(kernel, "double")
 
 
 def test_matrices_of_one_small_size_are_inverted_with_unrolled_rows(kernels: SimpleNamespace) -> None:
