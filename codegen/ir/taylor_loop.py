@@ -15,12 +15,12 @@ from codegen.ir.number import Number
 from codegen.ir.taylor_recurrence import Recurrence
 from codegen.ir.taylor_series import (
     Circular,
+    Convolution,
     Exponential,
     Given,
     Logarithm,
     Multiple,
     Power,
-    Product,
     Quotient,
     Root,
     Series,
@@ -171,7 +171,7 @@ class _Loop:
                 return x - y if minus else x + y
             case Multiple(number=number, a=a):
                 return space.const(number) * _known(self.known[id(a)])
-            case Product(a=a, b=b):
+            case Convolution(a=a, b=b):
                 return self.product(a, b)
             case Square(a=a):
                 x = _known(self.known[id(a)])
@@ -212,7 +212,7 @@ class _Loop:
 def _operands(series: Series) -> Sequence[Series]:
     """Return the series whose coefficient n is needed for that of a series."""
     match series:
-        case Sum(a=a, b=b) | Product(a=a, b=b) | Quotient(a=a, b=b):
+        case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b
         case Power(a=a, slope=slope):
             return a, slope

@@ -17,12 +17,12 @@ from codegen.ir.number import Number
 from codegen.ir.taylor_series import (
     Circular,
     Coefficient,
+    Convolution,
     Exponential,
     Given,
     Logarithm,
     Multiple,
     Power,
-    Product,
     Quotient,
     Root,
     Series,
@@ -131,7 +131,7 @@ class _Builder:
             case "add" | "sub":
                 return Sum(domain, arg(0), arg(1), node.op == "sub")
             case "mul":
-                return Product(domain, arg(0), arg(1))
+                return Convolution(domain, arg(0), arg(1))
             case "pow":
                 return self.integer_power(arg(0), node.payload)
             case "div":
@@ -140,7 +140,7 @@ class _Builder:
                 if e == 1:
                     return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
                 other = self.power(below, divisor, -e)
-                return self.multiple(Number.rational(1) / c, Product(domain, arg(0), other))
+                return self.multiple(Number.rational(1) / c, Convolution(domain, arg(0), other))
             case _:
                 return self.function(node.payload, node.args[0], arg(0))
 
@@ -170,7 +170,7 @@ class _Builder:
         for bit in bin(n)[3:]:
             result = Square(self.domain, result)
             if bit == "1":
-                result = Product(self.domain, result, a)
+                result = Convolution(self.domain, result, a)
         return result
 
     def function(self, name: str, argument: Expr, a: Series) -> Series:

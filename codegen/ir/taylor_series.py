@@ -83,7 +83,7 @@ class Multiple(Series):
         return _scaled(self.domain, self.number, self.a.term(n))
 
 
-class Product(Series):
+class Convolution(Series):
     """a b."""
 
     def __init__(self, domain: Domain, a: Series, b: Series) -> None:

@@ -31,7 +31,6 @@ class Taylor(Lowering):
     """
 
     family = "taylor"
-    preference = -1
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return why scenes with run-time inputs are not taken."""

@@ -90,11 +90,11 @@ def polynomial_step(plan: Plan) -> tuple[Function, ...]:
 
 def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
     """Return the statements that compute all inner sums of order k + 1."""
-    j, c, first, last = count("j"), count("c"), count("first_row"), count("last_row")
+    j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
         """Return the product of the rows i after the first and i before the last."""
-        return left[(first + i) * width + c] * right[(last - i) * width + c]
+        return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
         pairs = [products(i) for i in range(rows)]
@@ -108,7 +108,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         (
             Assign(first, j * ROWS),
             Assign(last, k - first - 1),
-            For(c, whole(width), (Assign(sums[c], sums[c] + together(ROWS)),)),
+            For(lane, whole(width), (Assign(sums[lane], sums[lane] + together(ROWS)),)),
         ),
     )
     single = For(
@@ -117,10 +117,10 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
         (
             Assign(first, k - j - 1),
             Assign(last, j),
-            For(c, whole(width), (Assign(sums[c], sums[c] + products(0)),)),
+            For(lane, whole(width), (Assign(sums[lane], sums[lane] + products(0)),)),
         ),
     )
-    return [For(c, whole(width), (Assign(sums[c], number(0.0)),)), many, single]
+    return [For(lane, whole(width), (Assign(sums[lane], number(0.0)),)), many, single]
 
 
 class _Controlled:

@@ -13,7 +13,7 @@ from codegen.ir.expr import Space, evaluate, walk
 from codegen.ir.from_sympy import read
 from codegen.ir.taylor_loop import INVERSE, LINEAR, NEXT, ORDER, coordinate_names, order_loop
 from codegen.ir.taylor_recurrence import Recurrence
-from codegen.ir.taylor_series import Power, Product, Quotient, Root
+from codegen.ir.taylor_series import Convolution, Power, Quotient, Root
 from orderconds.ring import QQ
 
 y, t = sympy.symbols("y t", real=True)
@@ -134,7 +134,7 @@ def test_expressions_that_are_linear_in_the_time_cost_one_term():
         ((1 + y**2) ** (-3 * HALF), {Power}),
         (sympy.sqrt(1 + y) ** 3 / (1 + y), {Root}),
         (1 / (1 + y), {Quotient}),
-        (y / (1 + y) ** (3 * HALF), {Product, Power}),
+        (y / (1 + y) ** (3 * HALF), {Convolution, Power}),
     ],
     ids=str,
 )
@@ -144,7 +144,7 @@ def test_powers_of_one_expression_are_one_recurrence(field, kinds):
     found, waiting = set(), [slope]
     while waiting:
         series = waiting.pop()
-        found |= {type(series)} & {Power, Root, Quotient, Product}
+        found |= {type(series)} & {Power, Root, Quotient, Convolution}
         waiting += [x for name in ("a", "b") if (x := getattr(series, name, None)) is not None]
     assert found == kinds
 
