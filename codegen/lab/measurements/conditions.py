@@ -90,7 +90,7 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            continue  # no conditions, or those of a family that only the compiler defines, without index sums
+            continue  # a family of the compiler only, without index sums, or one without conditions
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
 
