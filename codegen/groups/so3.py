@@ -236,7 +236,7 @@ class SO3(Rotations, BodyFrame, Covered, ClosedFormSeries, RightTrivialisation, 
         return S3()
 
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the matrix of x -> q (0, x) q^c for a unit quaternion, with diagonal 1 - 2 (y^2 + z^2), ..."""
+        """Return the matrix of x -> q (0, x) q^c for a unit quaternion q."""
         one, double = d.rational(1), tuple(d.rational(2) * a for a in q[1:])
         squares = tuple(a * b for a, b in zip(double, q[1:], strict=True))
         diagonal = (one - (squares[1] + squares[2]), one - (squares[0] + squares[2]))

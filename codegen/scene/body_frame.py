@@ -85,8 +85,8 @@ def field_in_body(
     """Return W = Ad_{q^-1} xi and N = Ad*_q n as formulas in q and P, for a field that need have no
     Hamiltonian.
 
-    ``roots`` are xi and n as formulas in q and mu. A component that does not depend on q has a formula without
-    q.
+    ``roots`` are xi and n as formulas in q and mu. The formula of a component that does not depend on q does
+    not contain q.
     """
     space = roots[0].space
     domain = ExprDomain(space)

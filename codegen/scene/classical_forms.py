@@ -238,7 +238,6 @@ class _Change:
         own = replace(
             problem,
             name=f"{problem.name}_{key.replace('-', '_')}",
-            title=f"{problem.title}, {self.name()}",
             group=Rn(len(self.symbols)),
             action=LeftMultiplication(),
             state=(StateField("y", Kind.POINT, self.symbols, initial),),
@@ -335,7 +334,7 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in its body frame; a factor without body frame keeps its velocity."""
+        """Return the velocity of a factor in its body frame; without left translations, the given velocity."""
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)
         if group is None:
