@@ -50,7 +50,7 @@ def command(
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
     if scene is None and (steps or not target is form is digits is None):
         raise click.UsageError(
-            "--protocol strict uses its own steps and 50 digits; omit --target, --form, --steps, --digits"
+            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits, --form"
         )
     results = (
         _by_protocol(methods, stated, as_json)
