@@ -146,7 +146,9 @@ def test_a_top_whose_inertia_is_fixed_in_space_keeps_its_momentum_in_space() -> 
 def test_vector_spaces_and_spheres_have_only_the_printed_form(name: str) -> None:
     (form,) = classical_forms(scenes.load(name))
     assert form.printed
-    assert form.problem.velocity(FloatDomain(0.0), [0.5, 0.25, 1.0, 2.0, 1.5, 3.0, 0.125, 1.0][: len(form.to_scene)])
+    assert form.problem.velocity(
+        FloatDomain(0.0), [0.5, 0.25, 1.0, 2.0, 1.5, 3.0, 0.125, 1.0][: len(form.to_scene)]
+    )
 
 
 def test_invariants_of_a_form_are_those_of_the_scene_for_quaternions_of_any_length() -> None:
@@ -166,7 +168,10 @@ def test_an_unknown_form_is_refused_with_the_known_ones() -> None:
 def test_inputs_of_a_scene_are_inputs_of_its_forms() -> None:
     """The torques act in the body frame, so P' contains them alone."""
     form = find_form(with_inputs(scenes.load("actuated_rigid_body"), ["u1"]), "quaternion")
-    read = [{n.payload for n in walk([root]) if n.op == "sym"} & {"u0", "u1", "u2"} for root in form.problem.open_roots]
+    read = [
+        {n.payload for n in walk([root]) if n.op == "sym"} & {"u0", "u1", "u2"}
+        for root in form.problem.open_roots
+    ]
     assert read == [set()] * 4 + [{"u0"}, {"u1"}, {"u2"}]
     assert form.problem.inputs == ("u1",)
 

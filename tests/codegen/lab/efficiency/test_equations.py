@@ -96,7 +96,9 @@ def test_the_command_restricts_the_forms_and_names_them(monkeypatch: pytest.Monk
 def test_an_emitted_step_of_a_form_has_the_error_of_the_method(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(emitted_candidate, "samples", partial(timing.samples, batch=2e-4, batches=2))
     scene = scenes.load("dipole")
-    method = bench("dipole", ["ambient:rk4"], ["c"], [], 1e-5, None, str, forms=["printed"]).candidates[0].method  # type: ignore[attr-defined]
+    method = (
+        bench("dipole", ["ambient:rk4"], ["c"], [], 1e-5, None, str, forms=["printed"]).candidates[0].method
+    )  # type: ignore[attr-defined]
     (equations,) = all_equations(scene, ["quaternion"])
     candidate = EmittedCandidate(scene, method, cached_reference(scene), equations=equations)
     coarse, fine = (candidate.measure(n).error for n in (20.0, 40.0))
