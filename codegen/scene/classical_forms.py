@@ -334,7 +334,7 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in its body frame; without left translations, the given velocity."""
+        """Return the velocity of a factor in its body frame; without left translations, unchanged."""
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)
         if group is None:

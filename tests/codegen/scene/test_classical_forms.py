@@ -161,7 +161,7 @@ def test_invariants_of_a_form_are_those_of_the_scene_for_quaternions_of_any_leng
 
 
 def test_an_unknown_form_is_refused_with_the_known_ones() -> None:
-    with pytest.raises(SceneError, match="unknown form 'euler'.*printed, body-matrix, quaternion"):
+    with pytest.raises(SceneError, match=r"unknown form 'euler'.*printed, body-matrix, quaternion"):
         find_form(scenes.load("dipole"), "euler")
 
 

@@ -89,7 +89,7 @@ def test_the_command_restricts_the_forms_and_names_them(monkeypatch: pytest.Monk
     rows = replace(match, candidates=theirs).run(str).rows
     assert [r.form for r in rows] == [NAMES[2]] * 2
     assert rows[-1].as_json()["form"] == NAMES[2]
-    with pytest.raises(InputError, match="unknown form 'matrix'.*printed, body-matrix, quaternion"):
+    with pytest.raises(InputError, match=r"unknown form 'matrix'.*printed, body-matrix, quaternion"):
         bench("dipole", [], ["c"], [], 1e-2, None, str, forms=["matrix"])
 
 
