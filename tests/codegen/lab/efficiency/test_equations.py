@@ -67,7 +67,7 @@ def test_the_curve_of_an_entry_contains_the_rows_that_no_other_form_beats() -> N
 
 def test_methods_in_coordinates_and_peers_run_on_all_forms_and_others_on_the_manifold() -> None:
     methods, peers = ["ambient:rk4", "cf:cf4"], ["c"]
-    match = bench("free_rigid_body_product", methods, ["c"], peers, 1e-5, None, str)
+    match = bench("free_rigid_body_attitude", methods, ["c"], peers, 1e-5, None, str)
     forms: dict[str, list[str]] = {}
     for c in match.candidates:
         forms.setdefault(c.label, []).append(c.form)
@@ -84,13 +84,13 @@ def test_methods_in_coordinates_and_peers_run_on_all_forms_and_others_on_the_man
 def test_the_command_restricts_the_forms_and_names_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(peer_candidate, "samples", partial(timing.samples, batch=2e-4, batches=2))
     monkeypatch.setattr(peer_candidate, "TOLERANCES", (1e-3, 1e-6))
-    match = bench("dipole", [], ["c"], ["c-dop853"], 1e-2, None, str, forms=["quaternion"])
+    match = bench("dipole", ["ambient:rk4"], ["c"], ["c-dop853"], 1e-2, None, str, forms=["quaternion"])
     theirs = tuple(c for c in match.candidates if isinstance(c, PeerCandidate))
     rows = replace(match, candidates=theirs).run(str).rows
     assert [r.form for r in rows] == [NAMES[2]] * 2
     assert rows[-1].as_json()["form"] == NAMES[2]
     with pytest.raises(InputError, match=r"unknown form 'matrix'.*printed, body-matrix, quaternion"):
-        bench("dipole", [], ["c"], [], 1e-2, None, str, forms=["matrix"])
+        bench("dipole", ["ambient:rk4"], ["c"], [], 1e-2, None, str, forms=["matrix"])
 
 
 def test_an_emitted_step_of_a_form_has_the_error_of_the_method(monkeypatch: pytest.MonkeyPatch) -> None:
