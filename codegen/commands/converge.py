@@ -48,7 +48,8 @@ def command(
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
-    if scene is None and (steps or not target is form is digits is None):
+    chosen = (target, form, digits)
+    if scene is None and (steps or any(option is not None for option in chosen)):
         raise click.UsageError(
             "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits, --form"
         )

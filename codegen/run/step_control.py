@@ -9,8 +9,9 @@ Ordinary Differential Equations I, section II.4; the controller is Gustafsson's 
 exponents 0.7/p and 0.4/p, which damp more, the sizes follow the solution more slowly: DOP853 needs 15 to 20 %
 more steps on ``heavy_top``. The exponents 0.8/p and 0.2/p are multiples of one power of the norm.
 
-If the caller gives no step size, the first trial covers 1/100 of the interval. After it the factor is 0.9
-norm^(-1/p), limited to [0.2, 100], because the first size is only a guess.
+If the caller gives no step size, the first trial covers 1/16 of the interval. After it the factor is 0.9
+norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs a
+few rejected steps, a guess that is too small a large part of a short run.
 
 Each step starts without memory, because solutions of steps of another size are bad initial guesses.
 """
@@ -47,7 +48,7 @@ from codegen.run.terms import (
 )
 
 SAFETY, LEAST, MOST = 0.9, 0.2, 5.0
-FIRST = 100.0
+FIRST = 16.0
 """The first trial covers 1/FIRST of the interval, and may be lengthened to all of it."""
 
 SHARE = 0.2
@@ -155,7 +156,8 @@ class _Controlled:
         # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A crude choice is enough, because the next trial may be longer by the factor FIRST.
+        # A crude choice is enough: a rejection shortens it by a factor of up to 5, and the step after it may
+        # be longer by the factor FIRST.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
