@@ -113,8 +113,10 @@ class Family(ABC):
     unknowns: ClassVar[str | None] = None
     """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
     search."""
+    symplectic: ClassVar[bool] = False
+    """Whether a search is restricted to tableaux with b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """Whether the conditions of order three force abscissae of one stage to be equal
+    """Whether the conditions of order three force the different abscissae of each stage to be equal
     (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed; None: no limit."""
