@@ -107,7 +107,7 @@ def frontier(rows: Sequence[Row]) -> list[Row]:
 
 def prevailing_form(rows: Sequence[Row]) -> list[Row]:
     """Return the rows of the form that is the fastest for the most decades of accuracy."""
-    best = [found[1] for d in DECADES if (found := fastest_form(rows, 10.0**-d)) is not None]
+    best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
     forms = by_form(rows)
     return forms[max(forms, key=best.count)]
 
@@ -130,8 +130,8 @@ def places(entries: Mapping[str, Sequence[Row]], decades: Sequence[int] = DECADE
     """Return the fastest candidate for each decade of accuracy that some candidate reaches."""
     result = []
     for decade in decades:
-        found = {label: fastest_form(rows, 10.0**-decade) for label, rows in entries.items()}
-        ordered = sorted((f[0], in_form(label, f[1])) for label, f in found.items() if f is not None)
+        fastest = {label: fastest_form(rows, 10.0**-decade) for label, rows in entries.items()}
+        ordered = sorted((f[0], in_form(label, f[1])) for label, f in fastest.items() if f is not None)
         if ordered:
             (best, winner), *others = ordered
             behind, second = others[0] if others else (None, "")

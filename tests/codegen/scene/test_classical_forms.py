@@ -7,7 +7,7 @@ from fractions import Fraction
 from math import isqrt
 
 import pytest
-from sympy import Matrix, Rational, diag, eye
+from sympy import Matrix, Rational, diag
 
 from codegen import scenes
 from codegen.errors import SceneError
@@ -52,14 +52,14 @@ class Rationals:
 
 
 def coupled_top() -> Problem:
-    """A top that moves along a line: a configuration space with two factors."""
+    """A top that moves along a line: a configuration space with two factors. It starts after half a turn."""
     G = Product(SO3(), Rn(1))
     q, mu = G.symbols("q"), G.dual("mu")
     g, x = Matrix(3, 3, q[:9]), q[9]
     P = g.T * Matrix(mu[:3])
     H = P.dot(diag(1, Rational(1, 2), Rational(1, 3)) * P) / 2 + mu[3] ** 2 / 2 + x * g[2, 2] + x**2
     return HamiltonianScene(
-        group=G, q=q, mu=mu, H=H, q0=[*eye(3), 1], mu0=[1, 2, 3, 0], span=(0, 1), name="coupled"
+        group=G, q=q, mu=mu, H=H, q0=[*diag(1, -1, -1), 1], mu0=[1, 2, 3, 0], span=(0, 1), name="coupled"
     )
 
 
