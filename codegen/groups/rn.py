@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.groups.capabilities import LeftTranslation, MatrixRepresentation, RightTrivialisation
+from codegen.groups.capabilities import (
+    LeftTranslation,
+    MatrixRepresentation,
+    Projection,
+    RightTrivialisation,
+)
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 
 
-class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation):
+class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection):
     """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
 
     On R^n, RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic
@@ -78,6 +83,10 @@ class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation):
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return v."""
         return v
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g: every tuple of numbers is an element."""
+        return g
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the (n + 1) x (n + 1) matrix of the translation by g in affine space."""
