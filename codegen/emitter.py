@@ -17,6 +17,7 @@ from typing import Any
 from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order
+from codegen.error_estimate import order_of_estimate
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.program import Program
@@ -122,6 +123,7 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
+    estimated = order_of_estimate(method, scene) if method.adaptive else 0
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates = []
@@ -135,11 +137,10 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
-    embedded, estimate = method.embedded(), best.kernel.estimate
-    if embedded is None or estimate is None:
+    estimate = best.kernel.estimate
+    if estimate is None:
         return best
-    order = 1 + min(certified_order(m, scene).order for m in (method, embedded))
-    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=order)))
+    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
 
 
 def work(kernel: Kernel) -> int:

@@ -28,7 +28,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 
-from codegen.emitter import Compiled
+from codegen.emitter import Compiled, Optimised
 from codegen.groups import Rotation
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
@@ -290,7 +290,7 @@ class Rounding(PreciseDomain):
 
 
 def precise_step(
-    compiled: Compiled,
+    compiled: Optimised,
     state: Sequence[Scalar],
     t: Scalar,
     h: Scalar,
