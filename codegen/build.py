@@ -27,7 +27,7 @@ from orderconds.errors import InputError
 from orderconds.input_file import reason
 
 UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
-"""Errors of a cache that this process cannot write to; a temporary folder is used instead."""
+"""The errors raised if this process cannot write to the cache; a temporary folder is then used instead."""
 
 
 class CompilerMissing(InputError):

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
+from codegen.ir.precision import Precision
 from codegen.lower import lowering, names
 from codegen.method import Method
+from codegen.rounded_conditions import rounded_residual
 from codegen.scene.problem import Problem
 from orderconds.tableau.uncertainty import uncertainty
 
@@ -80,6 +82,33 @@ def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOr
             expected="coefficients with more digits",
         )
     return _certified(method, order)
+
+
+def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision, scene: Problem) -> str:
+    """Return a sentence for a header: how well the order conditions hold at the rounded coefficients."""
+    from orderconds import families
+
+    lowered = lowering(method.family)
+    family = families.get(order.classical) if order.classical else lowered.conditions(method, scene)
+    residual = rounded_residual(method, family, order.order, target)
+    rounded = f"the coefficients rounded to {target.name} precision"
+    if residual is None:
+        return f"the order conditions were not evaluated at {rounded}: there are too many conditions"
+    how = f"to {upwards(residual)}" if residual else "exactly"
+    return f"the order conditions hold {how} at {rounded}"
+
+
+def upwards(x: float) -> str:
+    """Return a positive number with two digits, rounded up.
+
+    >>> upwards(1.01e-16), upwards(2e-5)
+    ('1.1e-16', '2.0e-05')
+    """
+    nearest = f"{x:.1e}"
+    if float(nearest) >= x:
+        return nearest
+    digits, _, exponent = nearest.partition("e")
+    return f"{float(f'{float(digits) + 0.1:.1f}e{exponent}'):.1e}"
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:

@@ -16,10 +16,12 @@ from typing import Any
 
 from codegen import scenes
 from codegen.artifact import Artifact, digest
-from codegen.certify import CertifiedOrder, certified_order
+from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
 from codegen.error_estimate import order_of_estimate
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
+from codegen.ir.precision import DOUBLE, Precision
+from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, operations
@@ -33,8 +35,6 @@ from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
-from codegen.run.precision import DOUBLE
-from codegen.run.precision import precision as known_precision
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
 from codegen.scene.momentum_frame import with_frame
@@ -123,8 +123,8 @@ def compile_method(
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
-    estimated = order_of_estimate(method, scene) if method.adaptive else 0
     lowered = lower(scene, method)
+    estimated = order_of_estimate(method, scene) if method.adaptive else 0
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates = []
     for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
@@ -212,7 +212,7 @@ def emit_compiled(
     options = [f"--prefix {chosen}"] if prefix else []
     words = ["orderconds emit", quoted(named["scene"]), "--method", quoted(named["method"])]
     words += ["--target", target, *options, *options_of(compiled, precision), "-o", "."]
-    recipe = recipe_of(compiled, order, " ".join(words), single)
+    recipe = recipe_of(compiled, order, " ".join(words), known_precision(precision))
     about = {
         "scene": scene.name,
         "method": method.label,
@@ -238,20 +238,23 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    options += [f"--parameter {p}={value}" for p, value in scene.fixed]  # for an input: its default
+    # If a fixed parameter is also a run-time argument, the value is the default of the argument.
+    options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
 
-def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, single: bool) -> Recipe:
+def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: Precision) -> Recipe:
     """Return the content of the header of a module."""
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
+    single = target is not DOUBLE
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
             ("method", f"family {method.family_label}, tableau {method.tableau.name}"),
             ("source", method.tableau.source),
             ("order", order.text()),
+            ("digits", rounding_of_digits(method, order, target, scene)),
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),

@@ -164,7 +164,8 @@ class Integrator(ABC):
         """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
 
         TypeError is raised for a module without an error estimate (``emit --adaptive``). StepFailed is raised
-        if a step fails, and with the status ``LIMIT`` if ``limit`` steps do not reach the end.
+        if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not reach the
+        end.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with --adaptive")
@@ -270,7 +271,7 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            self._ffi.dlclose(self._library)  # an open library would hide a rebuilt one of the same name
+            self._ffi.dlclose(self._library)  # an open library would hide a rebuilt library of the same name
             raise
 
     def _call(
@@ -304,7 +305,8 @@ class CompiledIntegrator(Integrator):
         if status != Status.OK:
             why = reason(status, self._block(counted), span[2])
             if status == Status.BAD_STEP:
-                why = "from {} to {} by {} with rtol = {}, atol = {}".format(*span, *tolerances)
+                given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
+                why = f"expected finite numbers and no negative tolerance, found {given}"
             raise begun.failed(status, accepted[0], final, why)
         return Arrival(final, t[0], h[0], accepted[0], rejected[0])
 
@@ -417,7 +419,7 @@ def reason(status: int, block: str, h: float) -> str:
         case Status.NOT_CONVERGED:
             return f"{block} did not converge"
         case _:
-            return f"{block} met a number that is not finite" if block else "the new state is not finite"
+            return f"{block} computed a number that is not finite" if block else "the new state is not finite"
 
 
 def like(state: State, values: Sequence[Any]) -> State:

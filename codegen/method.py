@@ -24,7 +24,7 @@ PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 
 @dataclass(frozen=True)
 class Method:
-    """A family, its ``cutoff`` if the family has one, and the tableau with the coefficients.
+    """A family, its ``cutoff`` (the number of brackets of dexp^{-1}) if it has one, and the tableau.
 
     ``adaptive`` adds the result of the embedded method to each step, for an error estimate.
     """

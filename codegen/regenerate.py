@@ -109,7 +109,7 @@ def compare(directory: Path, files: dict[str, str]) -> list[Difference]:
 def _holds(path: Path, content: bytes) -> bool:
     try:
         return content_of(path, limit=len(content)) == content
-    except OSError:  # for example, the file is larger
+    except OSError:  # for example, the file is larger than the expected content
         return False
 
 

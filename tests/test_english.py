@@ -19,7 +19,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("orderconds", "codegen")
-PAGES = ("README.md", "CONTRIBUTING.md")
+PAGES = ("README.md", "CONTRIBUTING.md", "docs/promises.md")
 
 SHORTEN = "Shorten the critical path after each function call."
 PHRASES = {

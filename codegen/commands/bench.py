@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     "-t",
     "targets",
     multiple=True,
-    help="A target (orderconds list targets), by default c; may be repeated.",
+    help="A target (see orderconds list targets), by default c; may be repeated.",
 )
 @click.option(
     "--against",
@@ -56,11 +56,11 @@ def command(
 ) -> int:
     """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and time them.
 
-    --adaptive accepts methods with an embedded row, such as ambient:dop853, rkmk(3):dormand_prince5 or
-    ambient:radau2a3, and runs them with step-size control. Peers: scipy-dop853, scipy-radau, scipy-lsoda,
-    heyoka, diffrax, c-dop853, c-rk4-projected; a group contains only installed peers. With -o an interrupted
-    measurement continues when the command is repeated. A method or peer that fails has a row with the reason.
-    The exit status is 1 if a method or peer has no successful run.
+    --adaptive accepts methods whose tableau has an embedded row for an error estimate, such as
+    ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control. Peers:
+    scipy-dop853, scipy-radau, scipy-lsoda, heyoka, diffrax, c-dop853, c-rk4-projected; a group contains only
+    installed peers. With -o an interrupted measurement continues when the command is repeated. A method or
+    peer that fails has a row with the reason. The exit status is 1 if a method or peer has no successful run.
     """
     from codegen.lab.efficiency.bench import bench
     from codegen.printers import DEFAULT

@@ -17,13 +17,13 @@ if TYPE_CHECKING:
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
-@click.option("--target", help="A target (orderconds list targets), or interpreter; by default c.")
+@click.option("--target", help="A target (see orderconds list targets) or interpreter; by default c.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: compare orders on built-in scenes, in 50 digits, with the claims; give no SCENE.",
+    help="strict: on built-in scenes, compare orders measured in 50 digits with the claims; give no SCENE.",
 )
 @click.option(
     "--stated", type=click.IntRange(1, 20), help="The order that the observed order is compared with."

@@ -40,16 +40,20 @@ if TYPE_CHECKING:
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
 @click.option(
-    "--jacobian", is_flag=True, help="Emit the derivative of a step with respect to the state as well."
+    "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
 @click.option(
-    "--adaptive", is_flag=True, help="Emit a run with step-size control by the embedded row as well."
+    "--adaptive",
+    is_flag=True,
+    help="Also emit a run with step-size control; the embedded row of the tableau estimates the error.",
 )
-@click.option("--precision", default="double", help="double (the default) or single.")
+@click.option(
+    "--precision", default="double", help="Floating-point precision: double (the default) or single."
+)
 @click.option(
     "--solver",
     default="auto",
-    help="newton, simplified-newton, fixed-point or auto (the default: the cheapest).",
+    help="Solver of implicit stages: newton, simplified-newton, fixed-point, auto (default: cheapest).",
 )
 @click.option(
     "--explain",
@@ -79,9 +83,9 @@ def command(
     module.
     """
     from codegen.emitter import bare, compile_method, emit_compiled
+    from codegen.ir.precision import precision as known_precision
     from codegen.printers import DEFAULT
     from codegen.printers import target as known_target
-    from codegen.run.precision import precision as known_precision
 
     if output is None and not (explain or as_json):
         raise click.UsageError("-o DIR is missing: the folder to write to (or give --explain or --json)")
@@ -141,7 +145,7 @@ def explanation(compiled: Compiled) -> str:
 
 
 def solvers_of(compiled: Compiled) -> list[str]:
-    """Return how each block is solved, followed by the figures of every solver that was considered."""
+    """Return the solver of each block, followed by a line on every solver that was considered."""
     return [
         line for choice in compiled.solvers for line in (choice.text(), *map("  {}".format, choice.compared))
     ]

@@ -46,10 +46,10 @@ def command(
 
     Deviations are relative to the size of the quantity. The column "law" contains "lost" if the deviation
     reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if it grows
-    but the interval of the slope contains zero. For quantities that a method conserves exactly, the growth of
-    rounding errors is measured: their root mean square over several initial states, and its exponent in the
-    number of steps, with and without compensated summation. The exit status is 1 if a run ends early or a
-    method fails.
+    but the confidence interval of the slope contains zero. For quantities that a method conserves exactly,
+    the growth of rounding errors is measured: their root mean square over several initial states, and its
+    exponent in the number of steps, with and without compensated summation. The exit status is 1 if a run
+    ends early or a method fails.
     """
     from codegen import scenes
     from codegen.emitter import compile_method

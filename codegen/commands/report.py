@@ -17,16 +17,25 @@ from orderconds.commands.variadic import Variadic
 @click.argument("scenes", nargs=-1, metavar="[SCENE]...")
 @click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
 @click.option("--adaptive", multiple=True, help="Methods to run with step-size control as well.")
-@click.option("--against", "-a", "peers", multiple=True, help="Peers, as for bench.")
+@click.option("--against", "-a", "peers", multiple=True, help="Other integrators (peers), as for bench.")
 @click.option(
-    "--only", "parts", multiple=True, help="Measurements, see `orderconds list measurements`; all by default."
+    "--only",
+    "parts",
+    multiple=True,
+    help="A measurement to make (see `orderconds list measurements`); all by default.",
 )
 @click.option("--all", "everything", is_flag=True, help="Every scene of the gallery.")
 @click.option(
-    "--quick", "effort", flag_value="quick", help="Short runs, no stiff variants: seconds per scene."
+    "--quick",
+    "effort",
+    flag_value="quick",
+    help="Make short runs and omit stiff variants: a scene takes seconds.",
 )
 @click.option(
-    "--full", "effort", flag_value="full", help="All peers, a million steps: many minutes per scene."
+    "--full",
+    "effort",
+    flag_value="full",
+    help="Include all peers and runs of a million steps: a scene takes many minutes.",
 )
 @click.option(
     "--output", "-o", type=FOLDER, metavar="DIR", required=True, help="The folder to write index.html to."

@@ -87,7 +87,9 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequence[str]) -> Expr:
-    """Return row.z + constant as a formula in the space of s."""
+    """Return row.z + constant as an expression in the expression space of s; ``names`` are the symbols of
+    z.
+    """
     space = s.space
     total = space.const(Number.rational(*constant.as_integer_ratio()))
     for x, name in zip(row, names, strict=True):

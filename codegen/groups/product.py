@@ -37,8 +37,8 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation):
     def parts(self, x: Vector[S]) -> tuple[Vector[S], ...]:
         """Return the factors' coordinates of an element of the group, of the algebra, or of its dual.
 
-        The length of x distinguishes group and algebra. If both have the same length, so have those of every
-        factor.
+        The length of x decides whether x is split as an element of the group, or of the algebra or its dual.
+        If both lengths are equal for the product, they are equal for every factor, and both splits agree.
         """
         sizes = [f.size if len(x) == self.size else f.dim for f in self.factors]
         pairs = zip(accumulate(sizes), sizes, strict=True)

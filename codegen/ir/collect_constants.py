@@ -65,14 +65,15 @@ def _operations(roots: Sequence[Expr], still: set[int]) -> int:
 
 
 def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int, int]]:
-    """Return the powers (1/sqrt x)^n to rewrite: those of roots of which only odd powers n >= 3 are read.
+    """Return the powers (1/sqrt x)^n to rewrite: all powers of each 1/sqrt x of which only odd powers n >= 3
+    are read.
 
     The result maps the node number of a power to the pair (node number of 1/sqrt x, exponent n). Numeric
     factors are ignored. Subexpressions of ``kept`` are skipped.
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and its reader; a root is read from outside, so its reader is None.
+    # Pairs of a node and its reader; a result is read by the caller, so its reader is None.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]

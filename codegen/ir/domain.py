@@ -147,7 +147,7 @@ class FloatDomain:
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         # Comparisons with a NaN are false, so without this test the iteration would go on to its limit.
         if not math.isfinite(change):
-            raise NotConverged("a fixed-point iteration left the finite numbers")
+            raise NotConverged("a fixed-point iteration computed a number that is not finite")
         # The test is relative to the largest unknown: small unknowns are no more accurate than the sums that
         # contain them.
         scale = max(map(abs, old), default=0.0)

@@ -124,7 +124,7 @@ class Space:
             if value.space is not self:
                 # Node numbers of two spaces are unrelated: mixing
                 # them would intern different expressions as one.
-                raise ValueError("expressions of two spaces meet")
+                raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
 

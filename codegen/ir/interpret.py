@@ -78,18 +78,33 @@ def interpret(
             # near is a queue: each block removes the first entry and appends its solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
-            # Fixed-point iteration is tried first: where it contracts, its result is accurate to rounding,
-            # and it needs no difference quotients.
-            patience = getattr(domain, "patience", limit) if newton else limit
-            try:
-                _iterate(statement, env, domain, run, min(limit, patience), expected)
-            # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
-            except (ArithmeticError, ValueError):
-                if not newton or not hasattr(domain, "increment"):
-                    raise
-                _correct(statement, env, _differenced(domain), run, limit)
+            _fixed_point_first(statement, env, domain, run, limit, expected, newton)
             expected.update((unknown, env[unknown]) for unknown in statement.unknowns)
     return {name: env[var] for name, var in program.outputs}
+
+
+def _fixed_point_first(
+    block: Solve,
+    env: Env,
+    domain: Domain,
+    run: Callable[[Assign], None],
+    limit: int,
+    expected: Env,
+    newton: bool,
+) -> None:
+    """Solve a block by fixed-point iteration and, if this fails and ``newton`` is true, by Newton's method.
+
+    Where the fixed-point iteration contracts, its result is accurate to rounding, and it needs no difference
+    quotients.
+    """
+    patience = getattr(domain, "patience", limit) if newton else limit
+    try:
+        _iterate(block, env, domain, run, min(limit, patience), expected)
+    # Iterates that diverge may overflow, divide by zero or leave the domain of a root.
+    except (ArithmeticError, ValueError):
+        if not newton or not hasattr(domain, "increment"):
+            raise
+        _correct(block, env, _differenced(domain), run, limit)
 
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
@@ -161,7 +176,7 @@ def _iterate(
             return
         for unknown, image in zip(block.unknowns, block.images, strict=True):
             env[unknown] = env[image]
-    raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
+    raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
 
 
 def _differenced(domain: Domain) -> Differenced:
@@ -226,7 +241,7 @@ def _correct(
             if sharp:
                 return now
             sharp = True  # one more correction, because slow convergence leaves some rounding errors
-    raise NotConverged(f"{block.label} did not settle in {limit} sweeps; the last change was {size}")
+    raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
 
 
 def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:

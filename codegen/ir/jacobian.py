@@ -91,8 +91,8 @@ class _Graph:
     def eliminate(self) -> None:
         """Eliminate every inner vertex, the cheapest first; among equal costs the vertex nearest to the
         results."""
-        # The queue contains -v, so that among equal costs the newest vertex comes first, which is nearest to
-        # the results.
+        # The queue contains -v, so that among equal costs the newest vertex comes first: it is nearest to the
+        # results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         # A vertex may have several entries in the queue, of which the first valid entry counts.

@@ -90,7 +90,7 @@ class Newton:
 
 @dataclass(frozen=True)
 class Loop:
-    """Solve unknowns = images over body until the largest change is at rounding level.
+    """Solve unknowns = images, where ``body`` computes the images, until changes are at rounding level.
 
     ``label`` names the block in messages and statistics ("stage 2"). ``starts`` are evaluated before the
     loop, and are empty if a :class:`Start` computes the first values. Without ``newton`` the change of the
@@ -142,7 +142,7 @@ class Loop:
 
 @dataclass(frozen=True)
 class Start:
-    """unknowns = values over body, if no solutions of earlier steps are known.
+    """Set the unknowns to ``values``, which ``body`` computes, if no solutions of earlier steps are known.
 
     If earlier solutions are known, the unknowns begin at the polynomial through the last solutions,
     extrapolated by one step. With the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1
@@ -261,9 +261,9 @@ class Kernel:
     ``inputs`` names functions of time that the caller supplies, ``samples`` are the times at which they are
     read. ``vary`` is the kernel of the variational equation: its state is the state of this kernel followed
     by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats this
-    kernel for each of its parts, and h and t are those of the part. ``outlined`` are functions that the
-    expressions of the kernel call. With ``carried`` the kernel reads and returns the momentum m of
-    :class:`Carried` in place of mu.
+    kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
+    functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
+    momentum m of :class:`Carried` in place of mu.
     """
 
     name: str

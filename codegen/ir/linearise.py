@@ -96,7 +96,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "pow":
             result = args[0]
             for _ in range(node.payload - 1):
-                # Truncated after each product, so no coefficient of h^2 is formed.
+                # Products are truncated one by one, so no coefficient of h^2 is formed.
                 result = _product(space, result, args[0])
             return result
         case _ if node.payload in EXPANDED:

@@ -26,8 +26,9 @@ ONE = Number.rational(1)
 MOST_TERMS = 400
 """A polynomial with more terms than this is not expanded further.
 
-It bounds the time of the compiler: with 200 or 800 all emitted files stay the same (to verify this, edit the
-number and run ``orderconds regenerate --check``)."""
+The limit bounds the compile time. With 200 or 800 all emitted files stay the same (to verify this, edit the
+number and run ``orderconds regenerate --check``).
+"""
 
 
 class TooLong(ArithmeticError):

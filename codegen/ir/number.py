@@ -110,8 +110,8 @@ class Number:
         if other.ring is QQ:
             ring = self.ring
             return ring, self.element, ring.rational(int(other.element.p), int(other.element.q))
-        message = f"numbers of two fields meet: {self.ring.name} and {other.ring.name}"
-        raise TypeError(message)
+        names = f"{self.ring.name} and {other.ring.name}"
+        raise TypeError(f"numbers of two different fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
         # For balls the sum would be a ball around 0, which no simplification recognises.

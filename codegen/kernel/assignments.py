@@ -1,9 +1,9 @@
 """Expressions in order: assignments for shared or long expressions, loops for blocks of equations.
 
-A loop contains the expressions that depend on the loop's unknowns and that its images need. Expressions that
-do not depend on the unknowns are assigned before the loop. Later statements read body values as computed in
-the last sweep. Starting values have assignments of their own, because a later step starts from earlier
-solutions instead.
+A loop contains the expressions that depend on its unknowns and that a sweep needs. Expressions that do not
+depend on the unknowns are assigned before the loop. Statements after a loop read the values of the last
+sweep. Starting values have separate assignments, because only the first step of a run needs them: later steps
+start from earlier solutions.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from codegen.kernel.equations import WEIGHT, Block
 INLINE = 10
 """Largest number of operations in one assignment: longer expressions get names for their parts.
 
-The number changes the text and not the operations. For vcg:triple_jump on heavy_top 5, 10 and 20 give 265,
+The number changes the text, but not the operations. For vcg:triple_jump on heavy_top 5, 10 and 20 give 265,
 199 and 187 assignments: ``len(list(compile_method("heavy_top", "vcg:triple_jump").kernel.lets()))``."""
 
 
@@ -48,8 +48,8 @@ class Assignments:
             # If the kernel remembers solutions, one statement before all loops starts all of them.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # Before the body: the leading matrix is computed outside the sweeps and must not read body
-            # values.
+            # The leading matrix comes before the body, because it is computed outside the sweeps and must not
+            # read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # Skip corrected values that nothing reads later: they would cost assignments in every sweep.
@@ -58,7 +58,7 @@ class Assignments:
                 if name in read:
                     value = self._place(x, self.body, inside, k)
                     inside.append(Let(name, value))
-            # After the body, because an exact matrix depends on the unknowns and reads body values.
+            # An exact matrix comes after the body, because it depends on the unknowns and reads body values.
             matrix = self._newton(block) if block.matrix and not block.leading else before
             # Newton's last correction changes the unknowns after the body; body values belong to the unknowns
             # before it.
@@ -75,7 +75,7 @@ class Assignments:
                 only_unknowns_read=recomputed,
             )
             self.body.append(loop)
-        # Last, because outputs may read body values of every loop.
+        # The outputs come last, because they may read body values of every loop.
         self.outputs = tuple(self._place(x, self.body, [], -1) for x in self.roots)
         return tuple(self.body)
 
@@ -102,7 +102,7 @@ class Assignments:
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
-        """Return the starting values of all blocks; assign parts that other statements share before them."""
+        """Return the statement that sets all starting values; assign shared subexpressions before it."""
         # The start is skipped if earlier solutions are known, so no other statement may read names defined in
         # it.
         later = {n.id: n for n in walk([*(x for b in self.blocks for x in b.targets()), *self.roots])}
@@ -111,7 +111,8 @@ class Assignments:
         if any(self.level[x.id] >= 0 for x in values):
             raise AssertionError("a block starts from the unknowns of another")
         for node in walk(values):
-            # Shared with the rest of the step: assign it before the start, where every step computes it.
+            # The value is shared with the rest of the step, so it is assigned before the start: every step
+            # computes it there.
             if node.id in later and node.args:
                 self._place(node, self.body, [], -1)
         own: list[Let] = []
@@ -133,14 +134,14 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Whether the later readers of block k cost less than half of one sweep of block k."""
+        """Whether computing all later values that depend on block k costs less than half of its sweep."""
         rest = [*self._later(k), *self.roots]
         # Recomputed values belong to the corrected unknowns: they replace a last sweep at less than half its
         # cost.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
-        """Return the weight of the nodes below roots whose last block is k."""
+        """Return the cost of the operations in ``roots`` that depend on block k and on no later block."""
         # Nodes that do not depend on block k, or depend on a later block, are computed once in either case.
         nodes = (n for n in walk(roots) if self.level[n.id] == k and n.args)
         return sum(WEIGHT.get(n.op, 1) for n in nodes)
@@ -154,15 +155,16 @@ class Assignments:
                 self.done.pop(node.id, None)
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
-        """Return root with every named part replaced by its symbol; append the assignments of new names."""
-        # Iterative, because expressions are deeper than Python's recursion limit.
+        """Return ``root`` with every named subexpression replaced by its symbol; append new assignments."""
+        # The traversal is iterative, because expressions are deeper than Python's recursion limit.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue
             # Loop-invariant code motion: only nodes that depend on the unknowns of this loop stay inside.
             target = inner if loop >= 0 and self.level[node.id] == loop else outer
             args = tuple(self.done[a.id] for a in node.args)
-            # Built without simplification, so that the value is rounded like the shared expression.
+            # The node is built without simplification, so that its value is rounded like the shared
+            # expression.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
             # A value from outside the loop needs a name even with one reader, else it would be computed

@@ -81,7 +81,7 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return the transformations of the momentum by a run, None if a run needs none."""
+        """Return how a run transforms the momentum at its beginning and end; None if it does not."""
         # A run transforms nothing if the state contains momenta of the body, or if each step transforms them.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None

@@ -1,7 +1,7 @@
 """The choice among variants of a group: all are compiled, and the kernel with the shortest step is kept.
 
-A column of a rotation matrix is the cross product of the other two columns. Which columns the scene reads
-decides which column is best computed as a cross product, or whether all three are rotated.
+A column of a rotation matrix is the cross product of the other two columns. A variant computes one column by
+this product, or rotates all three. Which variant is fastest depends on the columns that the scene reads.
 """
 
 from __future__ import annotations
@@ -20,22 +20,22 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""The operations that a function call counts as; chosen with ``benchmarks/emitted.py``.
+"""A function call counts as this many operations; chosen with ``benchmarks/emitted.py``.
 
-With 20 all emitted files stay the same, with 5 those of five explicit methods change. To repeat, edit it and
-type ``orderconds regenerate --check``."""
+With 20, all emitted files stay the same. With 5, the files of five explicit methods change. To repeat this
+comparison, edit the value and type ``orderconds regenerate --check``."""
 
 WIDTH = 8
-"""Independent operations that a processor completes during one addition.
+"""The number of independent operations that a processor completes during one addition.
 
-Chosen with ``benchmarks/emitted.py``. With 16 all emitted files stay the same, with 4 those of
-``rkmk:rk4`` on free_rigid_body and of one splitting change; repeat it as for :data:`CALL`."""
+Chosen with ``benchmarks/emitted.py``. With 16, all emitted files stay the same. With 4, the files of
+``rkmk:rk4`` on free_rigid_body and of one splitting change. Repeat the comparison as for :data:`CALL`."""
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
     """Return a program's kernel, compiled for the variant of the group that gives the shortest step.
 
-    Only explicit programs of flows, and fields on T*G, have variants of the group.
+    Variants are compared only for explicit programs that contain flows or integrate a field on T*G.
     """
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
@@ -43,32 +43,34 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     # Without flows all variants give the same columns; only the order of constant factors is tried.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    parted = None if scene.inputs else part(program, scene)  # inputs are sampled step by step
-    # The core is the part that runs in every step, so only the core is compared.
+    # Run-time inputs are sampled in every step, so no flow is deferred if the scene has any. The core is the
+    # step without its deferred flows; only the core is computed in every step, so only the core is compared.
+    parted = None if scene.inputs else part(program, scene)
     core = program if parted is None else parted.core
-    # Compiled and compared, not predicted: the common subexpressions of the scene decide which is shortest.
+    # All variants are compiled and compared, because the common subexpressions of the scene decide which is
+    # shortest.
     candidates: list[tuple[Kernel, Problem, int]] = []
     # Each variant is compiled twice: with reordering alone, and with the critical path shortened.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
             candidates.append((to_kernel(core, problem, chains=chains), problem, chains))
-    # Compared by identity, because two candidates may have equal kernels.
+    # Kernels are compared by identity, because two candidates may have equal kernels.
     best = _shortest([kernel for kernel, _, _ in candidates])
     kernel, problem, chains = next(candidate for candidate in candidates if candidate[0] is best)
     return kernel if parted is None else with_deferred(kernel, parted, problem, chains)
 
 
 def _shortest(kernels: Sequence[Kernel]) -> Kernel:
-    """Return the kernel with the shortest step; if some kernels have outlined functions, only these count."""
+    """Return the kernel with the shortest step; compare only outlined kernels if there are any."""
     # The time of a step that is long enough for outlining is limited by the instruction cache, not by
     # latency.
     return min([kernel for kernel in kernels if kernel.outlined] or kernels, key=time)
 
 
 def time(kernel: Kernel) -> tuple[float, int]:
-    """Return an estimate of a step's time in additions, and the step's number of operations for ties."""
+    """Return a step's estimated time, in additions, and its number of operations, which decides ties."""
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
-    # The sum of a latency bound and a throughput bound: a simple model of the time of a step.
+    # A simple model of the time of a step is the sum of a latency bound and a throughput bound.
     return chain(kernel) + work / WIDTH, work

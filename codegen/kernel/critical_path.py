@@ -21,22 +21,24 @@ TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1,
 
 On x86 processors additions and products of doubles take about four cycles, a division about 14. The latency
 of a function is that of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
-matter little: a division of 2 or 8 changes none of five explicit methods of the gallery, and a call of 3 or
-12 one of them, splitting:blanes_moan_rkn4 on fast_heavy_top, which keeps its number of operations."""
+matter little: with a division of 2 or 8, none of five explicit methods of the gallery changes. With a call of
+3 or 12, only splitting:blanes_moan_rkn4 on fast_heavy_top changes, and keeps its number of operations."""
 
 ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""How much shorter than the longest chain a chain may be and still be rewritten, in units of an addition.
+"""A chain is rewritten if it is at most this much shorter than the longest chain, in units of an addition.
 
-If a chain of nearly the longest length is not rewritten, it becomes the critical path. The value hardly
+A chain of nearly the longest length would otherwise become the critical path. The value hardly
 matters: with 0, 2 or 4 all emitted files stay the same; without a limit the splittings of fast_heavy_top
 change. To repeat this, edit the value and type ``orderconds regenerate --check``.
 """
 
 Sum = dict[Expr | None, tuple[int, Expr, Expr]]
-"""A sum over late values (None: no such factor), each multiplied by sign, steps and constants, the rest."""
+"""A sum of products: for each late value, a sign, the fixed factors, and the other factors.
+
+The key None belongs to the product without a late value."""
 
 
 def chain(kernel: Kernel) -> int:
@@ -84,7 +86,7 @@ def run(roots: Sequence[Expr], invariant: frozenset[str], spread: bool = True) -
 
 @dataclass
 class _Chains:
-    """Expressions, with the time at which each value is ready and the longest chain of its readers."""
+    """Expressions, with the time at which each value is ready and the longest chain that follows it."""
 
     roots: tuple[Expr, ...]
     invariant: frozenset[str]
@@ -102,7 +104,7 @@ class _Chains:
         self.nodes = list(walk(self.roots))
         for node in self.nodes:
             self._measure(node)
-        # Backward, users come before arguments: find the longest chain that follows each node.
+        # In backward order users come before arguments: find the longest chain that follows each node.
         for node in reversed(self.nodes):
             # All users have been visited, so the chain that follows this node is final.
             after = self.follow.setdefault(node.id, 0) + TIMES[node.op]
@@ -115,7 +117,8 @@ class _Chains:
         # late.
         self.level[node.id] = max((self.level[a.id] for a in node.args), default=0) + (node.op in ATOMS)
         self.ready[node.id] = max((self.ready[a.id] for a in node.args), default=0) + TIMES[node.op]
-        # Constant in a run: a compiler moves products of such values out of the loop over the steps.
+        # A value is fixed if it is constant in a run: a compiler moves products of such values out of the
+        # loop over the steps.
         own = node.op == "const" or (node.op == "sym" and node.payload in self.invariant)
         self.fixed[node.id] = all(self.fixed[a.id] for a in node.args) if node.args else own
 
@@ -124,7 +127,7 @@ class _Chains:
         ends = self._ends() if self.spread else frozenset()
         for node in self.nodes:
             args = [self.new[a.id] for a in node.args]
-            # Without simplification, so that a node that is not rewritten keeps its operation and its
+            # The node is built without simplification: if it is not rewritten, it keeps its operation and its
             # rounding.
             plain = node.space._make(node.op, tuple(args), node.payload) if args else node
             plain = self._combined(self._known(plain))
@@ -190,7 +193,7 @@ class _Chains:
                 return _scaled(
                     self._sum(b, level), 1, *((factor, one) if self.fixed[a.id] else (one, factor))
                 )
-        # Not linear in other late values: the node is a late value itself.
+        # The node is not linear in other late values, so it is a late value itself.
         return {self.new[node.id]: (1, one, one)}
 
     def _joined(self, a: tuple[int, Expr, Expr], b: tuple[int, Expr, Expr]) -> tuple[int, Expr, Expr]:
@@ -208,7 +211,7 @@ class _Chains:
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
-            # As in Huffman coding: adding the two earliest terms first gives the earliest sum.
+            # Adding the two earliest terms first gives the earliest sum, as in Huffman coding.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
             # A subtraction includes the sign at no cost; only a sum of two negative terms needs a negation at

@@ -2,7 +2,7 @@
 
 If a step of a splitting ends with the flow that the next step begins with, these two flows are joined. The
 leading flow is then applied once before the first step. A part that commutes with every other part is applied
-once for all steps. Both are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
+once for all steps. Both changes are exact; :class:`codegen.ir.kernel.Deferred` states the identities.
 """
 
 from __future__ import annotations
@@ -24,7 +24,12 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Parted:
-    """A program split into three: ``core`` reads :data:`LEAD`, ``finish`` :data:`ELAPSED`; None: no flows."""
+    """A program split into three; ``begin`` or ``finish`` is None if it would contain no flows.
+
+    ``core`` reads the duration :data:`LEAD`, ``finish`` the duration :data:`ELAPSED`. ``last`` is the
+    duration, in units of h, of the flow that ends the last step of a run. ``later`` is the duration of the
+    flow that joins two steps.
+    """
 
     begin: Program | None
     core: Program
@@ -38,7 +43,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # Commuting is tested at sample points: the bracket of two commuting formulas need not simplify to zero.
+    # Commuting is tested at sample points, because the bracket of two commuting formulas need not simplify to
+    # zero.
     commute = commuting(scene)
     # If a flow has a duration other than h, or a stage time, its place in the step matters.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
@@ -51,7 +57,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # One pair of durations for all, because ``_joined`` keeps only flows with the same durations.
+    # All joined flows have the same pair of durations, because ``_joined`` keeps only flows with the same
+    # durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
     first: list[Timed] = [(kept[i], None) for i in sorted(heads)]
@@ -79,15 +86,18 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Whether a flow has duration h, as each part of a consistent splitting does, proved or not."""
-    # Compared in doubles: the ball of a sum that equals one rounds to one, but cannot prove the equality.
+    # The duration is compared in doubles, because a ball around one cannot prove equality, but is rounded to
+    # one.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable of its duration if the duration is not that of the program."""
+"""A flow, and the variable that replaces its duration; None keeps the duration of the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
-"""Index of a flow at the beginning, index of a flow at the end, the latter's duration alone and joined."""
+"""The index of a first flow, the index of a last flow, the duration of the last flow, and the duration of
+both flows joined.
+"""
 
 
 def _joined(

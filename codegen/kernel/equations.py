@@ -2,7 +2,8 @@
 
 The image of an unknown u is the right-hand side g(u) of its equation u = g(u). Newton's matrix 1 - g' is
 differentiated from the expressions of the images. After the loop, later statements read the unknowns in place
-of the images. Other later values are recomputed from the unknowns if that costs less than half a sweep.
+of the images. Other values that are read later are recomputed from the unknowns if this costs less than half
+a sweep.
 """
 
 from __future__ import annotations
@@ -24,21 +25,22 @@ from codegen.passes.rewrite import uses
 MANY = 12
 """Above this number of unknowns, step-constant subexpressions of Newton's matrix are not expanded.
 
-With few unknowns, kept values take registers that the sweeps need. With many, expanded values take lines.
-Near the limit the choice matters little: vcf:cf4 on dipole has 12 unknowns, the same operations with either,
-and 439 assignments kept or 472 expanded (``len(list(compile_method("dipole",
-"vcf:cf4").kernel.lets()))``)."""
+With few unknowns, unexpanded values occupy registers that the sweeps need. With many unknowns, expanded
+values make the text longer. Near the limit the choice matters little: vcf:cf4 on dipole, with 12 unknowns,
+has the same operations in both forms, and 439 assignments without expansion or 472 with it. To count them,
+evaluate ``len(list(compile_method("dipole", "vcf:cf4").kernel.lets()))``."""
 
 LONGEST_MATRIX = 1500
 """The most operations of an exact matrix of Newton's method; a longer one is replaced by the first order.
 
-A safeguard, far from ordinary matrices: that of vcg:triple_jump on heavy_top has 555 operations, listed in
-the header by ``orderconds emit``, and a limit of 6000 gives the same kernels."""
+Ordinary matrices are far below this safeguard: the matrix of vcg:triple_jump on heavy_top has 555 operations,
+as its emitted header states. A limit of 6000 gives the same kernels."""
 
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations in additions or products; other operations cost one.
 
-Rough latencies. They enter comparisons by a factor of two alone, so exact values do not matter."""
+These are rough latencies. They only decide whether one cost is below half of another, so exact values do not
+matter."""
 
 
 @dataclass(frozen=True)
@@ -126,7 +128,7 @@ def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
 
 def _read_after(block: Solve, program: Program) -> frozenset[Var]:
     """Return the variables that a program reads after a block."""
-    # The statements after this block: what they or the outputs read is read after the block.
+    # Variables that later statements or the outputs read are read after this block.
     rest = program.body[program.body.index(block) + 1 :]
     return frozenset(uses(replace(program, body=rest)))
 
@@ -167,7 +169,7 @@ def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
 
 
 class Solved:
-    """Rewrites expressions that are read after a block, where the block's images equal its unknowns."""
+    """Replaces the images of a solved block by its unknowns, to which they are then equal."""
 
     def __init__(self, block: Block) -> None:
         self.space: Space = block.images[0].space

@@ -35,7 +35,7 @@ AT_ZERO = {
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
     """Return 1 - g' for the images g, by rows."""
     space = images[0].space
-    # Computed in the expression space of the images, so that the derivatives share their subexpressions.
+    # The derivatives are formed in the expression space of the images, so that they share subexpressions.
     rows = jacobian(images, unknowns)
     units = [[space.one if i == j else space.zero for j in range(len(rows))] for i in range(len(rows))]
     return tuple(tuple(e - x for e, x in zip(*pair, strict=True)) for pair in zip(units, rows, strict=True))
@@ -71,9 +71,10 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
-    # Evaluation, not substitution: expressions that become constant at h = 0 are simplified.
+    # The roots are evaluated and not substituted, so that expressions that become constant at h = 0 are
+    # simplified.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
-    # Sorted, so that node numbers do not depend on hashes.
+    # The names are sorted, so that node numbers do not depend on hashes.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
     return evaluate(roots, _AtZero(space), values)
 
@@ -87,7 +88,7 @@ def inverse(rows: Rows) -> Rows:
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor
-    # One division and n^2 products, because a division costs several products.
+    # The inverse takes one division and n^2 products, because a division costs several products.
     factor = space.one / determinant
     return tuple(tuple(factor * cofactors[j][i] for j in range(n)) for i in range(n))
 

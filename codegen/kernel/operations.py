@@ -44,7 +44,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
                 sweep, label = count(statement.body, statement.images), statement.loop.label
                 if statement.matrix:
                     n = len(statement.loop.unknowns)
-                    # A stored inverse times the residual: n^2 products and n (n - 1) additions.
+                    # The product of a stored inverse and the residual takes n^2 products and n (n - 1)
+                    # additions.
                     sweep = _plus(sweep, {"add": n * (n - 1), "mul": n * n})
                     total[matrix_of(label)] = count(statement.newton, statement.matrix)
                 total[label] = sweep
@@ -65,7 +66,7 @@ def matrix_of(label: str) -> str:
 
 
 def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
-    """Format counts as text, a line for the step and one for each block's sweep.
+    """Format counts as text: a line for the step, and a line for the sweep of each block.
 
     >>> sentences({"step": {"add": 2, "stumpff_12": 1}, "stage 1": {"mul": 3}})
     ['2 add, 1 stumpff_12 a step', '3 mul a sweep of stage 1']
@@ -74,7 +75,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
     for block, numbers in counts.items():
         each = ", ".join(f"{n} {name}" for name, n in numbers.items()) or "none"
         if block == START:
-            lines.append(f"{each} an initial guess, in the first step of a run")
+            lines.append(f"{each} for an initial guess, in the first step of a run")
         elif block == STEP:
             lines.append(f"{each} a step")
         elif block.startswith("matrix of "):
@@ -119,7 +120,7 @@ def _counted(
             roots.append(statement.value)
     for root in roots:
         total = _plus(total, _operations_in_text(root))
-    # Arithmetic operations first, then calls in alphabetical order.
+    # Arithmetic operations come first, then calls in alphabetical order.
     first = ("add", "mul", "div")
     return {k: total[k] for k in (*first, *sorted(set(total) - set(first))) if k in total}
 

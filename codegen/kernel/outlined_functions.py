@@ -1,7 +1,8 @@
-"""Outlined functions: trees of operations that the expressions of a kernel call.
+"""Outlined functions: calls of one function replace a tree of operations that a step repeats.
 
-The arguments of a function are the inputs of a tree, and the coefficients of the tree's sums unless a
-coefficient is the same constant in every call. The function computes only those results that are read.
+The arguments of a function are the inputs of the tree and the coefficients of the sums in the tree. An input
+or coefficient that is the same constant in every call is no argument. A function computes only those results
+of the tree that are read.
 """
 
 from __future__ import annotations
@@ -48,16 +49,18 @@ class _Inputs:
 
 def function(
     name: str, trees: Trees, tree: Tree, scene: Problem, read: Sequence[int], fixed: Sequence[Expr | None]
-) -> tuple[Function, list[int]]:
-    """Return the function of a tree's shape, and the positions of the tree inputs that are its arguments.
+) -> tuple[Function, list[int], list[str]]:
+    """Return the function for a tree, and its arguments: positions of inputs of the tree, then parameters.
 
+    The parameters are those of the scene that operations of the tree read at run time.
     ``read`` are the indices of the results that the function computes. ``fixed`` has, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
     None.
     """
     domain = trees.domain
     inputs = _Inputs(name, domain.space, fixed)
-    # Executed again on symbols, because the expressions of the step are simplified for their operands.
+    # The tree is executed again with symbols as inputs, because the expressions of the step are already
+    # simplified for their operands.
     given, wires = trees.wiring(tree)
     words = _words([v.kind for v in given])
     values: list[Value] = []
@@ -97,7 +100,9 @@ def function(
     outputs = tuple(ends[k] for k in read)
     # An argument may be read by unused results only; such arguments are dropped.
     taken = inputs.read(outputs)
-    return Function(name, tuple(inputs.symbols[p].payload for p in taken), (), outputs, texts[-1]), taken
+    own_inputs = [inputs.symbols[p].payload for p in taken]
+    parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
+    return Function(name, (*own_inputs, *parameters), (), outputs, texts[-1]), taken, parameters
 
 
 def _words(kinds: Sequence[Kind]) -> list[str]:
@@ -130,14 +135,14 @@ class WithFunctions:
         return getattr(self.domain, name)
 
     def call(self, callee: str, *args: Value) -> Value:
-        """Return one result of a function, or a function's value."""
+        """Return one result of an outlined function, or the value of a library function."""
         name, dot, k = callee.partition(".")
         if not dot:
             return self.domain.call(callee, *args)
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # Evaluated in this domain, because functions may call functions.
+            # The body is evaluated in this domain, because functions may call other functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value
@@ -161,7 +166,7 @@ def _sum(
 def rewritten(
     roots: Sequence[Expr], calls: Mapping[int, tuple[str, int, list[Expr]]], space: Space
 ) -> list[Expr]:
-    """Return the roots with nodes replaced by results of calls, whose arguments are rewritten as well."""
+    """Return the roots with nodes replaced by calls; the arguments of the calls are rewritten, too."""
     new: dict[int, Expr] = {}
     for root in roots:
         # Arguments of replaced nodes are rewritten as well. An explicit stack, because recursion would be too

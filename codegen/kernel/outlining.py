@@ -16,7 +16,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from codegen.ir.domain import ExprDomain, FloatDomain
+from codegen.errors import MethodError
+from codegen.ir.domain import ExprDomain, FloatDomain, PreciseDomain
 from codegen.ir.expr import Expr, evaluate, walk
 from codegen.ir.kernel import Function
 from codegen.ir.program import Program
@@ -26,25 +27,28 @@ from codegen.kernel.repeated_trees import Key, Tree, Trees
 from codegen.scene.problem import Problem
 
 LONG, LONG_EXPLICIT = 700, 500
-"""Steps with fewer assignments are not outlined: steps with implicit stages, and explicit steps.
+"""Steps with fewer assignments are not outlined; the limits are for implicit steps and for explicit steps.
 
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
-dipole has 545 lines, not 2345, and takes a third less time. Twice either number gives the same kernels for
+dipole has 545 lines, not 2345, and takes a third less time. Doubling either limit gives the same kernels for
 nine methods of the gallery. To choose the numbers again, set both to 0 and compare ``orderconds bench
 dipole`` for methods near these lengths."""
 
 WORTH = 0.85
 """The outlined step is used if it has at most this fraction of the assignments.
 
-Calls cost time, too. The value hardly matters: the fractions are 0.23 to 0.5 for ``cg:cg5``, ``vcg:gauss3``
-and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on heavy_top; of one variant of ``cg:cg5`` on
-heavy_top it is 0.86. They are the ratio in the test of WORTH in :mod:`codegen.kernel.translate`."""
+Calls cost time, too. The exact limit hardly matters: the fraction is between 0.23 and 0.5 for ``cg:cg5``,
+``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on heavy_top. It is 0.86 for one
+variant of ``cg:cg5`` on heavy_top. :mod:`codegen.kernel.translate` computes the fraction."""
 
 AGREE = 1e-9
 """Largest relative difference of values that are equal up to rounding.
 
-Outlining keeps nearly all operations: for the methods named at :data:`WORTH` the difference is 1.4e-17 at
-most. A wrong argument or result shows in the leading digits, so any number well between serves."""
+Outlining hardly changes the operations, so the difference is at most 1.4e-17 for the methods named at
+:data:`WORTH`. A wrong argument or result changes the leading digits. Any limit far from both is suitable."""
+
+ATTEMPTS, DIGITS = 8, 60
+"""The number of points for the verification in doubles, and in DIGITS digits if doubles overflow."""
 
 Shape = tuple[Key, tuple[int, ...]]
 """The key of the trees of one function, and the results that are read."""
@@ -67,7 +71,7 @@ class Outline:
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # First, because a call must come before or in the loop to which its operands belong.
+        # The levels come first, because a call must be before or in the loop to which its operands belong.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -109,14 +113,15 @@ class Outline:
                 for x, *others in zip(*inputs, strict=True)
             ]
             # The first tree is the pattern: trees with the same key differ only in operands and coefficients.
-            outlined, places = function(name, self.trees, trees[0], self.scene, key[1], fixed)
+            outlined, places, parameters = function(name, self.trees, trees[0], self.scene, key[1], fixed)
             self.outlined.append(outlined)
+            constant = [self.domain.space.sym(x) for x in parameters]
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
                     # Two trees may share a result, because equal expressions are one node; the first call
                     # computes it.
-                    calls.setdefault(results[out].id, (name, k, [flat[p] for p in places]))
+                    calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
     def _levels(self, roots: Sequence[Expr], owners: Mapping[str, int]) -> None:
@@ -134,7 +139,7 @@ class Outline:
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # In the order of execution, so that functions are numbered by their first call.
+            # The order is that of execution, so that functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -173,7 +178,7 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Whether the read results of a tree depend on the same blocks as the tree's inputs.
+        """Whether those results of a tree that are read depend on the same blocks as its inputs.
 
         The results must also be newer than the inputs: an older node is the result of another operation.
         """
@@ -189,19 +194,28 @@ class Outline:
         """Raise :class:`codegen.ir.verify.IllFormed` if the calls give different values."""
         # Sorted names and fixed sines give the same point in every run.
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
-        for attempt in range(1, 9):
+        for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # Roots of negative numbers or overflow at one point prove nothing; try shorter steps.
-            values |= {x: 0.5**attempt for x in names if x == "h"}  # long steps overflow
+            # Roots of negative numbers or overflow at one point prove nothing, so each attempt has a shorter
+            # step.
+            values |= {x: 0.5**attempt for x in names if x == "h"}
+            domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
+            if attempt > ATTEMPTS:
+                domain = precise = PreciseDomain(0.1, DIGITS)
+                values = {x: precise.context.mpf(v) for x, v in values.items()}
             try:
-                old = evaluate(before, FloatDomain(0.1), values)
-                new = evaluate(after, WithFunctions(FloatDomain(0.1), self.outlined), values)
+                old = evaluate(before, domain, values)
+                new = evaluate(after, WithFunctions(domain, self.outlined), values)
             except (ArithmeticError, ValueError):
                 continue
-            if not all(map(math.isfinite, old)):
+            # abs(x) < inf is false for NaN as well, in both domains.
+            if not all(abs(x) < math.inf for x in old):
                 continue
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
                 raise IllFormed(f"outlining changed the meaning of {self.program.name}")
             return
-        raise IllFormed(f"outlining of {self.program.name} could not be verified")
+        raise MethodError(
+            f"the step of {self.program.name} is finite at no point that was tried",
+            expected="coefficients and parameters of moderate size",
+        )

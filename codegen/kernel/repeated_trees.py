@@ -22,11 +22,11 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 """Operations that are not outlined: they cost next to nothing, or are flows, which are scheduled together."""
 
 NODES = 3
-"""Operations on a line of emitted code, on average over the gallery.
+"""The average number of operations on a line of emitted code, over the gallery.
 
-It only weighs lines against lines; with 2 or 5 all emitted files stay the same (edit it and type
-``orderconds regenerate --check``). Of longer steps, cg:cg5 on dipole has 6611, 6155 and 6467 operations with
-2, 3 and 5, and 471, 454 and 394 assignments."""
+It converts operations to lines. With 2 or 5, all emitted files stay the same (edit it and type
+``orderconds regenerate --check``). Among longer steps, cg:cg5 on dipole has 6611, 6155 and 6467 operations
+with 2, 3 and 5, and 471, 454 and 394 assignments."""
 
 Values = tuple[Expr, ...]
 
@@ -34,7 +34,7 @@ Key = Hashable
 """A value that is equal for trees of one shape."""
 
 PairKey = tuple[Key, Key, Key]
-"""The keys of two trees and of the tree that they are joined to."""
+"""The keys of two trees, and the key of the tree that results from joining them."""
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ class Trees:
         )
 
     def _from_the_whole(self, assign: Assign, args: Sequence[Value]) -> tuple[Assign, Sequence[Value]]:
-        """Return c (d v) as (c d) v: a multiple of a multiple no longer reads the inner multiple."""
+        """Return a multiple c (d v) as (c d) v, which does not read the inner multiple d v."""
         if not assign.is_multiple:
             return assign, args
         ((c, v),), (target,) = assign.terms, assign.targets
@@ -123,21 +123,21 @@ class Trees:
         owner = {i: i for i in trees}
         while True:
             pairs: dict[PairKey, list[tuple[int, int]]] = {}
-            # Computed once per round, because a key requires a walk through the whole tree.
+            # The keys are computed once per round, because each key requires a walk through a whole tree.
             keys = {i: self.key(t) for i, t in trees.items()}
             count: dict[Key, int] = {}
             for key in keys.values():
                 count[key] = count.get(key, 0) + 1
             for i in trees:
                 user = self._only_user(i)
-                # Joined with its only reader, a value is neither computed twice nor returned from the
-                # function.
+                # If a value is joined with its only reader, it is neither computed twice nor returned from
+                # the function.
                 if user is not None and user in owner and owner[user] != i:
                     j = owner[user]
                     # The key of the joined tree is included: equal parts may be connected in different ways.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
-            # Greedy: the kind of pair that saves most lines is joined wherever it occurs.
+            # The choice is greedy: the kind of pair that saves most lines is joined wherever it occurs.
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
@@ -171,7 +171,8 @@ class Trees:
 
     def _size(self, i: int) -> int:
         """Estimate the number of lines of the operation that ends a tree."""
-        # Estimated by name: the number of lines hardly depends on the operands, and walking them is slow.
+        # The estimate depends on the name of the operation only, because the number of lines hardly depends
+        # on the operands, and walking through the operands is slow.
         name = self.executions[i].assign.operation.name
         if name not in self._lines:
             results = [x for value in self.executions[i].results for x in value]
@@ -198,7 +199,7 @@ class Trees:
 
     def _only_user(self, i: int) -> int | None:
         """Return the only reader of an assignment's results, if it is in the same block."""
-        # A set: an operation may read one value twice.
+        # The readers form a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
             return None
@@ -228,7 +229,7 @@ class Trees:
         return list(given), wires
 
     def key(self, tree: Tree) -> Key:
-        """Return the shape of a tree: which coefficients are equal belongs to it, their values do not."""
+        """Return the shape of a tree; it records which coefficients are equal, but not their values."""
         _, wires = self.wiring(tree)
         shape = []
         for i, places in zip(tree.members, wires, strict=True):
@@ -242,7 +243,7 @@ class Trees:
     def useful(self, tree: Tree) -> bool:
         """Whether a tree has enough operations to be worth a call."""
         results = self.results(tree)
-        # Counted between operands and results: the caller computes everything below the operands.
+        # Operations are counted between operands and results, because the caller computes the operands.
         stop = {x.id for x in self.inputs(tree)}
         nodes = sum(1 for n in walk(results, lambda n: n.id in stop) if n.args and n.id not in stop)
         # A call with its arguments takes about four lines, so a shorter function would save nothing.
@@ -260,7 +261,7 @@ class Trees:
             execution = self.executions[i]
             values |= {v: x for v, x in zip(execution.assign.args, execution.args, strict=True) if v in given}
         flat = [x for v in given for x in values[v]]
-        # Coefficients in the order of :func:`distinct`, in which the function expects them.
+        # The coefficients have the order of :func:`distinct`, in which the function expects them.
         scales = [c for i in tree.members for c in distinct(self.executions[i].assign)]
         flat += [self.domain.number(c.value) for c in scales]
         return [*flat, self.domain.h] if any(c.power for c in scales) else flat

@@ -1,6 +1,6 @@
 """Printable statements of a kernel: Stumpff functions of one argument share a call, powers become products.
 
-A target's template sees five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
+There are five kinds of statement: :class:`Assignment`, :class:`SharedCall` (one call, several
 results), :class:`Invocation` (a call of an outlined function), :class:`Beginning` and :class:`Iteration`.
 No statement after a loop reads the names that this module adds inside the loop.
 """
@@ -41,7 +41,7 @@ class SharedCall:
 
     @property
     def function(self) -> str:
-        """The snippet that computes this set, such as ``stumpff_12``."""
+        """The name of the function that computes these orders, for example ``stumpff_12``."""
         return "stumpff_" + "".join(map(str, self.orders))
 
 
@@ -135,7 +135,7 @@ class Arrangement:
         yield from self.errors
 
     def symbols(self) -> frozenset[str]:
-        """Return every symbol that some expression reads; for membership only."""
+        """Return every symbol that some expression reads, in no particular order."""
         return frozenset(n.payload for n in walk(self.expressions()) if n.op == "sym")
 
 
@@ -147,7 +147,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     )
     # Errors are computed together with the outputs, so that they share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # Before all statements: the first call for an argument computes every order that a later statement needs.
+    # The orders are recorded before all statements, because the first call for an argument computes every
+    # order that a later statement needs.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -214,7 +215,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 
 def _taken(kernel: Kernel) -> dict[str, int]:
-    """Return a counter for fresh names that contains every name of the kernel."""
+    """Return the counter of fresh names; its keys are all names of the kernel."""
     # Every name of the kernel counts as used, so that fresh names differ from all of them.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
@@ -226,7 +227,7 @@ def _taken(kernel: Kernel) -> dict[str, int]:
 
 def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
     after = kernel.body[position + 1 :]
-    # A kernel of the statements after this one: its expressions are exactly those that are read later.
+    # The later statements form a kernel, whose expressions are exactly the expressions that are read later.
     rest = Kernel(kernel.name, (), (), after, kernel.outputs, estimate=kernel.estimate)
     return frozenset(n.payload for n in walk(rest.expressions()) if n.op == "sym")
 
@@ -246,8 +247,8 @@ class _Scope:
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
         """Return the statements and values of a nested block; later statements cannot read them."""
-        # A separate scope: these statements may be skipped at run time, so no later statement may use their
-        # names.
+        # The scope is separate, because these statements may be skipped at run time: no later statement may
+        # use their names.
         inner = self.inside([*(let.value for let in lets), *values])
         body = [s for let in lets for s in inner.assign(let, False)]
         rewritten = tuple(inner.rewrite(e) for e in values)
@@ -255,7 +256,7 @@ class _Scope:
 
     def inside(self, expressions: list[Expr]) -> _Scope:
         """Return the scope of a loop body, which can read all names from before the loop."""
-        # A copy, because names from the loop body are not known outside the loop.
+        # The tables are copied, because names from the loop body are not known outside the loop.
         inner = _Scope(self.taken, dict(self.known), outlined=self.outlined)
         inner.expect(expressions)
         return inner
@@ -291,7 +292,8 @@ class _Scope:
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:
                 continue
-            # Rebuilt with the same operations in the same order, so that emitted code rounds like the kernel.
+            # Nodes are rebuilt with the same operations in the same order, so that emitted code rounds like
+            # the kernel.
             args = [self.known[a.id] for a in node.args]
             match node.op:
                 case "pow":

@@ -18,12 +18,13 @@ LONGEST = 64
 """Arguments with more nodes than this are not compared.
 
 Equal angles occur between unknowns of implicit stages; on the gallery their arguments have 12 to 42 nodes.
-Arguments of explicit stages have hundreds or thousands. Limits of 64, 128 and 256 give the same kernels for
-nine methods of the gallery; 32 changes one of them, vcf:cf4 on dipole, from 301 to 286 operations a step."""
+Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the same
+kernels for nine methods of the gallery. With 32, one of them changes: vcf:cf4 on dipole, from 301 to 286
+operations a step."""
 
 
 class SharedArguments(ExprDomain):
-    """Expressions in which Stumpff functions of equal arguments are called with the first of them."""
+    """Expressions in which arguments of Stumpff functions are shared if they are equal as polynomials."""
 
     def __init__(self, space: Space | None = None) -> None:
         super().__init__(space)
@@ -53,7 +54,8 @@ class SharedArguments(ExprDomain):
             polynomial = self.normal.polynomial(argument)
         except TooLong:
             return argument
-        # Compared one by one, because polynomials are dicts and have no hash. A step has few angles.
+        # Angles are compared one by one, because polynomials are dicts and have no hash. This is fast,
+        # because a step has few angles.
         for known, first in self.arguments:
             if known == polynomial:
                 return first

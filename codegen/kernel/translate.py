@@ -48,8 +48,8 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""Treatments of the critical path: none; multiply steps and constants first; order the assignments;
-everything in :mod:`codegen.kernel.critical_path`."""
+"""Treatments of the critical path: none; multiply step sizes and constants first; order the assignments;
+apply all of :mod:`codegen.kernel.critical_path`."""
 
 
 def to_kernel(
@@ -134,14 +134,15 @@ class _Translation:
                 f"{assign.operation.name} on {scene.group.name}: {error}",
                 where=scene.name,
                 expected="a group whose operations have closed forms",
-                hint="this group serves exact series and interpretation",
+                hint="add closed forms to the group, or use the group for exact series only",
             ) from error
         if isinstance(assign.operation, BodyForce):
             # The arguments are not expanded: they already have names, and expansion would lose the sharing.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
-        # An outlined function takes numbers only; reading a signal at a time calls the caller's code.
-        reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)  # signals at a time
+        # An outlined function accepts numbers only, so an operation that samples run-time inputs cannot be
+        # part of it.
+        reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
         # A block is appended after its body, so the number of blocks so far is the number of this block.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
@@ -183,7 +184,8 @@ class _Translation:
             for var in self.env:
                 self.env[var] = solved.value(self.env[var])
                 self.remember(var)
-        # Last, because ``run`` uses the number of earlier blocks as the number of this block.
+        # The block is appended last, because ``run`` uses the number of earlier blocks as the number of this
+        # block.
         self.blocks.append(entered)
 
     def enter(self, block: Solve) -> Block:
@@ -213,9 +215,11 @@ class _Translation:
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
-        # Before expressions are split into assignments, because rewriting chains needs whole expressions.
+        # Chains are rewritten before expressions are split into assignments, because rewriting needs whole
+        # expressions.
         if self.chains in (COMBINED, SHORTENED):
-            # Constant in a run of equal steps: a compiler moves products of these symbols out of the loop.
+            # These symbols are constant in a run of equal steps: a compiler moves products of them out of the
+            # loop.
             constant = frozenset({"h", LEAD, ELAPSED, *self.scene.runtime})
             outputs = critical_path.run(outputs, constant, spread=self.chains == SHORTENED)
         return outputs, lower
@@ -244,7 +248,7 @@ class _Translation:
             # The kernel for a Jacobian contains no error estimate.
             outputs, lower = self.varied(self.variations, outputs), ()
             fields = (*fields, Field(VARIATION, self.variations.names, self.variations.text()))
-        # Subtracted as expressions, so that terms common to both solutions cancel exactly.
+        # The solutions are subtracted as expressions, so that their common terms cancel exactly.
         errors = tuple(x - y for x, y in zip(outputs, lower, strict=True)) if lower else ()
         # Errors are ordered together with the outputs, so that they share assignments.
         body, ends, outlined = self.ordered((*outputs, *errors))
@@ -262,7 +266,7 @@ class _Translation:
         return _sampled(kernel, self.scene, self.domain)
 
     def ordered(self, ends: State) -> tuple[tuple[Let | Start | Loop, ...], State, tuple[Function, ...]]:
-        """Return the body, outputs and functions of the kernel; without functions unless these shorten it."""
+        """Return the body, outputs and functions of the kernel; outline functions if that shortens it."""
         # If an outlined schedule is tried, it may use the names of the first schedule again.
         before = frozenset(self.taken)
         schedule = Assignments(self.blocks, ends, self.hints, self.name, self.variations is None)
@@ -277,7 +281,7 @@ class _Translation:
             shorter, functions = _outlined(self.outline, self.blocks, ends, self.hints, self.name)
             if shorter is not None and _count(shorter.body) + _count(functions) < WORTH * _count(body):
                 schedule, body, outlined = shorter, tuple(shorter.body), functions
-        # Last, because the order depends on the final assignments.
+        # The assignments are ordered last, because the order depends on the final assignments.
         if self.chains in (ORDERED, SHORTENED):
             body = critical_path.ordered([let for let in body if isinstance(let, Let)])
         return body, schedule.outputs, outlined
@@ -308,14 +312,14 @@ def _outlined(
     hints: dict[int, str],
     name: Callable[[str], str],
 ) -> tuple[Assignments | None, tuple[Function, ...]]:
-    """Return the schedule of a step with outlined functions, and the functions; None without repetitions."""
+    """Return the schedule of a step with outlined functions (None if nothing repeats), and the functions."""
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Corrected values that no root reads are dropped: they would only keep calls in use.
+    # Corrected values that no root reads are dropped, because their calls would count as used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
-    # One flat list, so that trees that occur in several blocks are found.
+    # All roots are in one flat list, so that trees that occur in several blocks are found.
     flat += [x for block in blocks for _, x in block.kept]
     owners = {u: k for k, block in enumerate(blocks) for u in block.unknowns}
     shorter = outline.run(flat, owners)
@@ -352,7 +356,10 @@ def _outlined(
 
 
 def _varied(block: Block, seeds: dict[str, Expr], space: Space, name: Callable[[str], str]) -> Block:
-    """Return the linear equations for the variations of a block's unknowns; extend ``seeds``."""
+    """Return the linear equations for the variations of a block's unknowns.
+
+    The symbols of these variations are added to ``seeds``.
+    """
     own = [name(f"d_{u}") for u in block.unknowns]
     seeds |= {u: space.sym(d) for u, d in zip(block.unknowns, own, strict=True)}
     # The equations are linear, so the iteration can start from zero.

@@ -73,7 +73,8 @@ class Variations:
         for group, symbols in self.parts:
             count = len(symbols)
             g, v, state, rates = state[:count], rates[:count], state[count:], rates[count:]
-            # Back to the algebra, at the new element: ``rate`` inverts ``velocity`` on tangent vectors.
+            # The rates are converted back to the algebra at the new element: ``rate`` inverts ``velocity`` on
+            # tangent vectors.
             rates_of_end += v if group is None else group.rate(domain, v, g)
         return tuple(rates_of_end)
 
@@ -93,10 +94,14 @@ class Variations:
 
 
 def _trivialised(scene: Problem, group: LieGroup | None) -> RightTrivialisation | None:
-    """Return a group as one whose tangent vectors are elements of its algebra, None for numbers."""
+    """Return a group with its tangent vectors as elements of its algebra; None for plain numbers."""
     if group is None:
         return None
     trivialised = group.offers(RightTrivialisation)
     if trivialised is None:
-        raise SceneError(f"a Jacobian on {group.name}", where=scene.name, expected="another group")
+        raise SceneError(
+            f"a Jacobian on {group.name}, whose tangent vectors have no form as elements of the algebra",
+            where=scene.name,
+            expected="a group with right-trivialised tangent vectors",
+        )
     return trivialised

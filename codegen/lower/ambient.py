@@ -1,5 +1,6 @@
-"""Runge-Kutta methods in the coordinates of the state; their distance from the manifold is of the size of
-their error."""
+"""Runge-Kutta methods in the coordinates of the state; numerical solutions leave the manifold by about the
+error of the method.
+"""
 
 from __future__ import annotations
 

@@ -49,8 +49,7 @@ class Parts:
 
 @dataclass(frozen=True)
 class Reading:
-    """How a method applies to a scene: its word, the summand whose flow advances time, its family of
-    conditions."""
+    """A method on a scene: the word, the summand whose flow advances time, and the family of conditions."""
 
     word: tuple[tuple[Summand, Number], ...]
     carrier: Summand | None

@@ -23,7 +23,7 @@ class RungeKuttaLowering(FieldLowering):
         # On R^n actions are translations: exp(u).y = y + u, and all brackets vanish.
         if group.abelian:
             return None
-        hint = "use rkmk, cg or cf, or ambient to leave the manifold"
+        hint = "use rkmk, cg or cf; or use ambient, whose steps leave the manifold"
         return Objection(f", whose group is {group.name}", "R^n", hint)
 
     def lower(self, problem: Problem, method: Method) -> Program:

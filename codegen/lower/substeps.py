@@ -76,7 +76,8 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # Numbers are used and not ring elements: they are compared by key, which is decidable for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # The cuts are all places where the tableau separates in two. Groups are unions of the parts between cuts.
+    # The cuts are all places where the tableau separates into two tableaux. Groups are unions of the parts
+    # between cuts.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
     # A group has from one part to half of the parts. The narrowest repeated method gives the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):

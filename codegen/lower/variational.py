@@ -50,13 +50,17 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
-    """Return the weights, by which the step's equations divide; raise ZeroWeight for the first zero
-    weight."""
+    """Return the weights, by which the step's equations divide; raise ZeroWeight for the first
+    weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # Only a proven zero is refused, because a small weight is no error.
-        if weight.is_zero:
+        # A small weight is no error, but no quotient by a ball that contains zero is defined.
+        vanishes = weight.ring.is_zero(weight.element)
+        if vanishes is not False:
             raise ZeroWeight(
-                f"b_{i} = 0", where=method.label, expected="all b_i non-zero: the method divides by them"
+                f"b_{i} = 0" if vanishes else f"b_{i} = {weight.text()}, which may be zero",
+                where=method.label,
+                expected="all b_i non-zero: the method divides by them",
+                hint="" if vanishes else "write the weight with more digits",
             )
     return list(weights)
 

@@ -73,8 +73,8 @@ class _Step(ExpandedStep):
         # later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
-            # In this case values that are already computed determine m_i, and fewer unknowns converge in
-            # fewer sweeps.
+            # If m_i depends on later stages only, values that are already computed determine m_i. It is then
+            # no unknown, and fewer unknowns converge in fewer sweeps.
             if all(A[j][i].is_zero for j in range(i + 1)):
                 terms = [(Coefficient(b[i]), self.transported)]
                 terms += [(Coefficient(A[j][i]), lagrange[j]) for j in range(i + 1, self.s)]

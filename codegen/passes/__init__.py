@@ -164,8 +164,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # The transform introduces inverses of maps. Such an inverse may act directly on the result of its
         # map.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass follows the transform. Before the transform a force depends on its own momentum, which
-        # closes a cycle.
+        # This pass follows the transform. Before the transform the force of a stage depends on the momentum
+        # of the stage, which closes a cycle.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
         # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),

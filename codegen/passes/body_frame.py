@@ -1,5 +1,5 @@
-"""The body frame: values are written in the body frame at the start of the step, the field in that of the
-stage.
+"""The body frame: values are written in the body frame at the start of the step, the field in the body frame
+of the stage.
 
 The pass is exact. Every value is transformed by q^{-1}: a group element E to E~ = q^{-1} E q, an x in the
 algebra to Ad_{q^-1} x, and a mu in its dual to Ad*_q mu. A position Q = E q becomes q E~. The operations of a

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 from itertools import islice
 
 from codegen.errors import SceneError
-from codegen.ir.domain import FloatDomain, NotConverged, Value
+from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain, Scalar, Value
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import flatten, interpret
-from codegen.ir.program import Program
+from codegen.ir.program import EMBEDDED, Program
 from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
@@ -20,16 +22,18 @@ STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 Any other decreasing powers of two are possible. If the first step moves too far along a fast field, all steps
 are shortened."""
 
+TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
+"""Negative powers of two for steps in DIGITS decimal digits, where doubles overflow or do not converge.
+
+Even with a coefficient of 1e300 in the scene, the last of these steps is short enough."""
+
 REACH = 0.5
 """The largest move along the field in one step: longer steps would amplify rounding.
 
-Its value matters little: :data:`AGREE` leaves a factor of 2^15 above the rounding that occurs."""
+The value matters little, because :data:`AGREE` is 2^15 times as large as the rounding errors that occur."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """Errors of an interpretation; a root of a negative number raises ValueError."""
-
-Result = tuple[float, dict[str, Value], dict[str, Value], dict[Var, Value]]
-"""Step size, inputs, new state, and the solutions of the blocks of the last compared program."""
 
 SWEEPS = 24
 """The largest number of sweeps over a block: a step that needs more is too long for a comparison up to
@@ -38,27 +42,75 @@ rounding.
 A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower blocks the next, shorter step
 is tried."""
 
-TRIES, APART = 3, 16
-"""The number of steps in which a program may be compared, and the smallest ratio between them.
+MORE_SWEEPS, FEW_DIGITS = 400, 60
+"""The number of sweeps and of digits in a step that is repeated to confirm a difference of doubles."""
+
+NOT_A_NUMBER = "differs by nan"
+"""The end of the message if a result is not finite: the step is then too long for a comparison."""
+
+APART = 16
+"""The smallest ratio of consecutive step sizes at which programs are compared.
 
 Rewritten equations may need smaller steps to converge by iteration; one step in which they converge is
-enough. The three steps span a factor of 256 or more."""
+enough."""
+
+LARGEST = 2.0**512
+"""Results above this number are not compared, because the steps are too long."""
+
+CLOSE = 2.0**-200
+"""Results in DIGITS digits count as equal up to this relative difference, which is above the rounding of ball
+coefficients.
+"""
 
 AGREE = 2.0**-36
-"""Relative difference of equal results: far above rounding and the tolerance of a block.
+"""Results count as equal up to this relative difference, which is far above rounding and the tolerance of a
+block.
 
 In 170 comparisons of eight methods of the gallery the passes moved results by 2^-51 at most. A coefficient
 that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
 
 
+@dataclass(frozen=True)
+class _Step:
+    """One step of the reference: the new state, and the solutions of the blocks.
+
+    ``moved`` says that the step begins beside the initial state, ``tiny`` that it is one of
+    :data:`TINY_STEPS`, whose results are compared relative to the change of the state.
+    """
+
+    domain: Domain
+    inputs: dict[str, Value]
+    after: dict[str, Value]
+    solutions: dict[Var, Value]
+    moved: bool
+    tiny: bool = False
+
+
+class _Bounded(PreciseDomain):
+    """A domain of many digits in which diverging iterations raise an error early."""
+
+    def call(self, function: str, *args: Scalar) -> Scalar:
+        """Return the value of a function; OverflowError for an argument with few correct digits."""
+        if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
+            raise OverflowError(function)
+        return super().call(function, *args)
+
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
+        """Return as :class:`PreciseDomain`; NotConverged if the iteration diverges."""
+        done, change = super().settled(old, new, previous)
+        if not change < self.rational(10) ** self.digits:
+            raise NotConverged("a fixed-point iteration diverges")
+        return done, change
+
+
 class _Point:
     """Results of steps from one state; the results of shorter steps are computed on demand."""
 
-    def __init__(self, more: Iterator[Result]) -> None:
+    def __init__(self, more: Iterator[_Step]) -> None:
         self._more = more
         self.computed = list(islice(more, 1))
 
-    def results(self) -> Iterator[Result]:
+    def results(self) -> Iterator[_Step]:
         """Yield the results, first the result of the longest step."""
         yield from self.computed
         for result in self._more:
@@ -70,15 +122,15 @@ class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
     One point is the initial state, which may be special (an equilibrium, a symmetric position). The other is
-    a nearby point without any symmetry. The step is the longest of moderate reach for which the blocks
-    converge. A compared program starts from the solutions of the reference; if its equations differ, it
-    iterates away from these solutions.
+    a nearby point without any symmetry. The step is the longest of moderate reach for which the results are
+    finite and the blocks converge. A compared program starts from the solutions of the reference; if its
+    equations differ, it iterates away from these solutions.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
-        self.scene = scene
+        self.scene, self.program = scene, program
         self.kinds = {v.name: v.kind for v in program.inputs}
-        points = [_Point(self._some(program, state)) for state in _states(scene)]
+        points = [_Point(self._some(program, moved)) for moved in (False, True)]
         self.points = [point for point in points if point.computed]
         if not self.points:
             raise SceneError(
@@ -88,39 +140,71 @@ class Reference:
                 hint="look for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
-    def _some(self, program: Program, state: dict[str, Value]) -> Iterator[Result]:
-        """Yield results of the longest step and of two shorter steps, in which more programs converge."""
+    def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
+        """Yield results of the longest step and of shorter steps, in which more programs converge.
+
+        The steps begin at the initial state, or at one moved from it.
+        """
+        state = _state(self.scene, FloatDomain(0.0), moved)
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
         # A state where the field is not finite is skipped; the other state may be usable.
         if not math.isfinite(speed):
             return
-        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # a power of two above it
-        count, last = 0, math.inf
+        excess = math.frexp(speed * STEPS[0] / REACH)[1]  # 2**excess is the next power of two
+        last = math.inf
         for moderate in STEPS:
             # The step is a power of two: h^k then has no rounding error that could look like a difference.
             step = math.ldexp(moderate, -max(excess, 0))
-            # Steps of similar length are skipped: further steps are for programs that need much shorter
-            # steps.
-            if count and step > last / APART:
-                continue
-            # The interpreter fills this with the solutions of the blocks; compared programs start from them.
-            solutions: dict[Var, Value] = {}
-            # If the iteration does not converge, the step is too long; a shorter one is tried.
-            try:
-                after = self._run(program, step, inputs, SWEEPS, solutions)
-            except FAILURES:
-                continue
-            yield step, inputs, after, solutions
-            count, last = count + 1, step
-            if count == TRIES:
-                break
+            if step <= last / APART and (result := self._step(program, FloatDomain(step), inputs, moved)):
+                yield result
+                last = step
+        for power in TINY_STEPS:
+            precise = self._precise(Fraction(1, 2 ** (power + max(excess, 0))), DIGITS, moved)
+            if (result := self._step(program, *precise, moved, tiny=True)) and self._is_short(result, power):
+                yield result
+
+    def _precise(self, h: Fraction, digits: int, moved: bool) -> tuple[Domain, dict[str, Value]]:
+        """Return the domain of a step in many digits, and a state in it."""
+        domain = _Bounded(h, digits)
+        state = _state(self.scene, domain, moved)
+        return domain, {name: state[name] for name in self.kinds}
+
+    def _step(
+        self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
+    ) -> _Step | None:
+        """Return the result of one step, or None if it cannot be computed."""
+        # The interpreter fills this with the solutions of the blocks; compared programs start from them.
+        solutions: dict[Var, Value] = {}
+        # If the iteration does not converge, or numbers overflow, the step is too long.
+        try:
+            after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
+        except FAILURES:
+            return None
+        # A sum near the greatest double overflows in another order.
+        finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
+        return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
+
+    def _is_short(self, step: _Step, power: int) -> bool:
+        """Whether a tiny step changes the state little, as it does if h times each coefficient is small."""
+        return all(
+            abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
+            for name in self.kinds.keys() & step.after.keys()
+            for x, y in zip(self._numbers(name, step.inputs), self._numbers(name, step.after), strict=True)
+        )
+
+    def _numbers(self, name: str, state: dict[str, Value]) -> tuple[Scalar, ...]:
+        return flatten(self.kinds["y" if name == EMBEDDED else name], state[name])
 
     def _run(
-        self, program: Program, step: float, inputs: dict[str, Value], limit: int, solutions: dict[Var, Value]
+        self,
+        program: Program,
+        domain: Domain,
+        inputs: dict[str, Value],
+        limit: int,
+        solutions: dict[Var, Value],
     ) -> dict[str, Value]:
-        domain = FloatDomain(step)
         return interpret(program, self.scene, domain, inputs, limit=limit, newton=False, solutions=solutions)
 
     def differs(self, program: Program) -> str:
@@ -132,34 +216,57 @@ class Reference:
         return ""
 
     def _in_some_step(self, program: Program, point: _Point) -> str:
-        """Compare results after the longest step for which the program converges."""
+        """Compare results after the longest step for which both programs have a finite result."""
         failure = ""
-        for step, inputs, before, solutions in point.results():
+        for step in point.results():
+            # The same equations in another form may converge, and the same sums in another order may stay
+            # finite, only for shorter steps: try the next step.
             try:
-                after = self._run(program, step, inputs, 2 * SWEEPS, solutions)
-            # The same equations in another form may converge only for shorter steps: try the next step.
-            except NotConverged as error:
-                failure = f"interpretation failed: {error}"
-            # The reference has a result at this point, so an arithmetic failure is caused by the pass.
+                after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
-                return f"interpretation failed: {error}"
-            else:
-                return self._gap(before, after)
+                failure = f"interpretation failed: {error}"
+                continue
+            account = self._gap(step, after)
+            if account and not step.tiny:
+                account = self._confirmed(program, step, account)
+            if NOT_A_NUMBER not in account:
+                return account
+            failure = account
         return failure
 
-    def _gap(self, before: dict[str, Value], after: dict[str, Value]) -> str:
-        for name, kind in self.kinds.items():
+    def _confirmed(self, program: Program, step: _Step, account: str) -> str:
+        """Return the difference in a step of the same size in many digits; ``account`` if there is none.
+
+        If a step is ill-conditioned, results in doubles may differ by more than rounding although the
+        programs are equal.
+        """
+        if NOT_A_NUMBER in account:
+            return account
+        domain, inputs = self._precise(Fraction(step.domain.h), FEW_DIGITS, step.moved)
+        try:
+            results = [self._run(p, domain, inputs, MORE_SWEEPS, {}) for p in (self.program, program)]
+        except FAILURES:
+            return account
+        return self._gap(_Step(domain, inputs, results[0], {}, step.moved), results[1])
+
+    def _gap(self, step: _Step, after: dict[str, Value]) -> str:
+        for name in self.kinds:
             # An input that the step only reads, such as the time, has no new value to compare.
-            if name not in before:
+            if name not in step.after:
                 continue
-            x, y = (flatten(kind, side[name]) for side in (before, after))
+            x, y = (self._numbers(name, side) for side in (step.after, after))
             # The comparison is relative for large values and absolute for small values, because components
             # may vanish by symmetry.
-            scale = max(1.0, *(abs(s) for s in x))
+            scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
+            if step.tiny:
+                start = self._numbers(name, step.inputs)
+                # A state that does not change is compared to rounding.
+                change = max(abs(s - t) for s, t in zip(x, start, strict=True))
+                scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
             # The condition is negated on purpose, so that a gap that is not a number counts as a difference.
-            if not gap <= AGREE * scale or not math.isfinite(scale):
-                return f"{name} moved by {gap:.3g}"
+            if not gap <= agree * scale:
+                return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""
 
 
@@ -175,26 +282,28 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
     return max(map(abs, map(float, values)))
 
 
-def _states(scene: Problem) -> Iterator[dict[str, Value]]:
-    """Yield the initial state, and a state moved from it by the group in fixed directions."""
-    domain = FloatDomain(0.0)
+def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
+    """Return the initial state, or a state moved from it by the group in fixed directions.
+
+    On a group it is as exact as the numbers of the domain.
+    """
     start = scene.initial(domain)
-    # Sines of integers have no symmetry or integer relation that a scene might share, and need no random
-    # seed.
-    directions = [math.sin(7.0 * k + 1.0) / 8 for k in range(2 * scene.group.dim)]
+    # Sines of integers: no symmetry, no integer relation that a scene might share, and no random seed.
+    directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
-    time = float(scene.span[0])
-    for moved in (False, True):
-        state: dict[str, Value] = {"t": time + moved / 8}
-        first = 0
-        for block in scene.state:
-            value = start[first : first + len(block.symbols)]
-            first += len(block.symbols)
-            # Momenta form a vector space, so a vector is added. Points and group elements are moved by the
-            # group, and stay on the manifold.
-            if moved and block.kind is Kind.DUAL:
-                value = tuple(a + b for a, b in zip(value, covector, strict=True))
-            elif moved:
-                value = tuple(scene.action.actexp(domain, scene.group, x, value))
-            state[block.name] = value
-        yield state
+    state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}
+    first = 0
+    for block in scene.state:
+        value = start[first : first + len(block.symbols)]
+        first += len(block.symbols)
+        # Momenta form a vector space. Points and elements move by the group and stay on the manifold.
+        if moved and block.kind is Kind.DUAL:
+            value = tuple(a + b for a, b in zip(value, covector, strict=True))
+        elif moved:
+            value = tuple(scene.action.actexp(domain, scene.group, x, value))
+        state[block.name] = value
+    return state
+
+
+def _exactly(domain: Domain, x: float) -> Scalar:
+    return domain.rational(*x.as_integer_ratio())

@@ -23,7 +23,7 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Maps that have an inverse; functions of ad have one near the identity."""
+"""Maps that have an inverse; functions of ad_x are invertible if x is small."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The number is not zero: the pass for zeros has removed multiples by a proven zero.
+    # The coefficient is not zero: an earlier pass has removed every term with the coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
@@ -138,7 +138,7 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
     replaced: dict[Var, Var] = {}
     value = route.unknown
     replaced[(route.outward[-1] if route.outward else route.velocity).targets[0]] = value
-    # (A B)^{-1} = B^{-1} A^{-1}: undo the last map first.
+    # Because (A B)^{-1} = B^{-1} A^{-1}, the last map is inverted first.
     for assign in reversed(route.outward):
         value = _undone(build, assign, value)
         replaced[assign.args[-1]] = value
@@ -186,9 +186,10 @@ def _turned(block: Solve, route: Path, build: Builder) -> Solve:
     # Every value on the path is computed again from the unknown; unused values are removed later.
     replaced, _ = _values(build, route)
     fresh = build.take()
-    # The base is computed from other stages; computing it from the unknown would only add operations.
+    # The base is a sum of many terms from other stages. No other operation needs the base as computed from
+    # the unknown, so computing it again would only add operations.
     if route.inward and route.base not in block.unknowns:
-        del replaced[route.base]  # a sum of many terms, which no other operation needs from the velocity
+        del replaced[route.base]
     # Statements of the path itself are not changed: they are the equation that remains to be solved.
     own = {a.targets[0] for a in (*route.outward, route.velocity, *route.inward)}
     body = [

@@ -126,7 +126,7 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return a coefficient with its sign in front, so that products with it and its negative are shared."""
+    """Return a coefficient with its sign in front, to share products with it and its negative."""
     # c x and (-c) x then share one product, and an addition or subtraction includes the sign at no cost.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
-from codegen.run.precision import DOUBLE
+from codegen.ir.precision import DOUBLE
 
 SUM, PRODUCT, ATOM = 1, 2, 3
 
@@ -58,6 +58,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
     ``names`` maps symbols to identifiers of the target; other symbols keep their names.
     Powers must have a symbol as base and exponent 2 or 3 (see :mod:`codegen.kernel.schedule`).
     """
+    # Text is formed node by node, because expressions share nodes and are deeper than Python's recursion
+    # limit.
     rendered: dict[int, Rendering] = {}
     for node in walk([root]):
         args = [rendered[a.id] for a in node.args]
@@ -86,7 +88,7 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
                 rendered[node.id] = _product(args[0], "/", args[1])
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
-                    raise ValueError("a power reached the printer unarranged")
+                    raise ValueError("the printer received a power that the schedule has not rewritten")
                 # Products are rounded alike in every target, but the last bit of a library's pow may differ.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
@@ -110,6 +112,7 @@ def _add(x: Rendering, y: Rendering) -> Rendering:
     if (x.negative and not y.negative) or (_sum(y) and not _sum(x)):
         x, y = y, x
     first = signed(x)
+    # A line may break between the terms of a sum. A product inside a sum stays on one line.
     head = first if _sum(x) else (" ".join(first),)
     tail = f"({y.text})" if y.precedence == SUM else y.text
     return Rendering((*head, f"{'-' if y.negative else '+'} {tail}"), SUM)
@@ -121,6 +124,9 @@ def _sum(x: Rendering) -> bool:
 
 
 def _product(x: Rendering, operator: str, y: Rendering) -> Rendering:
+    # Division and multiplication associate to the left in both targets, so the left operand needs no
+    # parentheses.
     left = x.segments if x.precedence >= PRODUCT else (f"({x.text})",)
     right = y.text if y.precedence > PRODUCT else f"({y.text})"
+    # Changing the sign of an operand changes only the sign of a product or quotient, without rounding.
     return Rendering((*left, f"{operator} {right}"), PRODUCT, x.negative != y.negative)

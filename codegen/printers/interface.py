@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel
-from codegen.run.precision import DOUBLE, Precision, precision
+from codegen.ir.precision import DOUBLE, Precision, precision
 
 LISTS = ("parameters", "blocks", "inputs", "solvers")
 """The fields of :class:`Interface` that are tuples, and lists in JSON."""
@@ -20,10 +20,10 @@ class Interface:
     """The calling convention of one module.
 
     ``prefix`` starts every external C name and ends in an underscore; ``size`` is the number of numbers in a
-    state; ``time`` says whether the step reads t; ``parameters`` are the run-time parameters in order;
+    state; ``time`` is true if the step reads t; ``parameters`` are the run-time parameters in order;
     ``blocks`` are the labels of the implicit blocks, which statistics count; ``precision`` names the format
-    of all numbers (:mod:`codegen.run.precision`); ``inputs`` are the run-time functions of time, in order;
-    ``adaptive`` says that there is a run with step control; ``solvers`` are the methods that solve the
+    of all numbers (:mod:`codegen.ir.precision`); ``inputs`` are the run-time functions of time, in order;
+    ``adaptive`` is true if there is a run with step control; ``solvers`` are the methods that solve the
     blocks. ``variations`` is the size of the Jacobian, 0 without one.
     """
 
@@ -48,6 +48,7 @@ class Interface:
             prefix=prefix,
             size=sum(len(field.symbols) for field in kernel.state),
             time="t" in used,
+            # Parameters that simplification removed would be dead arguments of every call.
             parameters=tuple(name for name in used if name not in ("h", "t", LEAD, ELAPSED)),
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,
@@ -74,9 +75,11 @@ class Interface:
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data for the manifest; :meth:`from_json` reads it back."""
+        # Tuples become lists, so that the data equal the data read from a JSON file.
         return asdict(self) | {name: list(getattr(self, name)) for name in LISTS}
 
     @classmethod
     def from_json(cls, data: dict[str, Any]) -> Interface:
         """Return the interface that :meth:`as_json` wrote."""
+        # JSON has no tuples. A list that a manifest does not contain is empty.
         return cls(**(data | {name: tuple(data.get(name, ())) for name in LISTS}))

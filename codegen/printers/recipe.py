@@ -41,6 +41,7 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
             initial_indent=start,
             subsequent_indent=indent,
             break_long_words=False,
+            # A command or a name that is broken at a hyphen could not be copied.
             break_on_hyphens=False,
         )
     return lines
@@ -62,6 +63,8 @@ def header(
     >>> header(Recipe("Step", (("method", "Lie-Euler"),), (1.0,)), ["m0: momentum"], ["2 mul a step"], 40)
     ['Step', '', 'method:     Lie-Euler', 'state:      m0: momentum', 'operations: 2 mul a step']
     """
+    # An empty line follows the title, because Python tools read the first paragraph of a docstring as its
+    # summary.
     lines = [*textwrap.wrap(recipe.title, width), ""]
     for word, sentence in recipe.facts:
         lines += entry(word, [sentence], width)

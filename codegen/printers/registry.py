@@ -46,16 +46,20 @@ def unregister(name: str) -> None:
 def targets() -> tuple[Target, ...]:
     """Return all targets; the built-in targets are first."""
     every = (*_built_in(), *_from_entry_points(), *_registered.values())
+    # The keys are names, so that a target that is registered a second time appears once in listings.
     return tuple({each.name: each for each in every}.values())
 
 
 @cache
 def _built_in() -> tuple[Target, ...]:
+    # The built-in targets are cached, because finding them imports modules. Registered targets are not
+    # cached, because they may change.
     return tuple(map(resolve_name, BUILT_IN))
 
 
 @cache
 def _from_entry_points() -> tuple[Target, ...]:
+    # Reading the metadata of all installed packages takes milliseconds, so it is done once.
     return tuple(entry.load() for entry in metadata.entry_points(group=GROUP))
 
 

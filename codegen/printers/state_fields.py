@@ -22,5 +22,6 @@ def times(kernel: Kernel) -> tuple[str, ...]:
     """Return a line with the run-time inputs and the times when they are read; no lines without inputs."""
     if not kernel.inputs:
         return ()
+    # Names are not converted to identifiers of the target, because the header shows the names of the scene.
     read = ", ".join(" ".join(render(sample.time, {})) for sample in kernel.samples)
     return (f"{', '.join(kernel.inputs)}, as functions of time, read at {read}",)

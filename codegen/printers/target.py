@@ -52,6 +52,8 @@ class Target:
     @property
     def print_module(self) -> PrintModule:
         """The function that prints a module."""
+        # The function is imported when it is used, so that describing a target does not import its printer
+        # and templates.
         return cast("PrintModule", resolve_name(self.printer))
 
     @property

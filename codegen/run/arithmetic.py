@@ -52,8 +52,8 @@ def outputs(arrangement: Arrangement, symbols: Sequence[str]) -> tuple[list[Stat
         if output.op == "sym" and output.payload not in symbols:
             named.append(own(output.payload))
             continue
-        # New names, because an old entry of the state may occur in other outputs: the state is overwritten
-        # only after all outputs are computed.
+        # The outputs get new names, because an old entry of the state may occur in other outputs: the state
+        # is overwritten only after all outputs are computed.
         named.append(own(f"new {symbol}"))
         sequence.append(Assign(named[-1], value(output)))
     return sequence, named
@@ -81,9 +81,11 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """Return an outlined function of a kernel; it returns a single result, or fills an array with several."""
     body: list[Statement] = []
     for statement in arrangement.statements:
+        # Outlined functions contain no loops: their inputs are values that are already known.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
+    # A returned scalar stays in a register, an array would be written to memory and read again.
     if len(arrangement.outputs) == 1:
         body.append(Return(value(arrangement.outputs[0])))
         return Function(function.name, function.about, parameters, tuple(body), Kind.REAL)
@@ -99,4 +101,5 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
+    # NaNs in the result need no status: the tests of the complete state find them.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

@@ -4,7 +4,8 @@ The first attempt repeats the whole step without the solutions of earlier steps,
 if the motion has changed. Then the step is halved until its equations converge. From there on, each solution
 is the initial guess for a longer step. The factor between consecutive step sizes grows on success and shrinks
 on failure. The equations of a long step may have several solutions; the result is on the branch of solutions
-that tends to the exact motion as h tends to zero. A step with h = 0 changes nothing.
+that tends to the exact motion as h tends to zero. A step with h = 0 is the identity, so it needs no
+continuation.
 """
 
 from __future__ import annotations
@@ -38,17 +39,19 @@ from codegen.run.terms import (
 )
 
 CONTINUED = "continued"
-"""The name of the function."""
+"""The name of the function that repeats a failed step."""
 
 LARGEST_FACTOR = 4.0
-"""The largest ratio of consecutive steps."""
+"""The largest ratio of two consecutive step sizes."""
 
 
 def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statement that calls the continuation if a step fails; none without a warm start."""
+    # Without stored solutions there is nothing to follow from a shorter step to a longer one.
     if plan.start is None:
         return []
-    # A diverging iteration may overflow before it reaches its limit of sweeps: retry after both.
+    # A diverging iteration may overflow before it reaches its limit of sweeps, so the step is repeated after
+    # either failure.
     failed = either(STATUS.equals(code(NOT_CONVERGED)), STATUS.equals(code(NOT_FINITE)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -59,8 +62,10 @@ def continued(plan: Plan, core: str) -> Function:
 
 
 class _Continuation:
-    """The function and its variables."""
+    """Builds the function; the attributes are the variables of the function."""
 
+    # Fractions of h: the longest step that succeeded, and the step that is tried now. The factor is the
+    # ratio of consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 
@@ -68,16 +73,18 @@ class _Continuation:
         assert plan.start is not None
         self.plan, self.core, self.n = plan, core, len(plan.start.unknowns)
         self.guess, self.trial = real("known_solution", self.n), plan.state("trial")
+        # The failure to return is a separate variable, because every attempt overwrites STATUS.
         self.failure = Term("name", (), Kind.STATUS, "failure")
 
     def function(self) -> Function:
-        """Return the function."""
+        """Return the function with its parameters and body."""
         plan, state = self.plan, self.plan.state()
         parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
+        # The memory of the run is passed on, so that the next step starts from the solution found here.
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # A factor near 1 makes no progress: the branch of solutions probably ends before the whole
+        # With a factor near 1 there is no progress: the branch of solutions probably ends before the whole
         # step.
         going_on = both(
             negated(self.done),
@@ -98,7 +105,7 @@ class _Continuation:
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.failure),)),
-            # Only the whole step changes the state: shorter ones just provide initial guesses.
+            # Only the whole step changes the state: shorter steps only provide initial guesses.
             Assign(state, self.trial),
             # The earlier solutions belong to shorter steps; a polynomial through them would be wrong.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
@@ -106,6 +113,7 @@ class _Continuation:
             Return(code(OK)),
         )
         part = "part of a step" if plan.parts else "step"
+        # The emitted comment names a step or a substep: with substeps, only the failed substep is repeated.
         about = (
             f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
             "mislead if the motion has changed, then by continuation in h from shorter steps."
@@ -125,6 +133,7 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
+        # Attempts need no error estimate: step control rejects a failed step instead of continuing it.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state, because h is the parameter of the

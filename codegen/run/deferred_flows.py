@@ -1,10 +1,10 @@
 """Runs of a splitting that defer flows: the last flow of a step and the first flow of the next step are
 computed as one flow, and flows that commute with all others are applied once for many steps.
 
-Both are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only after the
-deferred flows have been applied. They are applied when a row is due, after the last step, and after
-:data:`codegen.ir.kernel.LONGEST` steps. A NaN in an earlier step persists and is found there. The run is then
-repeated with the deferred flows applied in every step, to find the last good state.
+Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
+after the deferred flows have been applied. They are applied when a row is due, after the last step, and after
+:data:`codegen.ir.kernel.LONGEST` steps. A NaN persists through later steps, so the next complete state shows
+it. The run is then repeated with the deferred flows applied in every step, to find the last good state.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH = "begin", "finish"
-"""The names of the functions for the leading flow and for the deferred ones."""
+"""The names of the functions for the leading flow and for the flows that commute with all others."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""
@@ -74,6 +74,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
+    # The kernels of deferred flows are explicit, so they need no limit of tries.
     return Plan(kernel, plan.format)
 
 
@@ -81,12 +82,14 @@ def _core(plan: Plan, name: str, about: str) -> Function:
     """Return a function that applies a kernel to the state, without checks."""
     state, read = plan.state(), plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # No test for finiteness here: NaNs and infinities persist, and the run tests complete states.
+    # This function does not test for finiteness, because NaNs and infinities persist, and the run tests
+    # complete states.
     body = [*loaded(plan.symbols, state, read), *computed(plan), *ends, *stored(state, new)]
     return Function(name, about, (state, *_read(plan)), tuple(body), guard=RAISES_NAN, often=True)
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
+    # Durations come last, so that all functions of the unit take their arguments in one order.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
@@ -96,7 +99,7 @@ def _read(plan: Plan) -> tuple[Term, ...]:
 
 
 class _Deferring:
-    """The public functions."""
+    """Builds the public functions; the attributes are variables of these functions."""
 
     lead, stop, begun = real("lead"), flag("stop"), flag("begun")
     shown, careful, good, again = flag("shown"), flag("careful"), flag("good"), flag("again")
@@ -105,6 +108,8 @@ class _Deferring:
     def __init__(self, plan: Plan, deferred: Deferred) -> None:
         self.plan, self.deferred = plan, deferred
         self.moving, self.complete = plan.state("next"), plan.state("complete")
+        # The durations are rounded once from exact numbers: in single precision, arithmetic on rounded
+        # doubles would round twice.
         rounded = plan.format.round
         self.last, self.later = (number(rounded(x)) for x in (deferred.last, deferred.later))
 
@@ -112,6 +117,7 @@ class _Deferring:
         """Return the call of the function of a kernel; no statement if ``kernel`` is None."""
         if kernel is None:
             return []
+        # The name of a scalar in the kernel decides which value of the run is passed for it.
         known = {"t": t, LEAD: self.lead, ELAPSED: elapsed}
         plan = _plan(self.plan, kernel)
         passed = tuple(known.get(x.text, x) for x in _read(plan))
@@ -123,6 +129,8 @@ class _Deferring:
         kernel = plan.kernel
         begin: list[Statement] = []
         if deferred.begin is not None:
+            # A single step joins no flows, so the duration of its last flow does not include the first flow
+            # of a next step.
             begin = [Assign(self.lead, self.last * STEP), *self.call(BEGIN, deferred.begin, TIME, STEP)]
         body: tuple[Statement, ...] = (
             If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -137,6 +145,7 @@ class _Deferring:
             Assign(state, self.moving),
             Return(code(OK)),
         )
+        # A splitting has no implicit equations, so there is neither a memory nor a record of statistics.
         parameters = (state, *plan.moment(), *plan.parameters)
         return Function("step", "", parameters, body, Kind.STATUS, public=True)
 
@@ -144,9 +153,11 @@ class _Deferring:
         """Return the public function for a run."""
         plan, state = self.plan, self.plan.state()
         bad_step = both(STEPS > 0, negated(is_finite(STEP)))
+        # Test the initial state first: a run from a state that is not finite would be repeated in vain.
         bad_state = both(STATUS.equals(code(OK)), STEPS > 0, negated(all_finite(state)))
         body: tuple[Statement, ...] = (
             Assign(STATUS, code(OK)),
+            # The number of steps is copied, because a failure reduces the copy to the number of good steps.
             Assign(self.asked, STEPS),
             If(bad_step, (Assign(STATUS, code(BAD_STEP)), Assign(self.asked, whole(0)))),
             If(bad_state, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, whole(0)))),
@@ -154,6 +165,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
+            # At most three attempts: a fast one, a careful one that counts the good steps, and one that
+            # makes only these.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             *completed(),
@@ -162,9 +175,14 @@ class _Deferring:
         return Function("run", "", run_parameters(plan), body, Kind.STATUS, public=True)
 
     def attempt(self) -> tuple[Statement, ...]:
-        """Return the statements of one attempt at all steps; a second, careful one counts the good steps."""
+        """Return the statements of one attempt at all steps.
+
+        If the first attempt fails, a second one applies the deferred flows in every step and counts the good
+        steps. A third one makes only these steps.
+        """
         state = self.plan.state()
         failed = (
+            # The next attempt makes exactly the steps that were good, and is therefore the last.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
@@ -175,11 +193,13 @@ class _Deferring:
             *begun,
             *Rows(self.plan).begin(state),
             Assign(self.moving, state),
+            # The state of a run that fails in its first step is the initial state.
             Assign(self.complete, state),
             Assign(self.good, truth(True)),
             While(both(self.good, DONE < self.asked), self.one()),
             # The fast attempt only shows that some state is not finite. The careful attempt applies the
-            # deferred flows in every step and stops at the first bad state. The caller gets the state before.
+            # deferred flows in every step and stops at the first bad state. The caller gets the state before
+            # the bad state.
             Assign(self.again, negated(self.good)),
             If(self.again, failed),
         )
@@ -187,6 +207,7 @@ class _Deferring:
     def one(self) -> tuple[Statement, ...]:
         """Return the statements of one step of a run."""
         rows, deferred = Rows(self.plan), self.deferred
+        # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
         # One product instead of a sum over steps makes one rounding error, however many steps were deferred.
@@ -201,8 +222,8 @@ class _Deferring:
         if deferred.begin is not None:
             begin = tuple(self.call(BEGIN, deferred.begin, t, elapsed))
             sequence += [
-                # If the run continues, the last flow of this step and the first flow of the next step are
-                # one flow, whose length is the sum of both.
+                # If the run continues, the last flow of this step and the first flow of the next step are one
+                # flow, whose duration is the sum of both durations.
                 Assign(self.lead, select(self.stop, self.last, self.later) * STEP),
                 If(negated(self.begun), begin),
                 Assign(self.begun, negated(self.stop)),
@@ -218,5 +239,7 @@ class _Deferring:
             Assign(self.good, all_finite(self.moving)),
             If(self.good, taken),
         ]
+        # If flows stay deferred, the state is incomplete, so it is not tested, and ``good`` keeps its
+        # value.
         sequence += [If(self.stop, tuple(ended)), If(self.good, (Assign(DONE, DONE + 1),))]
         return tuple(sequence)

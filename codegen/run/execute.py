@@ -1,10 +1,12 @@
-"""An executor of the run representation over any ordered scalars: floats, numbers of many digits, a ring.
+"""An executor of the run representation over any ordered scalars, for example floats or a ring.
 
 It executes the same statements as emitted code, so it takes the same sweeps, matrices and steps; only the
 arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function is compiled to closures once, so that
 a run of many steps does not traverse the statements again.
 
->>> from codegen.ir.domain import FloatDomain
+>>> import numpy
+
+from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
 >>> from codegen.run.terms import Kind, count, real, whole
 >>> x, n, root = real("x"), count("n"), real("root")
@@ -51,7 +53,7 @@ Action = Callable[[Environment], bool]
 """An action executes a statement and returns whether the function has returned."""
 
 RESULT = "result of the function"
-"""The key of a function's result in its environment; it is no identifier."""
+"""The key of a function's result in its environment; it contains spaces, so no identifier equals it."""
 
 _BINARY: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": operator.add,
@@ -81,8 +83,12 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
+            # Entries of tables are converted once, because converting them at each access would take most of
+            # the time.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
+        # No word is reserved, because the executor uses identifiers as keys of a dictionary and not as names
+        # of a language.
         identifiers = identify(unit, ())
         self.compiled = {f.name: _Compiler(self, identifiers[f.name]).body(f.body) for f in unit.functions}
         self.parameters = {f.name: [identifiers[f.name].of(p) for p in f.parameters] for f in unit.functions}
@@ -96,6 +102,7 @@ class Machine:
 
     def record(self, name: str) -> Any:
         """Return a record whose fields are all zero."""
+        # The fields are attributes, as in emitted Python, so an access is a single call of ``getattr``.
         record = SimpleNamespace()
         self.clear(record, name)
         return record
@@ -111,11 +118,15 @@ class Machine:
             return [self.zero(shape[1:], kind, record) for _ in range(shape[0])]
         if kind is Kind.RECORD:
             return self.record(record)
+        # Counts and flags stay Python integers: they index lists and end loops, in which a ring element has
+        # no meaning.
         return self.number(0.0) if kind in (Kind.REAL, Kind.WIDE) else 0
 
     def call(self, name: str, *arguments: Any) -> Any:
         """Call a function and return its result; arrays and records among the arguments may be changed."""
         function = self.unit.parts[name]
+        # Arrays are passed by reference: a callee changes the caller's list, as a C function changes the
+        # array.
         environment = dict(zip(self.parameters[name], arguments, strict=True)) | self.tables
         if not function.guard:
             self.compiled[name](environment)
@@ -134,6 +145,7 @@ class Machine:
         changed = written(self.unit, function)
         for parameter, argument in zip(function.parameters, arguments, strict=True):
             if parameter.text in changed:
+                # The list is changed in place, because the caller holds the same list.
                 argument[:] = [math.nan] * len(argument)
         return math.nan
 
@@ -194,6 +206,7 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
+            # The count is evaluated once, before the loop: no body changes it.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -207,6 +220,7 @@ class _Compiler:
         test, body = self.term(loop.test), self.body(loop.body)
 
         def run(env: Environment) -> bool:
+            # With ``at_least_once`` the test may read variables that only the body assigns.
             again = loop.at_least_once or test(env)
             while again:
                 if body(env):
@@ -233,7 +247,7 @@ class _Compiler:
     def assign(self, target: Term, value: Term) -> Action:
         """Return the action that changes a name, an entry, a part, a field or a record."""
         if value.op == "fresh":
-            # Clear in place: other functions hold the same record.
+            # The record is cleared in place, because other functions hold the same record.
             record, machine = self.term(target), self.machine
 
             def clear(env: Environment) -> bool:
@@ -291,11 +305,13 @@ class _Compiler:
                 return False
 
             return sample
+        # The function is looked up when the closure is built, so that no call in a run compares names.
         library = _library(function, machine.domain)
 
         def run(env: Environment) -> bool:
             passed = [value(env) for value in given]
             results = library(*passed) if library is not None else [machine.call(function, *passed)]
+            # zip is not strict, because a function without a result returns None, which has no target.
             for store, x in zip(stores, results, strict=False):
                 store(env, x)
             return False
@@ -365,6 +381,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
+            # All numbers of a domain have the same precision, so nothing is converted.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -394,6 +411,8 @@ class _Compiler:
                 return lambda env: domain.call("sqrt", first(env))
             case "copysign":
                 second = args[1]
+                # Exact rings have no negative zero, so comparing the second argument with zero gives its
+                # sign.
                 return lambda env: abs(first(env)) if second(env) >= 0 else -abs(first(env))
             case _:
                 assert name == "power"
@@ -448,23 +467,25 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
     # The order of operations is that of the emitted code, so that doubles agree in every bit.
-    rows = [matrix[n * i : n * i + n] for i in range(n)]
+    rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
+    rows = rows.reshape(n, n)
     order = []
-    for k in range(n):
-        pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
-        if not abs(rows[pivot][k]) > 0:
-            return 0
-        order.append(pivot)
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        factor = 1 / rows[k][k]
-        rows[k] = [factor if j == k else x * factor for j, x in enumerate(rows[k])]
-        for i in range(n):
-            if i != k:
-                multiple = rows[i][k]
-                pairs = enumerate(zip(rows[i], rows[k], strict=True))
-                rows[i] = [-(multiple * factor) if j == k else x - multiple * y for j, (x, y) in pairs]
-    for k in reversed(range(n)):
-        for row in rows:
-            row[k], row[order[k]] = row[order[k]], row[k]
-    matrix[:] = [x for row in rows for x in row]
+    with numpy.errstate(all="ignore"):  # overflow and NaN behave as in emitted code
+        for k in range(n):
+            sizes = abs(rows[k:, k])
+            pivot = k + max(range(n - k), key=sizes.__getitem__)
+            if not sizes[pivot - k] > 0:
+                return 0
+            order.append(pivot)
+            rows[[k, pivot]] = rows[[pivot, k]]
+            factor = 1 / rows[k, k]
+            rows[k] *= factor
+            rows[k, k] = factor
+            multiples = rows[:, k].copy()
+            others = numpy.arange(n) != k
+            rows[others] -= numpy.outer(multiples[others], rows[k])
+            rows[others, k] = -(multiples[others] * factor)
+        for k in reversed(range(n)):
+            rows[:, [k, order[k]]] = rows[:, [order[k], k]]
+    matrix[:] = rows.ravel().tolist()
     return 1

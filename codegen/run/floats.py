@@ -1,4 +1,4 @@
-"""Doubles as emitted code computes with them: Stumpff functions by the same polynomials and closed forms.
+"""Arithmetic in doubles as in emitted code: Stumpff functions by the same polynomials and closed forms.
 
 The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last
 place. Near the end of an iteration, this may cost or save a sweep. An executor that counts the sweeps of
@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from codegen.ir.domain import FloatDomain
-from codegen.run.precision import DOUBLE
+from codegen.ir.precision import DOUBLE
 from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised, limit, slopes
 
 
@@ -24,6 +24,7 @@ class EmittedFloats(FloatDomain):
 
     def __init__(self, h: float = 0.0, chain: int = 1) -> None:
         super().__init__(h)
+        # The limit is computed once, because it depends on the kernel and not on the argument.
         self.limit = limit(DOUBLE, chain)
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
@@ -42,11 +43,15 @@ class EmittedFloats(FloatDomain):
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
+        # c_2 = (1 - cos s)/s^2 cancels for small s. The half angle gives c_2 = sin(s/2)^2/(2 (s/2)^2)
+        # without cancellation.
         half = 0.5 * math.sqrt(allowed)
         sine, cosine = math.sin(half), math.cos(half)
         ratio = sine / half
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
+            # c_3 needs its polynomial up to a larger z than the others, because 1 - c_1 still cancels
+            # there.
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio * cosine) / z
         return [closed[k] for k in orders]
 
@@ -57,6 +62,7 @@ class EmittedFloats(FloatDomain):
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio) / z
         return [closed[k] for k in orders]
 
+    # Single calls go through ``together``, so that all branches are written once.
     def call(self, function: str, *args: float) -> float:
         """Call a function as emitted code does."""
         (z, *_) = args
@@ -73,10 +79,12 @@ class EmittedFloats(FloatDomain):
         return super().call(function, *args)
 
     def _slope(self, k: int, z: float) -> float:
+        # The quotient divides by z and cancels for small z; there the series is used.
         if z > 1.0:
             before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
+        # Horner's rule in the order of the snippet, so that every rounding is the same.
         for term in reversed(rest):
             total = term + z * total
         return total
@@ -93,6 +101,7 @@ def _short(k: int, z: float, name: str) -> float:
     """Return a short polynomial: pairs of terms, added from left to right."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
+    # The grouping in pairs is that of the template ``stumpff_small``: it determines the roundings.
     for place in range(0, len(terms), 2):
         pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
         total = pair if place == 0 else total + factor * pair
@@ -112,6 +121,7 @@ def _chain(terms: Sequence[float], w: float) -> float:
     w2, total = w * w, 0.0
     pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
     for number, pair in enumerate(reversed(pairs)):
+        # An odd number of terms leaves the highest term without a partner.
         value = pair[0] + w * pair[1] if len(pair) == 2 else pair[0]
         total = value if number == 0 else value + w2 * total
     return total

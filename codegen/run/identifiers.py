@@ -22,6 +22,8 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier of a name."""
+        # An unknown name of the kernel raises KeyError, because the unchanged name could be an illegal
+        # identifier.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
@@ -46,16 +48,22 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
+    # Arguments come first, because they have the same identifiers in every function, whatever other names it
+    # has.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     for statement in statements(function.body):
         if isinstance(statement, Array) and statement.name.own:
             name = statement.name.text
             own.add_all([name])
+            # The results of an outlined function are entries of one array, but separate symbols in the
+            # kernel.
             entries |= {
                 f"{name}.{k}": f"{own.identifiers[name]}[{k}]" for k in range(statement.name.shape[0])
             }
         for text in (t.text for t in names(direct(statement)) if t.own):
             if text not in entries and text not in own.identifiers:
+                # Inside an outlined function, its name before each input would only repeat the name of the
+                # function.
                 own.identifiers[text] = own.fresh(text.removeprefix(f"{function.name}."))
     return own.identifiers | entries

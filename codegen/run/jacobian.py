@@ -50,6 +50,8 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     """Return the functions of the derivative, none if it was not requested."""
     if plan.kernel.vary is None:
         return ()
+    # The derivative has a separate plan, because the kernel of variations has other inputs, outputs and loops
+    # than the step.
     varying = Plan(plan.kernel.vary, plan.format)
     return vary(plan, varying), _Jacobian(plan, varying).function()
 
@@ -68,8 +70,10 @@ def vary(plan: Plan, varying: Plan) -> Function:
         *sampled(varying),
         *loaded(symbols[:n], state, read),
         *loaded(symbols[n:], vector, read),
+        # Sweeps for a derivative are not counted: the statistics describe the integration.
         *computed(varying, counting=False),
         *ends,
+        # The result is tested before ``vector`` is overwritten, so that a failure leaves no partial result.
         If(negated(all_finite(*new)), (Return(code(NOT_FINITE)),)),
         *stored(vector, new),
         Return(code(OK)),
@@ -80,7 +84,7 @@ def vary(plan: Plan, varying: Plan) -> Function:
 
 
 class _Jacobian:
-    """The public function."""
+    """Builds the public function ``jacobian``; the attributes are variables of the function."""
 
     column, row = count("column"), count("row")
 
@@ -91,10 +95,12 @@ class _Jacobian:
         self.inputs = tuple(map(holding, plan.held))
 
     def function(self) -> Function:
-        """Return the function."""
+        """Return the function with its parameters and body."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
+        # The derivative is that of one step with constant inputs, as in the public function ``step``.
         given = (self.given,) if plan.held else ()
+        # Each call of ``vary`` yields a column, but callers expect the matrix by rows.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
@@ -107,6 +113,8 @@ class _Jacobian:
         )
         body: list[Statement] = []
         for held in plan.held:
+            # The inputs are copied, because the caller's array is constant, and C passes the values of a
+            # signal through a pointer to data that may change.
             body += [Array(held), Assign(held, self.given)]
         body += [
             Assign(STATUS, code(OK)),
@@ -124,8 +132,9 @@ class _Jacobian:
         return [Call("vary", (plan.state(), self.vector, *arguments), (STATUS,))]
 
     def composed(self) -> list[Statement]:
-        """Return the loop over the substeps: the variation first, then the state."""
+        """Return the loop over the substeps, which advance the variation before the state."""
         plan, part, point = self.plan, count("part_number"), self.plan.state("point")
+        # Each substep has its own memory, because substeps have different lengths and solutions.
         memories = record("memory", "memory", plan.parts)
         moment = (*part_moment(plan, part), *plan.parameters, *self.inputs)
         # The caller's statistics count the steps of the integration only, not the substeps repeated here.
@@ -144,6 +153,8 @@ class _Jacobian:
             # The variation comes first: it is linearised at the point where the substep begins.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
+            # The number of the substep is increased even after a failure: the status ends the loop, and the
+            # number is not read again.
             Assign(part, part + 1),
         )
         return [

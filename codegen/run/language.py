@@ -26,7 +26,7 @@ from codegen.run.terms import Kind, Term, names
 
 @dataclass(frozen=True)
 class Assign:
-    """target = value; for an array, every entry is assigned, for a record, every field."""
+    """An assignment: target = value; every entry of an array, or every field of a record, is assigned."""
 
     target: Term
     value: Term
@@ -34,7 +34,7 @@ class Assign:
 
 @dataclass(frozen=True)
 class Array:
-    """The definition of an array or record, which is undefined, zero, or filled with the given values."""
+    """The declaration of an array or record; the entries are undefined, zero, or the given values."""
 
     name: Term
     values: tuple[Term, ...] = ()
@@ -43,7 +43,7 @@ class Array:
 
 @dataclass(frozen=True)
 class For:
-    """The body for index = 0, ..., count - 1, or in ``reverse``."""
+    """A loop: the body is executed for index = 0, ..., count - 1, or in ``reverse`` order."""
 
     index: Term
     count: Term
@@ -53,7 +53,10 @@ class For:
 
 @dataclass(frozen=True)
 class While:
-    """The body as long as the test holds; with ``at_least_once`` the test comes after the body."""
+    """A loop: the body is executed as long as the test holds.
+
+    With ``at_least_once`` the test comes after the body.
+    """
 
     test: Term
     body: tuple[Statement, ...]
@@ -62,7 +65,7 @@ class While:
 
 @dataclass(frozen=True)
 class If:
-    """One of two bodies."""
+    """A branch: the body if the test holds, otherwise ``orelse``."""
 
     test: Term
     body: tuple[Statement, ...]
@@ -80,7 +83,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Return:
-    """The end of a function."""
+    """The end of a function, with its result."""
 
     value: Term
 
@@ -95,6 +98,8 @@ class Note:
 Statement = Assign | Array | For | While | If | Call | Return | Note
 Body = tuple[Statement, ...]
 
+# Python raises exceptions where C continues with infinities and NaNs. A guard makes both targets
+# agree.
 RAISES_STATUS, RAISES_NAN = "status", "nan"
 """The effect of an arithmetic error: the status NOT_FINITE, or NaNs in the result or array."""
 
@@ -125,7 +130,7 @@ class Record:
 
 @dataclass(frozen=True)
 class Table:
-    """A constant array, by rows where it has two dimensions."""
+    """A constant array; an array of two dimensions is stored by rows."""
 
     name: Term
     rows: tuple[tuple[float, ...], ...]
@@ -143,6 +148,7 @@ class Unit:
     records: tuple[Record, ...]
     tables: tuple[Table, ...]
     functions: tuple[Function, ...]
+    # The functions by name, because printers look up the callee at each call.
     parts: dict[str, Function] = field(default_factory=dict, compare=False)
 
     def __post_init__(self) -> None:
@@ -169,6 +175,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
     match statement:
         case Assign(target, term):
             return (target, term)
+        # The name comes first, because callers expect targets before the terms that are read.
         case Array(name, values):
             return (name, *values)
         case For(index, count):
@@ -193,6 +200,7 @@ def statements(body: Iterable[Statement]) -> Iterator[Statement]:
 
 def terms(body: Iterable[Statement]) -> Iterator[Term]:
     """Yield every term of a body with all its parts."""
+    # The stack is explicit, because sums over many unknowns are deeper than Python's recursion limit.
     waiting = [term for statement in statements(body) for term in direct(statement)]
     while waiting:
         term = waiting.pop()
@@ -202,6 +210,7 @@ def terms(body: Iterable[Statement]) -> Iterator[Term]:
 
 def root(target: Term) -> Term:
     """Return the name that an assignment changes, for example ``memory`` for ``memory.values[3]``."""
+    # The first argument of an entry, part or field is the array or record to which it belongs.
     while target.args:
         target = target.args[0]
     return target
@@ -214,6 +223,7 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
             return (target,)
         case Array(name):
             return (name,)
+        # Printers declare the index in the head of the loop, so the loop counts as its assignment.
         case For(index):
             return (index,)
         case Call(results=results):

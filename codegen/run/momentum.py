@@ -16,7 +16,7 @@ from codegen.run.terms import NOT_FINITE, OK, Kind, Term, all_finite, code, coun
 ENTER, LEAVE = "enter_body", "leave_body"
 
 MOVING = "moving"
-"""The state in the body frame."""
+"""The name of the state with body momentum."""
 
 
 def momentum_before(plan: Plan) -> Term:
@@ -31,9 +31,14 @@ def turning(plan: Plan) -> tuple[Function, ...]:
     if carried is None:
         return ()
     n = plan.size - carried.first
+    # Only the momentum is converted: the group element is the same in both frames.
     momentum = real("momentum", n)
     to_body = filling(
-        Plan(carried.inward, plan.format), "to_body", "Convert space momentum to body momentum.", momentum
+        # The conversions are kernels of their own, so they are scheduled and printed like a step.
+        Plan(carried.inward, plan.format),
+        "to_body",
+        "Convert space momentum to body momentum.",
+        momentum,
     )
     to_space = filling(
         Plan(carried.outward, plan.format), "to_space", "Convert body momentum to space momentum.", momentum
@@ -60,6 +65,8 @@ def _enter(plan: Plan, carried: Carried) -> Function:
 def _leave(plan: Plan, carried: Carried, n: int) -> Function:
     state, moving, before = plan.state(), plan.state(MOVING), momentum_before(plan)
     momentum, i = real("momentum", n), count("i")
+    # The difference is formed first: it is small, so its rounding error is small, too, and adding it to the
+    # initial momentum rounds once. Another grouping would round the whole momentum twice.
     gained = state[i + carried.first] + (momentum[i] - before[i])
     body = (
         Array(momentum),

@@ -17,7 +17,7 @@ class Names:
     """
 
     def __init__(self, reserved: Collection[str]) -> None:
-        # Sorted, so that emitted names do not depend on the order of a set.
+        # The words are sorted, so that emitted names do not depend on the order of a set.
         self._taken = dict.fromkeys(sorted(reserved), True)
         self._reserved = len(self._taken)
         self.identifiers: dict[str, str] = {}
@@ -35,10 +35,13 @@ class Names:
 
     def fresh(self, proposal: str) -> str:
         """Return an unused identifier, close to the proposal."""
+        # Only ASCII letters are kept, because compilers differ in the other letters that they allow in
+        # identifiers.
         name = re.sub(r"\W", "_", proposal, flags=re.ASCII)
         # C reserves identifiers with two leading underscores, and Python mangles such names in classes.
         if not name or name[0].isdigit() or name.startswith("__"):
             name = "v" + name
+        # Underscores and not numbers are appended, because xi_1 and xi_2 are components of one vector.
         while name in self._taken:
             name += "_"
         self._taken[name] = True

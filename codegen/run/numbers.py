@@ -5,8 +5,11 @@ from __future__ import annotations
 from math import prod
 
 from codegen.run.identifiers import Identifiers, identify
-from codegen.run.language import Array, Function, Unit, assigned, statements
+from codegen.run.language import Array, Call, Function, Unit, assigned, statements
 from codegen.run.terms import Kind, Term
+
+REGISTERS = 8
+"""Calls with more than REGISTERS arguments pass some of them on the stack."""
 
 
 def numbers_held(unit: Unit) -> int:
@@ -19,13 +22,20 @@ def numbers_held(unit: Unit) -> int:
 
 
 def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
-    arrays, scalars = 0, set()
+    arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
+        if isinstance(statement, Call):
+            # Compilers that do not optimise give each argument of each such call a place of its own.
+            arguments = len(statement.arguments) + len(statement.results)
+            passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
+            # Arrays of one name in different blocks are counted separately: a compiler need not overlap
+            # them.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
+        # A scalar that is assigned several times has one place on the stack.
         scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
-    return arrays + len(scalars) + len(function.parameters)
+    return arrays + passed + len(scalars) + len(function.parameters)
 
 
 def _size(unit: Unit, name: Term) -> int:

@@ -20,6 +20,8 @@ class Place:
     @property
     def term(self) -> Term:
         """The entries of the block."""
+        # The stopping rule compares a change with the largest entry of a block, so a block is a single
+        # term.
         return real(self.array, self.whole).part(self.start, self.size)
 
 
@@ -28,6 +30,7 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
 
     The variation, if the kernel has one, is its last field and lies in a separate array.
     """
+    # Callers of a Jacobian pass the variation separately, so it does not count as part of the state.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

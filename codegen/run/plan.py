@@ -8,8 +8,8 @@ from functools import cached_property
 
 from codegen.ir.expr import walk
 from codegen.ir.kernel import ELAPSED, LEAD, NEWTON, Kernel, Start
+from codegen.ir.precision import Precision
 from codegen.kernel.schedule import Arrangement, arrange
-from codegen.run.precision import Precision
 from codegen.run.terms import Term, count, own, real, record, signal
 
 TIME, STEP = own("t"), own("h")
@@ -34,11 +34,14 @@ class Plan:
 
     kernel: Kernel
     format: Precision
+    # A trial of a solver sets this limit to one, so that continuation in h does not hide a failure.
     tries: int | None = None
 
     @cached_property
     def arrangement(self) -> Arrangement:
         """The statements of the kernel."""
+        # The statements are cached, because every function of a unit reads them, and scheduling rewrites all
+        # expressions.
         return arrange(self.kernel)
 
     @property
@@ -48,11 +51,13 @@ class Plan:
 
     @property
     def size(self) -> int:
-        """The number of numbers in a state."""
+        """The number of components of a state."""
         return len(self.symbols)
 
     @cached_property
     def _used(self) -> tuple[str, ...]:
+        # The result is cached, because nearly every property below reads it, and computing it walks through
+        # the whole kernel.
         return self.kernel.used_scalars()
 
     @property
@@ -84,6 +89,7 @@ class Plan:
     @property
     def remembers(self) -> bool:
         """Whether a step stores data for the next."""
+        # Kernels without implicit equations store nothing, so their steps have no argument for a memory.
         return self.start is not None or self.newton
 
     @property
@@ -99,6 +105,7 @@ class Plan:
     @property
     def memories(self) -> Term:
         """The memory of each substep, or of the step."""
+        # Substeps have different lengths, so extrapolating from one substep to the next would be meaningless.
         return record(MEMORY, MEMORY, self.parts) if self.parts else self.memory
 
     @property
@@ -126,6 +133,7 @@ class Plan:
 
     def moment(self, t: Term = TIME, h: Term = STEP) -> tuple[Term, ...]:
         """Return the arguments for the time, if it is read, and the step size."""
+        # A time that is never read would cause a warning in C and round without need in each step.
         return (t, h) if self.time else (h,)
 
     def sampled(self, inputs: Term = INPUTS) -> tuple[Term, ...]:
@@ -139,6 +147,8 @@ class Plan:
 
     def read(self, scalars: Iterable[str]) -> tuple[Term, ...]:
         """Return the scalars that the kernel's statements read."""
+        # The scheduled statements are searched and not the kernel, because scheduling may have removed the
+        # last reader of a scalar.
         symbols = self.arrangement.symbols()
         return tuple(own(s) for s in scalars if s in symbols)
 

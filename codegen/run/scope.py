@@ -30,9 +30,9 @@ from codegen.run.terms import Term, names
 
 @dataclass
 class Declarations:
-    """The variables declared before each statement, and those declared by it; keys are ``id(statement)``.
+    """The variables declared before each statement, and those that the statement itself declares.
 
-    The values of ``by`` map the name of a variable to whether the variable is constant.
+    Keys are ``id(statement)``. The values of ``by`` map the name of a variable to whether it is constant.
     """
 
     before: dict[int, list[tuple[str, Term]]] = field(default_factory=dict)
@@ -40,7 +40,7 @@ class Declarations:
 
 
 def declarations(function: Function, identifiers: Identifiers) -> Declarations:
-    """Return the declarations of a function; arrays and loop indices are declared by their statements."""
+    """Return the declarations of the scalars that a function assigns, except parameters and loop indices."""
     result = Declarations()
     _Scopes(identifiers, result).place(function.body, _variables(function, identifiers))
     return result
@@ -56,11 +56,13 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
                 for target in assigned(statement):
                     if target.op == "name" and not target.shape and not target.record:
                         result.setdefault(identifiers.variable(target), target)
+            # Inner blocks are included, because a variable may be assigned only there.
             for inner in blocks(statement):
                 collect(inner)
 
     collect(function.body)
     for parameter in function.parameters:
+        # The head of the function declares parameters, also if the body assigns them.
         result.pop(identifiers.of(parameter), None)
     return result
 
@@ -75,6 +77,8 @@ class _Scopes:
     def place(self, body: Body, variables: dict[str, Term]) -> None:
         """Declare variables that no statement outside the body mentions."""
         inside: dict[int, dict[str, Term]] = {}
+        # One pass over the body finds the uses of all variables: a pass for each variable would take
+        # quadratic time.
         holders: dict[str, list[int]] = {name: [] for name in variables}
         for k, statement in enumerate(body):
             for name in self.mentioned(statement):
@@ -84,6 +88,8 @@ class _Scopes:
             places = holders[name]
             if not places:
                 continue
+            # Variables are declared as deep as possible, because a small scope shows readers and compilers
+            # how long a value is used.
             deeper = self.deeper(body, places, name)
             if not deeper:
                 self.declare(body, places, name, variable)
@@ -97,6 +103,7 @@ class _Scopes:
     def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
         """Return the inner blocks to which a variable belongs; none if the variable belongs to ``body``."""
         result: list[Body] = []
+        # Only statements that mention the variable can contain a block for it.
         for k in places:
             statement = body[k]
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable
@@ -116,9 +123,13 @@ class _Scopes:
             if name in {self.identifiers.variable(x) for x in reads(statement)}:
                 return False
             if isinstance(statement, Assign | Call):
+                # A call with several results writes them through pointers; this counts as an assignment to
+                # each result.
                 return any(
                     t.op == "name" and self.identifiers.variable(t) == name for t in assigned(statement)
                 )
+            # Counts are positive, so such a body is executed at least once. A While with the test first, or
+            # a branch, may be skipped.
             if isinstance(statement, For) or (isinstance(statement, While) and statement.at_least_once):
                 return self.begins(statement.body, name)
             return False
@@ -127,6 +138,8 @@ class _Scopes:
     def declare(self, body: Body, places: list[int], name: str, variable: Term) -> None:
         """Declare a variable in this block."""
         first = body[places[0]]
+        # Assignments are counted in the whole block, because a variable that an inner block assigns again is
+        # not constant.
         times = sum(self.assignments(body[k], name) for k in places)
         # `x = x + 1` cannot be a declaration, because it reads x.
         direct_first = isinstance(first, Assign) and self.assignments(first, name) > 0
@@ -138,6 +151,7 @@ class _Scopes:
 
     def assignments(self, statement: Statement, name: str) -> int:
         """Return the number of assignments to a variable in a statement."""
+        # The declaration of an array is no assignment to a scalar.
         targets = [] if isinstance(statement, Array) else assigned(statement)
         own = sum(t.op == "name" and self.identifiers.variable(t) == name for t in targets)
         return own + sum(self.assignments(x, name) for block in blocks(statement) for x in block)

@@ -56,10 +56,12 @@ SWEEPS = 50
 """The most sweeps that a robust solver needs in the longer step: half of the limit of a loop."""
 
 PRICE = 4.0
-"""A robust solver is accepted if its step takes at most PRICE times as long as with the fastest solver."""
+"""A robust solver is preferred if its step takes at most PRICE times as long as a step with the fastest
+solver.
+"""
 
 LARGE = 64
-"""Above LARGE unknowns a trial makes FEW_STEPS steps, without continuation in h (thousands of sweeps)."""
+"""Above LARGE unknowns a trial has FEW_STEPS steps. It omits continuation in h: thousands of sweeps."""
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ def solved(
     asked: str = AUTO,
     iterated: Kernel | None = None,
 ) -> tuple[Kernel, tuple[Choice, ...]]:
-    """Return the kernel of a program with every block solved as ``asked``, and what was chosen.
+    """Return the kernel of a program with every block solved as ``asked``, and the choice for each block.
 
     Trials start from the state ``initial``, with run-time inputs equal to zero. ``asked`` is one of
     :data:`CHOICES`; UnknownName for another name. MethodError if Newton's method needs a derivative of a
@@ -126,7 +128,7 @@ def solved(
             f"{METHODS[asked]} for {program.name}: {error}",
             where=scene.name,
             expected="functions whose derivatives are known",
-            hint=f"ask for --solver {FIXED_POINT}",
+            hint=f"use --solver {FIXED_POINT}",
         ) from error
     return kernel, _choices(kernel, ASKED)
 
@@ -304,10 +306,10 @@ class _Selection:
         return mixed if mixed.robust or (mixed.usual.converged and not uniform.robust) else uniform
 
     def by_continuation(self) -> tuple[Kernel, tuple[Choice, ...]]:
-        """Return the choice if no solver converges directly: the cheapest that does by continuation in h.
+        """Return the choice if no solver converges directly: the cheapest solver with continuation in h.
 
-        If the continuation fails too, or is not tried, the choice is Newton's method, or fixed-point
-        iteration if Newton's method is not possible.
+        If the continuation fails, or is not tried, the choice is Newton's method. If Newton's method is not
+        possible, the choice is fixed-point iteration.
         """
         kernels = {s: c.kernel for s, c in self.candidates.items()}
         small = unknowns_of(self.fixed) <= LARGE
@@ -326,7 +328,7 @@ class _Selection:
         reasons = []
         for k in range(len(self.fixed.loops)):
             if able:
-                reasons.append(f"{failed} at once: by continuation in h, {counted(trials[solver], k)}")
+                reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
         return kernels[solver], self.choices(kernels[solver], reasons)

@@ -16,25 +16,29 @@ SWEEPS = count("sweep")
 
 def statistics_record(plan: Plan) -> Record:
     """Return the record of a unit's statistics."""
+    # Sweeps are counted for each block, because a single slow block would be invisible in a total.
     labels = [loop.label for loop in plan.kernel.loops]
     fields = [
         (count("sweeps", len(labels)), "by block: " + ", ".join(labels)),
-        (count("most"), "the most sweeps of one block in one step"),
-        (count("failed"), "1 + the block that failed, 0 if none has"),
+        (count("most"), "largest number of sweeps of one block in one step"),
+        # Blocks are numbered from one, so that a record of zeros means no failure.
+        (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
+    # Simplified Newton computes one matrix in each step, so its number of matrices needs no counter.
     if plan.newton:
-        fields.append((count("matrices"), "how many Newton matrices were computed"))
+        fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
     return Record(STATISTICS, about, tuple(fields), public=True)
 
 
 def counters(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that count."""
+    """Return the functions that update the statistics."""
     statistics, block, sweeps, failed = plan.statistics, count("block"), count("sweeps"), flag("failed")
     most, last = (statistics.field(name, Kind.COUNT) for name in ("most", "failed"))
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
+        # The mean hides a single hard step, which is the first sign that h is too large.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )

@@ -61,6 +61,8 @@ def kernel_step(plan: Plan) -> Function:
     parameters = (state, *plan.moment(), *plan.parameters, *plan.sampled())
     parameters += (*plan.remembering(plan.memory), *plan.counted)
     parameters += (plan.error,) if plan.kernel.estimate is not None else ()
+    # All outputs are computed before the first entry of the state is overwritten, because they read the old
+    # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
     # The kernel does not read these entries, because other entries determine them. So the new state does not
     # show a NaN in them.
@@ -89,6 +91,7 @@ def _remembered(plan: Plan) -> list[Statement]:
     if plan.start is None:
         return []
     solution = real("solution", len(plan.start.unknowns))
+    # One array contains the unknowns of all loops, because all loops of a step share one warm start.
     unknowns = tuple(own(u) for u in plan.start.unknowns)
     return [Array(solution, unknowns), Call("remember", (plan.memory, solution))]
 
@@ -127,6 +130,7 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
     if not plan.parts:
         return ()
     n, rounded = plan.parts, plan.format.round
+    # The exact numbers are rounded once, at compile time.
     fractions = tuple(rounded(step.fraction) for step in plan.kernel.substeps)
     sequence = [Table(real("fraction", n), (fractions,), "Lengths of the substeps, in units of h.")]
     if plan.time:
@@ -137,6 +141,8 @@ def substep_tables(plan: Plan) -> tuple[Table, ...]:
 
 def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
     """Return the arguments for the time and length of a substep."""
+    # Times are computed from the beginning of the step, because a sum over substeps would accumulate rounding
+    # errors.
     begins = exact_time(TIME, real("offset", plan.parts)[part], STEP)
     return plan.moment(begins, real("fraction", plan.parts)[part] * STEP)
 
@@ -144,8 +150,8 @@ def part_moment(plan: Plan, part: Term) -> tuple[Term, ...]:
 def composed_step(plan: Plan) -> Function:
     """Return the function that composes the substeps."""
     state, following, part = plan.state(), plan.state("next"), count("part_number")
-    # One memory for each substep: only the solutions of the same substep in successive steps lie on
-    # a smooth curve.
+    # Each substep has its own memory, because only the solutions of the same substep in successive steps lie
+    # on a smooth curve.
     memories = record("memory", "memory", plan.parts)
     arguments = (*part_moment(plan, part), *plan.parameters, *plan.sampled(INPUTS))
     arguments += (*plan.remembering(memories[part]), *plan.counted)

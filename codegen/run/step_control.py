@@ -56,10 +56,13 @@ def functions(plan: Plan) -> tuple[Function, ...]:
 
 
 def weighted(plan: Plan) -> Function:
-    """Return the function that measures an error."""
+    """Return the function that computes the norm of an error estimate."""
     n, i = plan.size, count("i")
+    # The norm has a separate function, so that the long body of the run contains no loop over components.
     before, after, error = (real(name, n) for name in ("before", "after", "error"))
     total, ratio, old, new = real("total"), real("ratio"), real("old"), real("new")
+    # The larger of the values at both ends of the step is used, because a component that crosses zero would
+    # otherwise require a tiny error.
     scale = ATOL + RTOL * select(new > old, new, old)
     body = (
         Assign(total, number(0.0)),
@@ -75,7 +78,10 @@ def weighted(plan: Plan) -> Function:
         ),
         Return(call("sqrt", total / float(n))),
     )
-    about = "The root mean square of error over atol + rtol |y|; |y| is the larger of before and after."
+    about = (
+        "The root mean square of error_i / (atol + rtol |y_i|), where |y_i| is the larger of its values "
+        "before and after the step."
+    )
     parameters = (before, after, error, RTOL, ATOL)
     return Function("weighted", about, parameters, body, Kind.REAL, RAISES_NAN)
 
@@ -83,13 +89,14 @@ def weighted(plan: Plan) -> Function:
 def between() -> Function:
     """Return the function that limits a factor."""
     least, x, most = real("least"), real("x"), real("most")
+    # Comparisons with a NaN are false, so this order maps a NaN to the least factor.
     bounded = select(x > least, select(x < most, x, most), least)
     about = "Clamp x to [least, most]; a NaN gives least."
     return Function("between", about, (least, x, most), (Return(bounded),), Kind.REAL)
 
 
 class _Controlled:
-    """The run and its variables."""
+    """Builds the adaptive run; the attributes are variables of the run."""
 
     t, h = real("t", 1, cell=True), real("h", 1, cell=True)
     end, limit = real("end"), count("limit")
@@ -102,18 +109,23 @@ class _Controlled:
     def __init__(self, plan: Plan) -> None:
         assert plan.kernel.estimate is not None
         self.plan, self.order = plan, plan.kernel.estimate.order
+        # A trial step works on a copy, because a rejected step must leave the state unchanged.
         self.trial, self.error = plan.state("trial"), real("error", plan.size)
 
     def function(self) -> Function:
-        """Return the function."""
+        """Return the function with its parameters and body."""
         plan = self.plan
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
         parameters = (plan.state(), *chosen, *passed, self.accepted, self.rejected)
+        # Integration backwards in time is allowed, so both signs are tested. For a NaN both tests are
+        # false.
         moving = either(self.now < self.end, self.now > self.end)
         body: tuple[Statement, ...] = (
             *self.begin(),
             While(both(STATUS.equals(code(OK)), moving), self.step()),
+            # Time and step size are stored after a failure, too: the caller then knows the last good time and
+            # can continue from there.
             Assign(self.t[0], self.now),
             Assign(self.h[0], self.length),
             If(given(self.accepted), (Assign(self.accepted[0], self.accepted_steps),)),
@@ -125,7 +137,10 @@ class _Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
+        # The arguments are tested once, before the loop, because the loop only scales step sizes by bounded
+        # factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
+        # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
         # A crude choice is enough: each trial corrects it by a factor of up to 5.
@@ -152,6 +167,7 @@ class _Controlled:
         stuck = negated(either(self.following > self.now, self.following < self.now))
         return (
             Assign(self.left, self.end - self.now),
+            # A step that reaches the end is shortened to end exactly there.
             Assign(self.last, self.length >= size(self.left)),
             Assign(self.taken, select(self.last, self.left, call("copysign", self.length, self.left))),
             # The last step sets the time to the end itself. A sum would differ from the end by a rounding
@@ -185,6 +201,7 @@ class _Controlled:
 
     def power(self, base: Term, exponent: float) -> Term:
         """Return a power of an error."""
+        # The order is known at compile time, so the exponent is a constant in emitted code.
         return call("power", base, number(self.plan.format.round(exponent / self.order)))
 
     def rounded(self, x: float) -> Term:
@@ -225,6 +242,7 @@ class _Controlled:
 
         The status of a failed step is reset to OK as long as a shorter step still changes the time.
         """
+        # If even the shorter step leaves the time unchanged, the status of the failure is the result.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

@@ -49,6 +49,7 @@ class Amounts:
     cubes: float = 0.0
 
     def __add__(self, other: Amounts) -> Amounts:
+        # Fields are added by position, so that a new kind of work needs no change of this method.
         return Amounts(*(a + b for a, b in zip(astuple(self), astuple(other), strict=True)))
 
     def times(self, factor: float) -> Amounts:
@@ -79,18 +80,23 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     True
     """
     arithmetic, divisions = counts.get("add", 0) + counts.get("mul", 0), counts.get("div", 0)
+    # All calls cost the same: nearly all are Stumpff functions of small arguments, which are short
+    # polynomials.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
 
 def of_step(kernel: Kernel, work: Work) -> Amounts:
     """Return the amounts of one step without its sweeps and matrices."""
+    # The counts of operations already include all substeps, but the warm start is not among the
+    # operations.
     unknowns = max(1, len(kernel.substeps)) * sum(len(loop.unknowns) for loop in kernel.loops)
     return of_operations(work[STEP]) + Amounts(unknowns=unknowns)
 
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of one sweep."""
+    # The next sweep reads the corrected unknowns, so it cannot overlap with this product.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 
@@ -100,6 +106,7 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
+        # An inverse by formula is part of the counted operations.
         0 if loop.newton.inverted else len(loop.unknowns)
     )
 
@@ -116,6 +123,7 @@ class StepCost:
     """
 
     def __init__(self, kernel: Kernel) -> None:
+        # Operations are counted once, because a choice of solvers needs many sums of the same operations.
         self.kernel, self.work = kernel, operations(arrange(kernel))
 
     def amounts(self, sweeps: Sequence[float], matrices: Sequence[float]) -> Amounts:

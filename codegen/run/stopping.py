@@ -54,10 +54,14 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""Added to the rate, because the last change is applied too and has relative errors of this size."""
+"""This number is added to the rate, because the last change is applied, too, and its relative error is about
+this large.
+"""
 
 FOUR_ROUNDINGS = 2.0**-50
-"""Four roundings, relative to the sum of the absolute values of the unknowns (see :meth:`Stopping.sums`)."""
+"""The stopping bound of loops over residuals: four roundings of the sum of the absolute values of the
+unknowns (see :meth:`Stopping.sums`).
+"""
 
 CHANGE, SCALE = real("change"), real("scale")
 
@@ -84,11 +88,13 @@ class Stopping:
     @property
     def kept_rate(self) -> Term:
         """The rate that a step stores for the next."""
+        # The rate is stored for each loop separately, because blocks of one step contract at different rates.
         return self.plan.memory.field(f"rate_{self.number}")
 
     @cached_property
     def warm(self) -> bool:
         """Whether the loop has a warm start."""
+        # Loops without starting values of their own share the warm start of the kernel.
         return not self.loop.starts
 
     def before(self) -> list[Statement]:
@@ -165,6 +171,7 @@ class Stopping:
     def sums(self, changes: Sequence[Term], unknowns: Sequence[Term]) -> list[Statement]:
         """Return the statements that measure a sweep over residuals, by sums of absolute values."""
         return [
+            # Sums are used and not maxima, because sums keep NaNs: no separate test for finiteness is needed.
             Assign(CHANGE, paired(map(size, changes))),
             Assign(SCALE, paired(map(size, unknowns))),
         ]

@@ -70,7 +70,7 @@ def sweeps(plan: Plan, iteration: Iteration, counting: bool) -> list[Statement]:
 
 @dataclass(frozen=True)
 class _Loop:
-    """The common part of fixed-point iteration and Newton's method; ``counting`` includes statistics."""
+    """The common part of fixed-point iteration and Newton's method; with ``counting``, sweeps are counted."""
 
     plan: Plan
     iteration: Iteration
@@ -110,7 +110,7 @@ class _Loop:
         sequence: list[Statement] = [
             Note(f"{loop.label}: {METHODS[loop.solver]}, {len(loop.unknowns)} unknowns")
         ]
-        starts = zip(self.unknowns, self.iteration.starts, strict=False)  # no starts with a warm start
+        starts = zip(self.unknowns, self.iteration.starts, strict=False)  # empty with a warm start
         sequence += [Assign(u, value(x)) for u, x in starts]
         return [*sequence, *self.rule.before()]
 
@@ -320,7 +320,8 @@ class _Newton(_Loop):
         n, matrix = len(self.unknowns), [value(x) for x in self.iteration.matrix]
         if n > WIDE:
             whole_matrix = real(f"matrix_{self.number}", n * n)
-            # An array initialiser and one copy: n^2 separate assignments would make the function very long.
+            # An array initialiser and one copy store the entries, because n^2 separate assignments would make
+            # the function very long.
             return [*sequence, Array(whole_matrix, tuple(matrix)), Assign(self.inverse, whole_matrix)]
         return [*sequence, *(Assign(self.cell(k), x) for k, x in enumerate(matrix))]
 

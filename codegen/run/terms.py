@@ -29,6 +29,7 @@ class Kind(Enum):
     REAL = "real"
     WIDE = "wide"
     COUNT = "count"
+    # Flags have a separate kind, because array languages distinguish booleans from integers.
     FLAG = "flag"
     STATUS = "status"
     RECORD = "record"
@@ -90,6 +91,7 @@ class Term:
     def __neg__(self) -> Term:
         return Term("neg", (self,), self.kind)
 
+    # ``==`` is not overloaded: terms are compared by identity, and dictionaries need that.
     def __lt__(self, other: Operand) -> Term:
         return _comparison("<", self, other)
 
@@ -117,10 +119,13 @@ class Term:
 
     def __iter__(self) -> Iterator[Term]:
         """Raise TypeError: an array is not a Python sequence."""
-        raise TypeError("a term has no entries until a program runs")
+        # Without this method Python would iterate by ``__getitem__``, which accepts every index, and never
+        # end.
+        raise TypeError("a Term is symbolic and cannot be iterated; index its entries up to its shape")
 
     def part(self, start: int, size: int) -> Term:
         """Return ``size`` entries of an array of reals, from ``start`` on."""
+        # The whole array needs no offset in C and no slice in Python.
         if start == 0 and self.shape == (size,):
             return self
         return Term("part", (self,), self.kind, number=start, shape=(size,))
@@ -132,6 +137,8 @@ class Term:
 
 Operand = Term | float | int
 
+# A Python number gets the kind of the other operand; with this count as other operand, an index becomes a
+# count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
 
@@ -144,6 +151,7 @@ def _term(x: Operand, like: Term) -> Term:
 
 
 def _arithmetic(op: str, x: Term, y: Operand) -> Term:
+    # WIDE is the kind of the result if either operand is wide, as in the arithmetic of C.
     right = _term(y, x)
     return Term(op, (x, right), Kind.WIDE if Kind.WIDE in (x.kind, right.kind) else x.kind)
 
@@ -208,6 +216,8 @@ def truth(x: bool) -> Term:
 
 def value(x: Expr) -> Term:
     """Return an expression of the kernel; a bare symbol becomes a name."""
+    # Return a name and not a value, so that copies of scalars are recognised without inspecting
+    # expressions.
     if x.op == "sym":
         return own(x.payload)
     return Term("value", value=x)
@@ -218,6 +228,7 @@ INFINITY = Term("infinity")
 
 def both(*tests: Term) -> Term:
     """Return the conjunction of tests; evaluation ends at the first that is false."""
+    # The tests are joined from the left, because all targets print this form without parentheses.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
@@ -233,6 +244,7 @@ def negated(test: Term) -> Term:
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
     """Return one of two values; unlike a branch, an array language computes both of them."""
+    # A Python number beside a term gets the kind of the term; two Python numbers are reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
     return Term("select", (test, first, second), first.kind)
@@ -251,6 +263,7 @@ def size(x: Term) -> Term:
 def greatest(terms: Iterable[Term]) -> Term:
     """Return the greatest of some reals."""
     listed = tuple(terms)
+    # A single term is returned without a call, because ``max`` of a single number is an error in Python.
     return listed[0] if len(listed) == 1 else call("greatest", *listed)
 
 
@@ -271,6 +284,7 @@ def all_finite(*terms: Term) -> Term:
 
 def total(terms: Iterable[Term]) -> Term:
     """Return a sum from left to right."""
+    # The order is fixed, so that all targets round alike.
     return reduce(lambda a, b: a + b, terms)
 
 
@@ -291,6 +305,7 @@ def given(argument: Term) -> Term:
 
 def absent(parameter: Term) -> Term:
     """Return the argument that omits an optional parameter."""
+    # The kind and shape of the parameter are kept: they decide how printers pass an argument.
     return replace(parameter, op="none", args=())
 
 
@@ -310,12 +325,14 @@ def wide(x: Term) -> Term:
 
 
 def narrow(x: Term) -> Term:
-    """Return a wide real rounded to the format."""
+    """Return a double rounded to the format of the module."""
     return Term("narrow", (x,))
 
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
     """Yield every name in terms, including names in expressions of the kernel."""
+    # The terms are reversed, because the stack is read from its end, and names must appear in the order of
+    # the text.
     waiting = list(terms)[::-1]
     while waiting:
         term = waiting.pop()
@@ -328,6 +345,7 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 def symbols(root: Expr) -> Iterator[str]:
     """Yield the symbols of an expression, in the order in which it reads them."""
+    # Expressions share nodes: without this set, the walk could take exponential time.
     seen: set[int] = set()
     waiting = [root]
     while waiting:

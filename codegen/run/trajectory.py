@@ -70,6 +70,8 @@ class Rows:
     def begin(self, state: Term) -> list[Statement]:
         """Return the statements that write the first row."""
         return [
+            # The stride and the array are tested once, because one flag in the loop is cheaper than two
+            # tests.
             Assign(self.recording, both(STRIDE > 0, given(self.trajectory))),
             Assign(self.written, whole(0)),
             If(self.recording, (Assign(self.trajectory[0], state),)),
@@ -77,11 +79,14 @@ class Rows:
 
     def due(self, step: Term = DONE) -> Term:
         """Return the test that the state after ``step`` steps is a row."""
+        # The flag comes first, because a remainder by a stride of zero is undefined.
         return both(self.recording, (step % STRIDE).equals(0))
 
     def add(self, state: Term) -> list[Statement]:
         """Return the statements that write another row."""
         return [
+            # Rows are counted, because computing the index as step / stride in each step would cost more than
+            # writing the row.
             Assign(self.written, self.written + 1),
             Assign(self.trajectory[self.written], state),
         ]
@@ -89,6 +94,7 @@ class Rows:
 
 def own_memory(plan: Plan) -> list[Statement]:
     """Return the statement that creates the memory of a run."""
+    # The memory is local to a run, so a run depends on its arguments only, and several threads can make runs.
     return [Array(plan.memories, zero=True)] if plan.remembers else []
 
 
@@ -105,6 +111,7 @@ def arguments(plan: Plan, inputs: Term = INPUTS, t: Term = TIME) -> tuple[Term, 
 
 def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list[Statement]:
     """Return the statements that call a step and set the status."""
+    # A run with steps of constant size does not read the error estimate.
     error = (absent(plan.error),) if plan.kernel.estimate is not None else ()
     call = Call(ADVANCE, (state, *given_arguments, *error), (STATUS,))
     return [call, *([] if plan.parts else retried(plan, state, given_arguments))]
@@ -113,11 +120,14 @@ def advanced(plan: Plan, state: Term, given_arguments: tuple[Term, ...]) -> list
 def step(plan: Plan) -> Function:
     """Return the public function for one step; run-time inputs are constant over it."""
     state = plan.state()
+    # A single step needs values of the inputs and no function of time, because its caller may change the
+    # values between steps.
     held = real("inputs", len(plan.kernel.inputs))
     parameters = (state, *plan.moment(), *plan.parameters, *((held,) if plan.held else ()), *plan.counted)
     body: list[Statement] = []
     if is_looped(plan):
-        # The public step calls a run of one step here, because a second copy of the kernel would add code.
+        # If the kernel is inlined in the run, the step calls a run of one step, because a second copy of the
+        # kernel would add code.
         nothing = (absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
         body = [Call("run", (state, STEP, whole(1), *plan.parameters, *nothing), (STATUS,))]
         return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
@@ -162,7 +172,7 @@ def run(plan: Plan) -> Function:
             # the row. The run itself continues in the body frame, without another conversion.
             row.append(Call(LEAVE, (moving, before, rows.trajectory[rows.written]), (STATUS,)))
         advance = (Assign(DONE, DONE + 1), If(rows.due(), tuple(row)))
-        # Each time is computed from the initial one, so that errors do not accumulate.
+        # Each time is computed from the initial time, so that errors do not accumulate.
         later = exact_time(TIME, DONE, STEP)
         # The counter advances after success only, so it is the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
@@ -187,9 +197,11 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     state, numbers = plan.state(), [own(s) for s in plan.symbols]
     read = plan.arrangement.symbols()
     ends, new = outputs(plan.arrangement, plan.symbols)
+    # These entries do not affect the new values, so the test of the new values would miss a NaN in them.
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
+    # All new values have names of their own, so the order of these copies is arbitrary.
     taken: list[Statement] = [Assign(x, y) for x, y in zip(numbers, new, strict=True)]
     taken += [Assign(DONE, DONE + 1), If(rows.due(), tuple(row))]
     inner: list[Statement] = [

@@ -10,16 +10,16 @@ from dataclasses import dataclass, replace
 
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.run.execute import Machine
 from codegen.run.floats import EmittedFloats
 from codegen.run.plan import STATISTICS, Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import OK, STATUSES
 from codegen.run.unit import unit_of
 from codegen.scene.problem import Problem
 
 PARTS = 100
-"""The number of steps into which the usage example divides the scene's span."""
+"""The number of steps into which the usage example divides the time span of the scene."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,14 @@ class Trials:
     def __init__(
         self, kernel: Kernel, scene: Problem, initial: tuple[float, ...], continuation: bool = False
     ) -> None:
+        # Error estimates and derivatives do not change the number of sweeps, but would make the trial
+        # longer.
         plain = replace(kernel, estimate=None, vary=None)
+        # Trials always compute in doubles, because the choice of a solver should not depend on the format of
+        # the module.
         self.plan = Plan(plain, DOUBLE, tries=None if continuation else 1)
+        # Functions are rounded as in emitted code, because a difference in the last bit can cause one more
+        # sweep.
         self.machine = Machine(unit_of(self.plan), EmittedFloats(chain=chain(kernel)))
         self.initial, self.span = initial, scene.span
         self.values = [float(scene.parameters[p.text]) for p in self.plan.parameters]
@@ -60,10 +66,14 @@ class Trials:
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
         counts, state = self.machine.record(STATISTICS), list(self.initial)
         time = [float(first)] if self.plan.time else []
+        # The signals of the user are not known, and a system without control is the usual first test.
         signals = [lambda t: (0.0,) * number] if number else []
+        # The step size is computed from exact rationals and rounded once, as in the usage example.
         h = float(longer * (last - first) / PARTS)
+        # No rows of a trajectory are stored, because only the counts are read.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
+        # The record counts the matrices of all blocks together, so each block gets the mean.
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,

@@ -16,12 +16,14 @@ from codegen.run.warm_start import WarmStart, differences, memory_record
 
 def unit_of(plan: Plan) -> Unit:
     """Return the unit of a kernel."""
+    # Callees come first, because C needs a declaration before each call.
     functions = [outlined(function, arranged) for function, arranged in plan.arrangement.outlined]
     if plan.kernel.deferred is not None:
         functions += deferred_flows.functions(plan)
     else:
         functions += _steps(plan)
     functions += (*step_control.functions(plan), *jacobian.functions(plan))
+    # t and h are included even if no expression reads them: no other name may get these identifiers.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     return Unit(scalars, _records(plan), _tables(plan), tuple(functions))
 
@@ -39,6 +41,8 @@ def _steps(plan: Plan) -> list[Function]:
         return [*listed, *turning(plan), run(plan), step(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
+        # The continuation comes after the kernel, which it calls, and before the composition and the run,
+        # which call it.
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))

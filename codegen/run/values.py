@@ -13,9 +13,11 @@ def simple(statement: Simple) -> list[Statement]:
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
         given = tuple(map(value, statement.arguments))
+        # A single result is returned by value; an array of one entry would cost a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)
         return [Array(results), Call(statement.function, (*given, results))]
+    # One call computes all orders, because they share a square root, a sine and a cosine.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]

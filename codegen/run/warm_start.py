@@ -72,6 +72,7 @@ def begun(plan: Plan, statement: Beginning) -> If:
 def memory_record(plan: Plan) -> Record:
     """Return the record of the data that one step of a run stores for the next."""
     fields: list[tuple[Term, str]] = []
+    # The emitted comment lists only what this kernel stores.
     words = []
     if plan.start is not None:
         past, depth = len(plan.start.unknowns), plan.start.depth
@@ -122,6 +123,7 @@ def _factors(start: Start) -> Term:
 def each(n: int, statement: Callable[[Term], Statement]) -> list[Statement]:
     """Return a statement for each index: one by one up to FEW, else as a loop."""
     if n <= FEW:
+        # Separate statements can be scheduled side by side; a loop with few iterations has its own cost.
         return [statement(whole(k)) for k in range(n)]
     return [For(_I, whole(n), (statement(_I),))]
 
@@ -143,6 +145,7 @@ class WarmStart:
 
     def functions(self) -> tuple[Function, ...]:
         """Return the functions of the warm start, callees first."""
+        # The functions are printed in this order, because C needs a declaration before each call.
         return self.difference(), self.difference_size(), self.remember()
 
     def difference(self) -> Function:
@@ -160,7 +163,11 @@ class WarmStart:
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    count("back"), order + 1 - first, (Assign(j, first + count("back")), inner), reverse=True
+                    # The outer loop is over the solutions, so that the inner loop reads contiguous memory.
+                    count("back"),
+                    order + 1 - first,
+                    (Assign(j, first + count("back")), inner),
+                    reverse=True,
                 ),
             ]
         about = (
@@ -206,6 +213,8 @@ class WarmStart:
             For(_I, whole(self.n), (Assign(size_now, size_now + size(row[_I])),)),
             Return(size_now),
         )
+        # The size is a sum and not a maximum, because a sum needs no comparison. Both are suitable, because
+        # only ratios of sizes are compared.
         about = "The sum of the absolute values of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
@@ -213,7 +222,7 @@ class WarmStart:
         """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three solutions the guess is only a copy: do not judge it"),
+            Note("with fewer than three solutions, the guess copies the last one; its error is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [
@@ -248,6 +257,7 @@ class WarmStart:
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
+        # The matrix of Newton's method is kept: it has a test of its own.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),

@@ -34,6 +34,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        open_roots=derivative(problem.open_roots),
+        # A scene without run-time inputs may have no open roots.
+        open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

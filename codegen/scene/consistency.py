@@ -42,7 +42,7 @@ def check_start(orbit: Orbit) -> None:
     for law, defect in orbit.group.laws(orbit.domain, start):
         if not orbit.sized(defect, (1,)):
             raise SceneError(
-                f"an initial state with {law} off by {orbit.text(defect)}",
+                f"an initial state that violates {law} by {orbit.text(defect)}",
                 where=orbit.name,
                 expected=f"an element of {orbit.group.name}",
             )

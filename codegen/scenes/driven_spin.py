@@ -1,8 +1,8 @@
 """Driven spin on the sphere: the Landau-Lifshitz equation with anisotropy, damping and a rotating field.
 
 m' = w x m with w = H + alpha m x H and H = (a cos nu t, a sin nu t, K m_3 + b): the equation depends on time
-and is dissipative, and its generator w has a component along m. So it tests terms of a method that vanish on
-simpler scenes. ``stiff_driven_spin`` has the same equation with fast rates.
+and is dissipative, and its generator w has a component along m. The scene therefore tests terms of a method
+that vanish on simpler scenes. ``stiff_driven_spin`` has the same equation with fast rates.
 """
 
 from sympy import Expr, Matrix, Rational, Symbol, cos, sin

@@ -1,4 +1,4 @@
-"""Linear oscillator with a frequency that changes in time, on T*R^4: every family is a classical method.
+"""Linear oscillator with a time-dependent frequency, on T*R^4: every method reduces to a classical method.
 
 H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis, paper 3, Table 4.1). On
 R^n brackets vanish and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, variational

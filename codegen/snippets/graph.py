@@ -13,7 +13,7 @@ from typing import Any
 
 import networkx as nx
 
-from codegen.run.precision import DOUBLE, Precision
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
@@ -34,7 +34,8 @@ class Snippet:
 def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     """Return every snippet; all targets use the same names.
 
-    Only double precision has shorter polynomials near zero. In single precision the full one is as short.
+    Only double precision has shorter polynomials near zero. In single precision the full polynomial is
+    already short.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
     listed.append(Snippet("largest", "largest", ("fabs",)))
@@ -69,7 +70,7 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         if precision is not DOUBLE:
             listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
             continue
-        # The branch near zero is small enough to be inlined at each call; the other one is called rarely.
+        # The branch near zero is small enough to be inlined at each call; the other branch is called rarely.
         far, small = f"{name}_far", float(stumpff.SMALL)
         listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
         # Three functions in two forms would be too long for a C compiler to inline.
@@ -110,15 +111,17 @@ def needed(
     wide: int = 0,
     widest: int = 0,
     chain: int = 1,
+    prefix: str = "",
 ) -> Needed:
     """Return the helpers and library functions that a module of a target needs, and no others.
 
-    ``functions`` are the functions that the module calls. ``sweeps`` is true if it calls them in sweeps over
-    equations. A call in a sweep would spill many live values, so C may inline all branches of Stumpff
-    functions.
-    ``wide`` is the common number of rows of all inverted matrices, 0 if they differ or are large; C unrolls a
-    row of this length. ``widest`` is the largest number of rows; C reserves this much memory.
-    ``chain`` is the number of angles that depend on one another (:func:`codegen.snippets.stumpff.limit`).
+    ``functions`` are the functions that the module calls. ``sweeps`` is true if the module calls them in
+    sweeps over equations. A call in a sweep would move many live values from registers to memory, so C may
+    inline all branches of Stumpff functions. ``wide`` is the common number of rows of all inverted matrices,
+    0 if they differ or are large; C unrolls a row of this length. ``widest`` is the largest number of rows; C
+    reserves this much memory. ``chain`` is the number of angles that depend on one another
+    (:func:`codegen.snippets.stumpff.limit`). ``prefix`` starts the names of helpers in C, so that two modules
+    can share one translation unit.
 
     >>> needed("c", ["sin"])
     Needed(library=('sin',), texts=())
@@ -135,6 +138,7 @@ def needed(
         "wide": wide,
         "widest": widest or wide,
         "limit": stumpff.limit(precision, chain),
+        "prefix": prefix,
     }
     texts = tuple(_text(target, snippet, precision, given) for snippet in ordered if snippet is not None)
     return Needed(tuple(name for name in LIBRARY if name in nodes), texts)
@@ -150,6 +154,8 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
 
     # C appends "f" to the names of its library functions in single precision.
     values: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
+    # In C, NAN is a float; the cast avoids the warning of -Wdouble-promotion.
+    values["nan"] = "(double)NAN" if precision is DOUBLE else "NAN"
     for name, value in (given | snippet.variables).items():
         if isinstance(value, float):
             values[name] = number(value)

@@ -14,7 +14,7 @@ from fractions import Fraction
 from itertools import combinations
 from math import factorial
 
-from codegen.run.precision import DOUBLE, Precision
+from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
 """c_k is its polynomial up to z = SWITCH[k]; c_1(4) = 0.4546."""
@@ -26,23 +26,23 @@ PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
-"""Every non-empty set of orders that a kernel may ask of one argument."""
+"""Every non-empty set of orders that a kernel may compute for one argument."""
 
 
 LEFT = 10
-"""Bits that are correct after a step by the largest allowed angle: three digits."""
+"""The number of correct bits after a step by the largest allowed angle; 10 bits are three digits."""
 
 
 def limit(precision: Precision = DOUBLE, chain: int = 1) -> float:
     """Return the largest z; beyond it c_k is NaN, because no digit of the rotated vector would be correct.
 
     A relative rounding error of 2^-bits in the data of an angle a gives an error of a 2^-bits in the point,
-    and about eight times as much in the field there. Along a ``chain`` of angles
+    and an error about eight times as large in the field at this point. Along a ``chain`` of angles
     (:func:`codegen.ir.angle_depth.chain`) the error grows to a^chain 8^(chain-1) 2^-bits; the bound on it is
     2^-LEFT. The stages of a long chain rotate by fractions of the step's angle and lose no more digits than
-    those of a short chain. Hence an angle of 2^(bits/6) is always allowed. No angle may exceed 2^(2 bits/5):
-    a rotated momentum loses twice as many digits as the angle has, because sums grow with the square of the
-    angle. A step with a larger angle reports a state that is not finite.
+    the stages of a short chain. Hence an angle of 2^(bits/6) is always allowed. No angle may exceed
+    2^(2 bits/5): a rotated momentum loses twice as many digits as the angle has, because sums grow with the
+    square of the angle. A step with a larger angle reports a state that is not finite.
 
     >>> [limit(DOUBLE, n) ** 0.5 for n in (1, 2, 3, 4, 9)]
     [2097152.0, 1048576.0, 4096.0, 256.0, 256.0]

@@ -1,7 +1,7 @@
 """Jinja2 environments, one for each target, cached; an undefined variable is an error.
 
-``snippets/NAME.j2`` is a file of ``codegen/snippets/TARGET``, ``module/NAME.j2`` one of this folder's
-``TARGET``.
+``snippets/NAME.j2`` is a file of ``codegen/snippets/TARGET``, ``module/NAME.j2`` is a file of
+``codegen/templates/TARGET``.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@
  * method:     family vcg, tableau midpoint
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold exactly at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 1.55 sweeps and 1 matrix a
  *             step, measured over the first 20 steps of h = 0.005
@@ -19,11 +20,12 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 38 add, 58 mul, 1 stumpff_12 a step
- *             2 mul an initial guess, in the first step of a run
+ *             2 mul for an initial guess, in the first step of a run
  *             11 add, 34 mul, 1 div a matrix of the equations of xi1, n1
  *             51 add, 73 mul, 2 div, 2 sqrt, 1 stumpff_123 a sweep of the equations of xi1, n1
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
- * stack:      at most 3968 bytes; functions of the mathematical library add to this
+ * stack:      at most 4736 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 800 of them as
+ *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit dipole --method vcg:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -55,7 +57,7 @@
 #endif
 
 /* c_2(z) for z <= 1/256 */
-static inline double stumpff_tiny_2(double z)
+static inline double dipole_vcg_midpoint_stumpff_tiny_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.04166666666666365)
@@ -63,7 +65,7 @@ static inline double stumpff_tiny_2(double z)
 }
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double dipole_vcg_midpoint_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -71,7 +73,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_3(z) for z <= 1/16 */
-static inline double stumpff_small_3(double z)
+static inline double dipole_vcg_midpoint_stumpff_small_3(double z)
 {
     const double w = z * z;
     return (0.16666666666666666 + z * -0.008333333333333163)
@@ -80,7 +82,7 @@ static inline double stumpff_small_3(double z)
 }
 
 /* c_2(z) for z <= 1/16 */
-static inline double stumpff_small_2(double z)
+static inline double dipole_vcg_midpoint_stumpff_small_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.041666666666666664)
@@ -89,7 +91,7 @@ static inline double stumpff_small_2(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double dipole_vcg_midpoint_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -98,7 +100,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
-static inline double stumpff_series_3(double z)
+static inline double dipole_vcg_midpoint_stumpff_series_3(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -112,7 +114,7 @@ static inline double stumpff_series_3(double z)
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
-static inline double stumpff_series_2(double z)
+static inline double dipole_vcg_midpoint_stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -124,7 +126,7 @@ static inline double stumpff_series_2(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double dipole_vcg_midpoint_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -136,15 +138,15 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12_far(double z, double *c1, double *c2)
+static inline void dipole_vcg_midpoint_stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
+        *c1 = dipole_vcg_midpoint_stumpff_series_1(z);
+        *c2 = dipole_vcg_midpoint_stumpff_series_2(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -153,52 +155,52 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
+static inline void dipole_vcg_midpoint_stumpff_123_far(double z, double *c1, double *c2, double *c3)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
-        *c3 = stumpff_series_3(z);
+        *c1 = dipole_vcg_midpoint_stumpff_series_1(z);
+        *c2 = dipole_vcg_midpoint_stumpff_series_2(z);
+        *c3 = dipole_vcg_midpoint_stumpff_series_3(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
     *c1 = ratio * cosine;
     *c2 = 0.5 * (ratio * ratio);
-    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+    *c3 = z <= 4.0 ? dipole_vcg_midpoint_stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
+static inline void dipole_vcg_midpoint_stumpff_123(double z, double *c1, double *c2, double *c3)
 {
     if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
+        *c1 = dipole_vcg_midpoint_stumpff_small_1(z);
+        *c2 = dipole_vcg_midpoint_stumpff_small_2(z);
+        *c3 = dipole_vcg_midpoint_stumpff_small_3(z);
     } else {
-        stumpff_123_far(z, c1, c2, c3);
+        dipole_vcg_midpoint_stumpff_123_far(z, c1, c2, c3);
     }
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+static inline void dipole_vcg_midpoint_stumpff_12(double z, double *c1, double *c2)
 {
     if (z <= 0.00390625) {
-        *c1 = stumpff_tiny_1(z);
-        *c2 = stumpff_tiny_2(z);
+        *c1 = dipole_vcg_midpoint_stumpff_tiny_1(z);
+        *c2 = dipole_vcg_midpoint_stumpff_tiny_2(z);
     } else if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
+        *c1 = dipole_vcg_midpoint_stumpff_small_1(z);
+        *c2 = dipole_vcg_midpoint_stumpff_small_2(z);
     } else {
-        stumpff_12_far(z, c1, c2);
+        dipole_vcg_midpoint_stumpff_12_far(z, c1, c2);
     }
 }
 
 /* The largest absolute value of n numbers */
-static double largest(const double *x, size_t n)
+static double dipole_vcg_midpoint_largest(const double *x, size_t n)
 {
     double size = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -208,7 +210,7 @@ static double largest(const double *x, size_t n)
 }
 
 /* Whether n numbers are all finite */
-static int all_finite(const double *x, size_t n)
+static int dipole_vcg_midpoint_all_finite(const double *x, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(x[i])) {
@@ -222,7 +224,7 @@ static int all_finite(const double *x, size_t n)
  * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
-struct memory {
+struct dipole_vcg_midpoint_memory {
     size_t known; /* number of stored solutions */
     double first; /* error of the last guess */
     size_t degree; /* degree of the extrapolation */
@@ -235,7 +237,7 @@ struct memory {
 };
 
 /* Coefficients of backward differences by order, the latest solution first. */
-static const double differences[17][18] = {
+static const double dipole_vcg_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
     {1.0, -2.0, 1.0},
@@ -256,8 +258,8 @@ static const double differences[17][18] = {
 };
 
 /* Add the sweeps over one block in one step. */
-static void count_sweeps(dipole_vcg_midpoint_statistics *statistics, size_t block,
-    size_t sweeps, int failed)
+static void dipole_vcg_midpoint_count_sweeps(dipole_vcg_midpoint_statistics *statistics,
+    size_t block, size_t sweeps, int failed)
 {
     if (statistics != NULL) {
         statistics->sweeps[block] += sweeps;
@@ -271,7 +273,7 @@ static void count_sweeps(dipole_vcg_midpoint_statistics *statistics, size_t bloc
 }
 
 /* Add one matrix. */
-static void count_matrix(dipole_vcg_midpoint_statistics *statistics)
+static void dipole_vcg_midpoint_count_matrix(dipole_vcg_midpoint_statistics *statistics)
 {
     if (statistics != NULL) {
         statistics->matrices++;
@@ -282,8 +284,8 @@ static void count_matrix(dipole_vcg_midpoint_statistics *statistics)
  * A backward difference times sign, from the term with index first on. The latest solution is added
  * last, so that the rest of the sum can be computed before it is known.
  */
-static inline void difference(const struct memory *memory, size_t order, size_t first,
-    double sign, double sum[static 3])
+static inline void dipole_vcg_midpoint_difference(const struct dipole_vcg_midpoint_memory *memory,
+    size_t order, size_t first, double sign, double sum[static 3])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -291,8 +293,8 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     for (size_t pair = (order - first) / 2 + 1; pair-- > 0;) {
         const size_t row = memory->place + 2 * pair;
         const size_t column = first + 2 * pair;
-        const double newer = differences[order][column];
-        const double older = differences[order][column + 1];
+        const double newer = dipole_vcg_midpoint_differences[order][column];
+        const double older = dipole_vcg_midpoint_differences[order][column + 1];
         sum_0 += sign * (newer * memory->values[row][0] + older * memory->values[row + 1][0]);
         sum_1 += sign * (newer * memory->values[row][1] + older * memory->values[row + 1][1]);
         sum_2 += sign * (newer * memory->values[row][2] + older * memory->values[row + 1][2]);
@@ -303,10 +305,11 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
 }
 
 /* The sum of the absolute values of a backward difference. */
-static double difference_size(const struct memory *memory, size_t order)
+static double dipole_vcg_midpoint_difference_size(const struct dipole_vcg_midpoint_memory *memory,
+    size_t order)
 {
     double row[3];
-    difference(memory, order, 0, 1.0, row);
+    dipole_vcg_midpoint_difference(memory, order, 0, 1.0, row);
     double size = 0.0;
     for (size_t i = 0; i < 3; i++) {
         size += fabs(row[i]);
@@ -318,9 +321,10 @@ static double difference_size(const struct memory *memory, size_t order)
  * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
  * one step later.
  */
-static inline void remember(struct memory *memory, const double solution[static 3])
+static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memory *memory,
+    const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -341,28 +345,28 @@ static inline void remember(struct memory *memory, const double solution[static 
     }
     /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
-        const double size = difference_size(memory, memory->degree);
+        const double size = dipole_vcg_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
         if (memory->degree + 1 < memory->known) {
-            const double higher = difference_size(memory, memory->degree + 1);
+            const double higher = dipole_vcg_midpoint_difference_size(memory, memory->degree + 1);
             grows = higher < size;
         }
         if (grows) {
             memory->degree++;
         } else if (memory->degree > 0) {
-            const double lower = difference_size(memory, memory->degree - 1);
+            const double lower = dipole_vcg_midpoint_difference_size(memory, memory->degree - 1);
             if (size > lower) {
                 memory->degree--;
             }
         }
     }
     /* choose the next solution such that the difference of the next order vanishes */
-    difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
+    dipole_vcg_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
 /* One step. */
-static inline int advance(double state[static 12], double h, struct memory *memory,
-    dipole_vcg_midpoint_statistics *statistics)
+static inline int dipole_vcg_midpoint_advance(double state[static 12], double h,
+    struct dipole_vcg_midpoint_memory *memory, dipole_vcg_midpoint_statistics *statistics)
 {
     if (!isfinite(h)) {
         return DIPOLE_VCG_MIDPOINT_BAD_STEP;
@@ -404,7 +408,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double xE1_1_2 = xi1_2 * w1;
         const double w2 = xE1_1_0 * xE1_1_0 + xE1_1_1 * xE1_1_1 + xE1_1_2 * xE1_1_2;
         double c1_1, c2_1, c3_1;
-        stumpff_123(w2, &c1_1, &c2_1, &c3_1);
+        dipole_vcg_midpoint_stumpff_123(w2, &c1_1, &c2_1, &c3_1);
         const double w4 = g22 * xE1_1_0 - g20 * xE1_1_2;
         const double w6 = g20 * xE1_1_1 - g21 * xE1_1_0;
         const double w7 = g21 * xE1_1_2 - g22 * xE1_1_1;
@@ -467,7 +471,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[7] = w39 * (w33 * w34 + 1.01 * w30);
             memory->inverse_1[8] = w39 * (1.01 - w33 * w35);
             memory->age_1 = 1;
-            count_matrix(statistics);
+            dipole_vcg_midpoint_count_matrix(statistics);
         }
         d_xi1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
             + memory->inverse_1[2] * residual_2;
@@ -488,27 +492,27 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const int contracts = rate_1 < 0.5;
         const int converged = contracts
             ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : (sweep > 1
-            && (change <= 5.684341886080802e-14 * scale
-            || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
-            && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
+            && (change <= 5.684341886080802e-14 * scale || (change * fabs(h)
+            <= 7.105427357601002e-15 * dipole_vcg_midpoint_largest(state, 9) && change * fabs(h)
+            <= 7.105427357601002e-15 * dipole_vcg_midpoint_largest(state + 9, 3))));
         status = isfinite(change) ? (converged ? DIPOLE_VCG_MIDPOINT_OK
             : DIPOLE_VCG_MIDPOINT_NOT_CONVERGED) : DIPOLE_VCG_MIDPOINT_NOT_FINITE;
         make_1 = 0;
         previous_1 = change;
     } while (status == DIPOLE_VCG_MIDPOINT_NOT_CONVERGED && sweep < 100);
-    count_sweeps(statistics, 0, sweep, status != DIPOLE_VCG_MIDPOINT_OK);
+    dipole_vcg_midpoint_count_sweeps(statistics, 0, sweep, status != DIPOLE_VCG_MIDPOINT_OK);
     if (status != DIPOLE_VCG_MIDPOINT_OK) {
         return status;
     }
     memory->rate_1 = rate_1;
     const double solution[3] = {xi1_0, xi1_1, xi1_2};
-    remember(memory, solution);
+    dipole_vcg_midpoint_remember(memory, solution);
     const double xe1_1 = h * xi1_1;
     const double xe1_0 = h * xi1_0;
     const double xe1_2 = h * xi1_2;
     const double w40 = xe1_0 * xe1_0 + xe1_1 * xe1_1 + xe1_2 * xe1_2;
     double c1_2, c2_2;
-    stumpff_12(w40, &c1_2, &c2_2);
+    dipole_vcg_midpoint_stumpff_12(w40, &c1_2, &c2_2);
     const double w42 = xe1_1 * c2_2;
     const double w43 = xe1_1 * w42;
     const double w44 = xe1_2 * c2_2 * xe1_2;
@@ -543,7 +547,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_mu0 = s_mu_0_seen + xi1_2 * w54 * d_xi1_1 + xi1_1 * w54 * d_xi1_2;
     const double new_mu1 = s_mu_1_seen - d_xi1_0 * xe1_2 - d_xi1_2 * xe1_0;
     const double new_mu2 = s_mu_2_seen + xi1_1 * w55 * d_xi1_0 + xi1_0 * w55 * d_xi1_1;
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + new_mu0) + (new_mu1 + new_mu2)) && !(new_g00
         - new_g00 + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -572,11 +576,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
  * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
  * if the motion has changed, then by continuation in h from shorter steps.
  */
-static int continued(double state[static 12], double h, struct memory *memory,
-    dipole_vcg_midpoint_statistics *statistics)
+static int dipole_vcg_midpoint_continued(double state[static 12], double h,
+    struct dipole_vcg_midpoint_memory *memory, dipole_vcg_midpoint_statistics *statistics)
 {
     if (!(h < 0.0 || h > 0.0)) {
-        return all_finite(state, 12) ? DIPOLE_VCG_MIDPOINT_OK : DIPOLE_VCG_MIDPOINT_NOT_FINITE;
+        return dipole_vcg_midpoint_all_finite(state, 12) ? DIPOLE_VCG_MIDPOINT_OK
+            : DIPOLE_VCG_MIDPOINT_NOT_FINITE;
     }
     double known_solution[3] = {0.0};
     double trial[12];
@@ -594,7 +599,7 @@ static int continued(double state[static 12], double h, struct memory *memory,
             memcpy(memory->guess, known_solution, sizeof known_solution);
             memory->rate_1 = 1.0;
         }
-        const int status = advance(trial, part * h, memory, statistics);
+        const int status = dipole_vcg_midpoint_advance(trial, part * h, memory, statistics);
         done = status == DIPOLE_VCG_MIDPOINT_OK && part >= 1.0;
         if (status == DIPOLE_VCG_MIDPOINT_OK) {
             memcpy(known_solution, memory->values[memory->place], sizeof known_solution);
@@ -623,7 +628,8 @@ static int continued(double state[static 12], double h, struct memory *memory,
 }
 
 /* Convert space momentum to body momentum. */
-static inline void to_body(const double state[static 12], double momentum[static 3])
+static inline void dipole_vcg_midpoint_to_body(const double state[static 12],
+    double momentum[static 3])
 {
     const double g00 = state[0];
     const double g01 = state[1];
@@ -643,7 +649,8 @@ static inline void to_body(const double state[static 12], double momentum[static
 }
 
 /* Convert body momentum to space momentum. */
-static inline void to_space(const double state[static 12], double momentum[static 3])
+static inline void dipole_vcg_midpoint_to_space(const double state[static 12],
+    double momentum[static 3])
 {
     const double g00 = state[0];
     const double g01 = state[1];
@@ -663,25 +670,25 @@ static inline void to_space(const double state[static 12], double momentum[stati
 }
 
 /* Begin: convert the state to body momentum, and store this momentum converted back to space. */
-static void enter_body(const double state[static 12], double moving[static 12],
-    double before[static 3])
+static void dipole_vcg_midpoint_enter_body(const double state[static 12],
+    double moving[static 12], double before[static 3])
 {
-    to_body(state, before);
+    dipole_vcg_midpoint_to_body(state, before);
     memcpy(moving, state, 9 * sizeof *state);
     memcpy(moving + 9, before, 3 * sizeof *before);
-    to_space(moving, before);
+    dipole_vcg_midpoint_to_space(moving, before);
 }
 
 /* End: update the state; add to its space momentum the increase since the beginning of the run. */
-static int leave_body(const double moving[static 12], const double before[static 3],
-    double state[static 12])
+static int dipole_vcg_midpoint_leave_body(const double moving[static 12],
+    const double before[static 3], double state[static 12])
 {
     double momentum[3];
-    to_space(moving, momentum);
+    dipole_vcg_midpoint_to_space(moving, momentum);
     for (size_t i = 0; i < 3; i++) {
         momentum[i] = state[i + 9] + (momentum[i] - before[i]);
     }
-    if (!all_finite(momentum, 3)) {
+    if (!dipole_vcg_midpoint_all_finite(momentum, 3)) {
         return DIPOLE_VCG_MIDPOINT_NOT_FINITE;
     }
     memcpy(state, moving, 9 * sizeof *moving);
@@ -694,15 +701,15 @@ int dipole_vcg_midpoint_step(double state[static 12], double h,
 {
     double moving[12];
     double before[3];
-    enter_body(state, moving, before);
-    struct memory memory = {0};
-    int status = advance(moving, h, &memory, statistics);
+    dipole_vcg_midpoint_enter_body(state, moving, before);
+    struct dipole_vcg_midpoint_memory memory = {0};
+    int status = dipole_vcg_midpoint_advance(moving, h, &memory, statistics);
     if (status == DIPOLE_VCG_MIDPOINT_NOT_CONVERGED
         || status == DIPOLE_VCG_MIDPOINT_NOT_FINITE) {
-        status = continued(moving, h, &memory, statistics);
+        status = dipole_vcg_midpoint_continued(moving, h, &memory, statistics);
     }
     if (status == DIPOLE_VCG_MIDPOINT_OK) {
-        status = leave_body(moving, before, state);
+        status = dipole_vcg_midpoint_leave_body(moving, before, state);
     }
     return status;
 }
@@ -713,7 +720,7 @@ int dipole_vcg_midpoint_run(double state[static 12], double h, size_t steps,
 {
     int status = DIPOLE_VCG_MIDPOINT_OK;
     size_t step = 0;
-    struct memory memory = {0};
+    struct dipole_vcg_midpoint_memory memory = {0};
     const int recording = stride > 0 && trajectory != NULL;
     size_t row = 0;
     if (recording) {
@@ -721,24 +728,24 @@ int dipole_vcg_midpoint_run(double state[static 12], double h, size_t steps,
     }
     double moving[12];
     double before[3];
-    enter_body(state, moving, before);
+    dipole_vcg_midpoint_enter_body(state, moving, before);
     while (status == DIPOLE_VCG_MIDPOINT_OK && step < steps) {
-        status = advance(moving, h, &memory, statistics);
+        status = dipole_vcg_midpoint_advance(moving, h, &memory, statistics);
         if (status == DIPOLE_VCG_MIDPOINT_NOT_CONVERGED
             || status == DIPOLE_VCG_MIDPOINT_NOT_FINITE) {
-            status = continued(moving, h, &memory, statistics);
+            status = dipole_vcg_midpoint_continued(moving, h, &memory, statistics);
         }
         if (status == DIPOLE_VCG_MIDPOINT_OK) {
             step++;
             if (recording && step % stride == 0) {
                 row++;
                 memcpy(trajectory + 12 * row, state, 12 * sizeof *state);
-                status = leave_body(moving, before, trajectory + 12 * row);
+                status = dipole_vcg_midpoint_leave_body(moving, before, trajectory + 12 * row);
             }
         }
     }
     if (step > 0) {
-        const int ended = leave_body(moving, before, state);
+        const int ended = dipole_vcg_midpoint_leave_body(moving, before, state);
         if (ended != DIPOLE_VCG_MIDPOINT_OK) {
             status = DIPOLE_VCG_MIDPOINT_NOT_FINITE;
             step = 0;

@@ -5,6 +5,7 @@
  * source:     Hammer and Hollingsworth 1955; Hairer, Lubich and Wanner, Table II.1.1; Table 3.1c
  *             of Bogfjellmo and Marthinsen
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 1.6e-17 at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps and 0.35
  *             matrices a step, measured over the first 20 steps of h = 0.005
@@ -23,12 +24,13 @@
  *             parameters, folded: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 47 add, 80 mul, 1 stumpff_12 a step
- *             2 mul an initial guess, in the first step of a run
+ *             2 mul for an initial guess, in the first step of a run
  *             48 add, 72 mul a matrix of the equations of v1, v2, m1, m2
  *             269 add, 371 mul, 6 div, 4 sqrt, 2 stumpff_123, 1 stumpff_23 a sweep of the
  *             equations of v1, v2, m1, m2
  *             12 add, 18 mul where a run begins, 12 add, 9 mul where it ends
- * stack:      at most 6080 bytes; functions of the mathematical library add to this
+ * stack:      at most 7360 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1280 of them as
+ *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit dipole --method 'vrkmk(2):gauss2' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -60,7 +62,7 @@
 #endif
 
 /* c_3(z) for z <= 1/256 */
-static inline double stumpff_tiny_3(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_tiny_3(double z)
 {
     const double w = z * z;
     return (0.16666666666666666 + z * -0.008333333333333059)
@@ -68,7 +70,7 @@ static inline double stumpff_tiny_3(double z)
 }
 
 /* c_2(z) for z <= 1/256 */
-static inline double stumpff_tiny_2(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_tiny_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.04166666666666365)
@@ -76,7 +78,7 @@ static inline double stumpff_tiny_2(double z)
 }
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -84,7 +86,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_3(z) for z <= 1/16 */
-static inline double stumpff_small_3(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_small_3(double z)
 {
     const double w = z * z;
     return (0.16666666666666666 + z * -0.008333333333333163)
@@ -93,7 +95,7 @@ static inline double stumpff_small_3(double z)
 }
 
 /* c_2(z) for z <= 1/16 */
-static inline double stumpff_small_2(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_small_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.041666666666666664)
@@ -102,7 +104,7 @@ static inline double stumpff_small_2(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -111,7 +113,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
-static inline double stumpff_series_3(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_series_3(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -125,7 +127,7 @@ static inline double stumpff_series_3(double z)
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
-static inline double stumpff_series_2(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -137,7 +139,7 @@ static inline double stumpff_series_2(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double dipole_vrkmk2_gauss2_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -149,46 +151,46 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23_far(double z, double *c2, double *c3)
+static inline void dipole_vrkmk2_gauss2_stumpff_23_far(double z, double *c2, double *c3)
 {
     if (z <= 1.0) {
-        *c2 = stumpff_series_2(z);
-        *c3 = stumpff_series_3(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_series_2(z);
+        *c3 = dipole_vrkmk2_gauss2_stumpff_series_3(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
     *c2 = 0.5 * (ratio * ratio);
-    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+    *c3 = z <= 4.0 ? dipole_vrkmk2_gauss2_stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
 /* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23(double z, double *c2, double *c3)
+static inline void dipole_vrkmk2_gauss2_stumpff_23(double z, double *c2, double *c3)
 {
     if (z <= 0.00390625) {
-        *c2 = stumpff_tiny_2(z);
-        *c3 = stumpff_tiny_3(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_tiny_2(z);
+        *c3 = dipole_vrkmk2_gauss2_stumpff_tiny_3(z);
     } else if (z <= 0.0625) {
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_small_2(z);
+        *c3 = dipole_vrkmk2_gauss2_stumpff_small_3(z);
     } else {
-        stumpff_23_far(z, c2, c3);
+        dipole_vrkmk2_gauss2_stumpff_23_far(z, c2, c3);
     }
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12_far(double z, double *c1, double *c2)
+static inline void dipole_vrkmk2_gauss2_stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
+        *c1 = dipole_vrkmk2_gauss2_stumpff_series_1(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_series_2(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -197,52 +199,52 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
+static inline void dipole_vrkmk2_gauss2_stumpff_123_far(double z, double *c1, double *c2, double *c3)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
-        *c3 = stumpff_series_3(z);
+        *c1 = dipole_vrkmk2_gauss2_stumpff_series_1(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_series_2(z);
+        *c3 = dipole_vrkmk2_gauss2_stumpff_series_3(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
     *c1 = ratio * cosine;
     *c2 = 0.5 * (ratio * ratio);
-    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+    *c3 = z <= 4.0 ? dipole_vrkmk2_gauss2_stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
+static inline void dipole_vrkmk2_gauss2_stumpff_123(double z, double *c1, double *c2, double *c3)
 {
     if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
+        *c1 = dipole_vrkmk2_gauss2_stumpff_small_1(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_small_2(z);
+        *c3 = dipole_vrkmk2_gauss2_stumpff_small_3(z);
     } else {
-        stumpff_123_far(z, c1, c2, c3);
+        dipole_vrkmk2_gauss2_stumpff_123_far(z, c1, c2, c3);
     }
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+static inline void dipole_vrkmk2_gauss2_stumpff_12(double z, double *c1, double *c2)
 {
     if (z <= 0.00390625) {
-        *c1 = stumpff_tiny_1(z);
-        *c2 = stumpff_tiny_2(z);
+        *c1 = dipole_vrkmk2_gauss2_stumpff_tiny_1(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_tiny_2(z);
     } else if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
+        *c1 = dipole_vrkmk2_gauss2_stumpff_small_1(z);
+        *c2 = dipole_vrkmk2_gauss2_stumpff_small_2(z);
     } else {
-        stumpff_12_far(z, c1, c2);
+        dipole_vrkmk2_gauss2_stumpff_12_far(z, c1, c2);
     }
 }
 
 /* The largest absolute value of n numbers */
-static double largest(const double *x, size_t n)
+static double dipole_vrkmk2_gauss2_largest(const double *x, size_t n)
 {
     double size = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -253,7 +255,7 @@ static double largest(const double *x, size_t n)
 
 /* Invert an n x n matrix, stored row by row, in place (Gauss-Jordan with row exchanges). Return 0 if it is
  * singular, else 1. Here n is always 6. */
-static size_t invert(size_t n, double *restrict a)
+static size_t dipole_vrkmk2_gauss2_invert(size_t n, double *restrict a)
 {
     double row[6];
     size_t order[6];
@@ -303,7 +305,7 @@ static size_t invert(size_t n, double *restrict a)
 }
 
 /* Whether n numbers are all finite */
-static int all_finite(const double *x, size_t n)
+static int dipole_vrkmk2_gauss2_all_finite(const double *x, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(x[i])) {
@@ -317,7 +319,7 @@ static int all_finite(const double *x, size_t n)
  * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
-struct memory {
+struct dipole_vrkmk2_gauss2_memory {
     size_t known; /* number of stored solutions */
     double first; /* error of the last guess */
     size_t degree; /* degree of the extrapolation */
@@ -330,7 +332,7 @@ struct memory {
 };
 
 /* Coefficients of backward differences by order, the latest solution first. */
-static const double differences[17][18] = {
+static const double dipole_vrkmk2_gauss2_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
     {1.0, -2.0, 1.0},
@@ -351,8 +353,8 @@ static const double differences[17][18] = {
 };
 
 /* Add the sweeps over one block in one step. */
-static void count_sweeps(dipole_vrkmk2_gauss2_statistics *statistics, size_t block,
-    size_t sweeps, int failed)
+static void dipole_vrkmk2_gauss2_count_sweeps(dipole_vrkmk2_gauss2_statistics *statistics,
+    size_t block, size_t sweeps, int failed)
 {
     if (statistics != NULL) {
         statistics->sweeps[block] += sweeps;
@@ -366,7 +368,7 @@ static void count_sweeps(dipole_vrkmk2_gauss2_statistics *statistics, size_t blo
 }
 
 /* Add one matrix. */
-static void count_matrix(dipole_vrkmk2_gauss2_statistics *statistics)
+static void dipole_vrkmk2_gauss2_count_matrix(dipole_vrkmk2_gauss2_statistics *statistics)
 {
     if (statistics != NULL) {
         statistics->matrices++;
@@ -377,8 +379,8 @@ static void count_matrix(dipole_vrkmk2_gauss2_statistics *statistics)
  * A backward difference times sign, from the term with index first on. The latest solution is added
  * last, so that the rest of the sum can be computed before it is known.
  */
-static inline void difference(const struct memory *memory, size_t order, size_t first,
-    double sign, double sum[static 6])
+static inline void dipole_vrkmk2_gauss2_difference(const struct dipole_vrkmk2_gauss2_memory *memory,
+    size_t order, size_t first, double sign, double sum[static 6])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -389,8 +391,8 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     for (size_t pair = (order - first) / 2 + 1; pair-- > 0;) {
         const size_t row = memory->place + 2 * pair;
         const size_t column = first + 2 * pair;
-        const double newer = differences[order][column];
-        const double older = differences[order][column + 1];
+        const double newer = dipole_vrkmk2_gauss2_differences[order][column];
+        const double older = dipole_vrkmk2_gauss2_differences[order][column + 1];
         sum_0 += sign * (newer * memory->values[row][0] + older * memory->values[row + 1][0]);
         sum_1 += sign * (newer * memory->values[row][1] + older * memory->values[row + 1][1]);
         sum_2 += sign * (newer * memory->values[row][2] + older * memory->values[row + 1][2]);
@@ -407,10 +409,11 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
 }
 
 /* The sum of the absolute values of a backward difference. */
-static double difference_size(const struct memory *memory, size_t order)
+static double dipole_vrkmk2_gauss2_difference_size(const struct dipole_vrkmk2_gauss2_memory *memory,
+    size_t order)
 {
     double row[6];
-    difference(memory, order, 0, 1.0, row);
+    dipole_vrkmk2_gauss2_difference(memory, order, 0, 1.0, row);
     double size = 0.0;
     for (size_t i = 0; i < 6; i++) {
         size += fabs(row[i]);
@@ -422,9 +425,10 @@ static double difference_size(const struct memory *memory, size_t order)
  * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
  * one step later.
  */
-static inline void remember(struct memory *memory, const double solution[static 6])
+static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_memory *memory,
+    const double solution[static 6])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -448,28 +452,28 @@ static inline void remember(struct memory *memory, const double solution[static 
     }
     /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
-        const double size = difference_size(memory, memory->degree);
+        const double size = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree);
         int grows = 0;
         if (memory->degree + 1 < memory->known) {
-            const double higher = difference_size(memory, memory->degree + 1);
+            const double higher = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree + 1);
             grows = higher < size;
         }
         if (grows) {
             memory->degree++;
         } else if (memory->degree > 0) {
-            const double lower = difference_size(memory, memory->degree - 1);
+            const double lower = dipole_vrkmk2_gauss2_difference_size(memory, memory->degree - 1);
             if (size > lower) {
                 memory->degree--;
             }
         }
     }
     /* choose the next solution such that the difference of the next order vanishes */
-    difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
+    dipole_vrkmk2_gauss2_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
 /* One step. */
-static inline int advance(double state[static 12], double h, struct memory *memory,
-    dipole_vrkmk2_gauss2_statistics *statistics)
+static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h,
+    struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)
 {
     if (!isfinite(h)) {
         return DIPOLE_VRKMK2_GAUSS2_BAD_STEP;
@@ -527,7 +531,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double X2_1 = v1_1 * w2 + v2_1 * w3;
         const double w5 = X2_0 * X2_0 + X2_1 * X2_1 + X2_2 * X2_2;
         double c1_1, c2_1, c3_1;
-        stumpff_123(w5, &c1_1, &c2_1, &c3_1);
+        dipole_vrkmk2_gauss2_stumpff_123(w5, &c1_1, &c2_1, &c3_1);
         const double w7 = 1.0 - 0.08333333333333333 * w5;
         const double w8 = 1.0 / (w7 * w7 + 0.25 * w5);
         const double w9 = w8 * (0.25 - 0.08333333333333333 * w7);
@@ -560,7 +564,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double X1_1 = v1_1 * w3 + v2_1 * w29;
         const double w31 = X1_0 * X1_0 + X1_1 * X1_1 + X1_2 * X1_2;
         double c1_2, c2_2, c3_2;
-        stumpff_123(w31, &c1_2, &c2_2, &c3_2);
+        dipole_vrkmk2_gauss2_stumpff_123(w31, &c1_2, &c2_2, &c3_2);
         const double w33 = 1.0 - 0.08333333333333333 * w31;
         const double w34 = 1.0 / (w33 * w33 + 0.25 * w31);
         const double w35 = w34 * (0.25 - 0.08333333333333333 * w33);
@@ -593,7 +597,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const double Y_2 = (v1_2 + v2_2) * w1;
         const double w55 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
         double c2_3, c3_3;
-        stumpff_23(w55, &c2_3, &c3_3);
+        dipole_vrkmk2_gauss2_stumpff_23(w55, &c2_3, &c3_3);
         const double w57 = X2_1 * w14 - X2_2 * w4;
         const double a_6_0 = v2_0 + w12 * w13 + w16 * w57;
         const double Q2_6 = g20 + w20 * c1_1 + (X2_2 * w18 - X2_1 * w19) * c2_1;
@@ -746,9 +750,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[33] = -h * (w108 + w111 + 0.005 * v2_1);
             memory->inverse_1[34] = -h * (w109 + w112 + 0.005 * v2_0);
             memory->inverse_1[35] = 0.01;
-            memory->age_1 = invert(6, memory->inverse_1);
+            memory->age_1 = dipole_vrkmk2_gauss2_invert(6, memory->inverse_1);
             if (memory->age_1 > 0) {
-                count_matrix(statistics);
+                dipole_vrkmk2_gauss2_count_matrix(statistics);
             }
         }
         d_v1_0 = memory->inverse_1[0] * residual_0 + memory->inverse_1[1] * residual_1
@@ -787,28 +791,28 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const int contracts = rate_1 < 0.5;
         const int converged = contracts
             ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : (sweep > 1
-            && (change <= 5.684341886080802e-14 * scale
-            || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
-            && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
+            && (change <= 5.684341886080802e-14 * scale || (change * fabs(h)
+            <= 7.105427357601002e-15 * dipole_vrkmk2_gauss2_largest(state, 9) && change * fabs(h)
+            <= 7.105427357601002e-15 * dipole_vrkmk2_gauss2_largest(state + 9, 3))));
         status = isfinite(change) ? (memory->age_1 > 0 && converged ? DIPOLE_VRKMK2_GAUSS2_OK
             : DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED) : DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
         make_1 = 0;
         previous_1 = change;
     } while (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED && sweep < 100
         && !!(memory->age_1 > 0));
-    count_sweeps(statistics, 0, sweep, status != DIPOLE_VRKMK2_GAUSS2_OK);
+    dipole_vrkmk2_gauss2_count_sweeps(statistics, 0, sweep, status != DIPOLE_VRKMK2_GAUSS2_OK);
     if (status != DIPOLE_VRKMK2_GAUSS2_OK) {
         return status;
     }
     memory->rate_1 = rate_1;
     const double solution[6] = {v1_0, v1_1, v1_2, v2_0, v2_1, v2_2};
-    remember(memory, solution);
+    dipole_vrkmk2_gauss2_remember(memory, solution);
     const double Y_1_ = (v1_1 + v2_1) * w1;
     const double Y_0_ = (v1_0 + v2_0) * w1;
     const double Y_2_ = (v1_2 + v2_2) * w1;
     const double w113 = Y_0_ * Y_0_ + Y_1_ * Y_1_ + Y_2_ * Y_2_;
     double c1_3, c2_4;
-    stumpff_12(w113, &c1_3, &c2_4);
+    dipole_vrkmk2_gauss2_stumpff_12(w113, &c1_3, &c2_4);
     const double w115 = Y_1_ * c2_4;
     const double w116 = Y_1_ * w115;
     const double w117 = Y_2_ * c2_4 * Y_2_;
@@ -847,7 +851,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g20 = g20 * g_0 + g21 * g_3 + g22 * g_6;
     const double new_g21 = g20 * g_1 + g21 * g_4 + g22 * g_7;
     const double new_g22 = g20 * g_2 + g21 * g_5 + g22 * g_8;
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + w128) + (w130 + w132)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -875,11 +879,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
  * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
  * if the motion has changed, then by continuation in h from shorter steps.
  */
-static int continued(double state[static 12], double h, struct memory *memory,
-    dipole_vrkmk2_gauss2_statistics *statistics)
+static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
+    struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)
 {
     if (!(h < 0.0 || h > 0.0)) {
-        return all_finite(state, 12) ? DIPOLE_VRKMK2_GAUSS2_OK : DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
+        return dipole_vrkmk2_gauss2_all_finite(state, 12) ? DIPOLE_VRKMK2_GAUSS2_OK
+            : DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
     }
     double known_solution[6] = {0.0};
     double trial[12];
@@ -897,7 +902,7 @@ static int continued(double state[static 12], double h, struct memory *memory,
             memcpy(memory->guess, known_solution, sizeof known_solution);
             memory->rate_1 = 1.0;
         }
-        const int status = advance(trial, part * h, memory, statistics);
+        const int status = dipole_vrkmk2_gauss2_advance(trial, part * h, memory, statistics);
         done = status == DIPOLE_VRKMK2_GAUSS2_OK && part >= 1.0;
         if (status == DIPOLE_VRKMK2_GAUSS2_OK) {
             memcpy(known_solution, memory->values[memory->place], sizeof known_solution);
@@ -926,7 +931,8 @@ static int continued(double state[static 12], double h, struct memory *memory,
 }
 
 /* Convert space momentum to body momentum. */
-static inline void to_body(const double state[static 12], double momentum[static 3])
+static inline void dipole_vrkmk2_gauss2_to_body(const double state[static 12],
+    double momentum[static 3])
 {
     const double g00 = state[0];
     const double g01 = state[1];
@@ -946,7 +952,8 @@ static inline void to_body(const double state[static 12], double momentum[static
 }
 
 /* Convert body momentum to space momentum. */
-static inline void to_space(const double state[static 12], double momentum[static 3])
+static inline void dipole_vrkmk2_gauss2_to_space(const double state[static 12],
+    double momentum[static 3])
 {
     const double g00 = state[0];
     const double g01 = state[1];
@@ -966,25 +973,25 @@ static inline void to_space(const double state[static 12], double momentum[stati
 }
 
 /* Begin: convert the state to body momentum, and store this momentum converted back to space. */
-static void enter_body(const double state[static 12], double moving[static 12],
-    double before[static 3])
+static void dipole_vrkmk2_gauss2_enter_body(const double state[static 12],
+    double moving[static 12], double before[static 3])
 {
-    to_body(state, before);
+    dipole_vrkmk2_gauss2_to_body(state, before);
     memcpy(moving, state, 9 * sizeof *state);
     memcpy(moving + 9, before, 3 * sizeof *before);
-    to_space(moving, before);
+    dipole_vrkmk2_gauss2_to_space(moving, before);
 }
 
 /* End: update the state; add to its space momentum the increase since the beginning of the run. */
-static int leave_body(const double moving[static 12], const double before[static 3],
-    double state[static 12])
+static int dipole_vrkmk2_gauss2_leave_body(const double moving[static 12],
+    const double before[static 3], double state[static 12])
 {
     double momentum[3];
-    to_space(moving, momentum);
+    dipole_vrkmk2_gauss2_to_space(moving, momentum);
     for (size_t i = 0; i < 3; i++) {
         momentum[i] = state[i + 9] + (momentum[i] - before[i]);
     }
-    if (!all_finite(momentum, 3)) {
+    if (!dipole_vrkmk2_gauss2_all_finite(momentum, 3)) {
         return DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
     }
     memcpy(state, moving, 9 * sizeof *moving);
@@ -997,15 +1004,15 @@ int dipole_vrkmk2_gauss2_step(double state[static 12], double h,
 {
     double moving[12];
     double before[3];
-    enter_body(state, moving, before);
-    struct memory memory = {0};
-    int status = advance(moving, h, &memory, statistics);
+    dipole_vrkmk2_gauss2_enter_body(state, moving, before);
+    struct dipole_vrkmk2_gauss2_memory memory = {0};
+    int status = dipole_vrkmk2_gauss2_advance(moving, h, &memory, statistics);
     if (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED
         || status == DIPOLE_VRKMK2_GAUSS2_NOT_FINITE) {
-        status = continued(moving, h, &memory, statistics);
+        status = dipole_vrkmk2_gauss2_continued(moving, h, &memory, statistics);
     }
     if (status == DIPOLE_VRKMK2_GAUSS2_OK) {
-        status = leave_body(moving, before, state);
+        status = dipole_vrkmk2_gauss2_leave_body(moving, before, state);
     }
     return status;
 }
@@ -1016,7 +1023,7 @@ int dipole_vrkmk2_gauss2_run(double state[static 12], double h, size_t steps,
 {
     int status = DIPOLE_VRKMK2_GAUSS2_OK;
     size_t step = 0;
-    struct memory memory = {0};
+    struct dipole_vrkmk2_gauss2_memory memory = {0};
     const int recording = stride > 0 && trajectory != NULL;
     size_t row = 0;
     if (recording) {
@@ -1024,24 +1031,24 @@ int dipole_vrkmk2_gauss2_run(double state[static 12], double h, size_t steps,
     }
     double moving[12];
     double before[3];
-    enter_body(state, moving, before);
+    dipole_vrkmk2_gauss2_enter_body(state, moving, before);
     while (status == DIPOLE_VRKMK2_GAUSS2_OK && step < steps) {
-        status = advance(moving, h, &memory, statistics);
+        status = dipole_vrkmk2_gauss2_advance(moving, h, &memory, statistics);
         if (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED
             || status == DIPOLE_VRKMK2_GAUSS2_NOT_FINITE) {
-            status = continued(moving, h, &memory, statistics);
+            status = dipole_vrkmk2_gauss2_continued(moving, h, &memory, statistics);
         }
         if (status == DIPOLE_VRKMK2_GAUSS2_OK) {
             step++;
             if (recording && step % stride == 0) {
                 row++;
                 memcpy(trajectory + 12 * row, state, 12 * sizeof *state);
-                status = leave_body(moving, before, trajectory + 12 * row);
+                status = dipole_vrkmk2_gauss2_leave_body(moving, before, trajectory + 12 * row);
             }
         }
     }
     if (step > 0) {
-        const int ended = leave_body(moving, before, state);
+        const int ended = dipole_vrkmk2_gauss2_leave_body(moving, before, state);
         if (ended != DIPOLE_VRKMK2_GAUSS2_OK) {
             status = DIPOLE_VRKMK2_GAUSS2_NOT_FINITE;
             step = 0;

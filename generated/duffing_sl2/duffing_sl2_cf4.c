@@ -5,6 +5,7 @@
  * source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic integration in
  *             Lie groups and manifolds, PhD thesis, NTNU 2014, Section 2.2.1
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 2.8e-17 at the coefficients rounded to double precision
  * scene:      Duffing's equation, SL(2) acting linearly, group SL(2)
  * state:      [0..1] y: point that SL(2) acts on by linear maps
  * left out:   1 evaluation of the field: equal values are computed once
@@ -12,7 +13,8 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 23 add, 48 mul, 5 signed_stumpff0, 5 signed_stumpff1 a step
- * stack:      at most 704 bytes; functions of the mathematical library add to this
+ * stack:      at most 704 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of the
+ *             mathematical library add to this
  * command:    orderconds emit duffing_sl2 --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -44,7 +46,7 @@
 #endif
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double duffing_sl2_cf4_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -52,7 +54,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_0(z) for z <= 1/256 */
-static inline double stumpff_tiny_0(double z)
+static inline double duffing_sl2_cf4_stumpff_tiny_0(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.5)
@@ -61,7 +63,7 @@ static inline double stumpff_tiny_0(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double duffing_sl2_cf4_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -70,7 +72,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_0(z) for z <= 1/16 */
-static inline double stumpff_small_0(double z)
+static inline double duffing_sl2_cf4_stumpff_small_0(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.49999999999999994)
@@ -79,7 +81,7 @@ static inline double stumpff_small_0(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double duffing_sl2_cf4_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -91,7 +93,7 @@ static inline double stumpff_series_1(double z)
 }
 
 /* c_0(z) = sum (-z)^j/(2j+0)! up to z = 1 */
-static inline double stumpff_series_0(double z)
+static inline double duffing_sl2_cf4_stumpff_series_0(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -104,60 +106,60 @@ static inline double stumpff_series_0(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s */
-static double stumpff_1_far(double z)
+static double duffing_sl2_cf4_stumpff_1_far(double z)
 {
     if (z <= 1.0) {
-        return stumpff_series_1(z);
+        return duffing_sl2_cf4_stumpff_series_1(z);
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double s = sqrt(z <= 65536.0 ? z : NAN);
+    const double s = sqrt(z <= 65536.0 ? z : (double)NAN);
     return sin(s) / s;
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s */
-static inline double stumpff_1(double z)
+static inline double duffing_sl2_cf4_stumpff_1(double z)
 {
     if (z <= 0.00390625) {
-        return stumpff_tiny_1(z);
+        return duffing_sl2_cf4_stumpff_tiny_1(z);
     }
-    return z <= 0.0625 ? stumpff_small_1(z) : stumpff_1_far(z);
+    return z <= 0.0625 ? duffing_sl2_cf4_stumpff_small_1(z) : duffing_sl2_cf4_stumpff_1_far(z);
 }
 
 /* For z > 1/16 and s = sqrt(z): c_0 = cos(s) */
-static double stumpff_0_far(double z)
+static double duffing_sl2_cf4_stumpff_0_far(double z)
 {
     if (z <= 1.0) {
-        return stumpff_series_0(z);
+        return duffing_sl2_cf4_stumpff_series_0(z);
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double s = sqrt(z <= 65536.0 ? z : NAN);
+    const double s = sqrt(z <= 65536.0 ? z : (double)NAN);
     return cos(s);
 }
 
 /* For z >= 0 and s = sqrt(z): c_0 = cos(s) */
-static inline double stumpff_0(double z)
+static inline double duffing_sl2_cf4_stumpff_0(double z)
 {
     if (z <= 0.00390625) {
-        return stumpff_tiny_0(z);
+        return duffing_sl2_cf4_stumpff_tiny_0(z);
     }
-    return z <= 0.0625 ? stumpff_small_0(z) : stumpff_0_far(z);
+    return z <= 0.0625 ? duffing_sl2_cf4_stumpff_small_0(z) : duffing_sl2_cf4_stumpff_0_far(z);
 }
 
 /* For z of either sign, s = sqrt(z) and r = sqrt(-z): c_1 = sin(s)/s or sinh(r)/r */
-static inline double signed_stumpff1(double z)
+static inline double duffing_sl2_cf4_signed_stumpff1(double z)
 {
     if (z >= 0.0) {
-        return stumpff_1(z);
+        return duffing_sl2_cf4_stumpff_1(z);
     }
     const double r = sqrt(-z);
     return sinh(r) / r;
 }
 
 /* For z of either sign, s = sqrt(z) and r = sqrt(-z): c_0 = cos(s) or cosh(r) */
-static inline double signed_stumpff0(double z)
+static inline double duffing_sl2_cf4_signed_stumpff0(double z)
 {
     if (z >= 0.0) {
-        return stumpff_0(z);
+        return duffing_sl2_cf4_stumpff_0(z);
     }
     const double r = sqrt(-z);
     return cosh(r);
@@ -187,34 +189,35 @@ int duffing_sl2_cf4_run(double state[static 2], double h, size_t steps, double *
         const double x2_0 = 0.5 * h;
         const double w4 = x2_0 * x2_0;
         const double w5 = -k0_1 * w4;
-        const double w6 = signed_stumpff0(w5);
-        const double w7 = signed_stumpff1(w5);
+        const double w6 = duffing_sl2_cf4_signed_stumpff0(w5);
+        const double w7 = duffing_sl2_cf4_signed_stumpff1(w5);
         const double w8 = z0 * w6 + x2_0 * w7 * z1;
         const double w9 = -1.0 - w8 * w8;
         const double w10 = -w4 * w9;
-        const double p_1 = z0 * signed_stumpff0(w10) + x2_0 * signed_stumpff1(w10) * z1;
+        const double p_1 = z0 * duffing_sl2_cf4_signed_stumpff0(w10)
+            + x2_0 * duffing_sl2_cf4_signed_stumpff1(w10) * z1;
         const double w11 = -1.0 - p_1 * p_1;
         const double w12 = 0.16666666666666666 * h * (w9 + w11);
         const double w13 = -0.5 * h;
         const double x4_0 = h + w13;
         const double w14 = -x4_0 * (k0_1 * w13 + h * w11);
-        const double w15 = w8 * signed_stumpff0(w14)
-            + x4_0 * signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0);
+        const double w15 = w8 * duffing_sl2_cf4_signed_stumpff0(w14)
+            + x4_0 * duffing_sl2_cf4_signed_stumpff1(w14) * (z1 * w6 + k0_1 * x2_0 * w7 * z0);
         const double w16 = -1.0 - w15 * w15;
         const double w17 = w12 + w1 * k0_1 + w3 * w16;
         const double w18 = -x_0 * w17;
-        const double w19 = signed_stumpff0(w18);
-        const double w20 = signed_stumpff1(w18);
+        const double w19 = duffing_sl2_cf4_signed_stumpff0(w18);
+        const double w20 = duffing_sl2_cf4_signed_stumpff1(w18);
         const double w21 = z0 * w19 + x_0 * w20 * z1;
         const double x_2_0 = w2 + w3 + w1;
         const double w22 = w12 + w3 * k0_1 + w1 * w16;
         const double w23 = -x_2_0 * w22;
-        const double w24 = signed_stumpff0(w23);
+        const double w24 = duffing_sl2_cf4_signed_stumpff0(w23);
         const double w25 = w17 * w20 * z0 + z1 * w19;
-        const double w26 = signed_stumpff1(w23);
+        const double w26 = duffing_sl2_cf4_signed_stumpff1(w23);
         const double new_z0 = w21 * w24 + x_2_0 * w26 * w25;
         const double new_z1 = w22 * w26 * w21 + w24 * w25;
-        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+        /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
         if (isfinite(new_z0 + new_z1) || new_z0 - new_z0 + (new_z1 - new_z1) == 0.0) {
             z0 = new_z0;
             z1 = new_z1;

@@ -6,6 +6,8 @@ source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic
             2.2.1
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
+digits:     the order conditions hold to 2.8e-17 at the coefficients rounded to
+            double precision
 scene:      Duffing's equation, SL(2) acting linearly, group SL(2)
 state:      [0..1] y: point that SL(2) acts on by linear maps
 left out:   1 evaluation of the field: equal values are computed once
@@ -34,7 +36,7 @@ BAD_STEP = 3
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
+    status: NOT_FINITE or BAD_STEP; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -227,7 +229,7 @@ def _run(state, h, steps, trajectory, stride, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
+    """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 2:
         raise ValueError(f"expected 2 numbers in state, found {len(numbers)}")
@@ -253,8 +255,8 @@ def step(state, h):
 def run(state, h, steps, *, stride=0):
     """Return the state after ``steps`` steps of size h, as a list.
 
-    With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. If a step fails, StepFailed is raised, with the last good state.
+    With a positive stride, return rows instead: the initial state, and the state after every
+    stride-th step. If a step fails, StepFailed is raised; it contains the last good state.
     """
     state = _numbers(state)
     h = float(h)

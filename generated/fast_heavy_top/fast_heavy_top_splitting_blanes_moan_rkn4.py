@@ -5,6 +5,8 @@ method:     family splitting, tableau blanes_moan_rkn4
 source:     Blanes and Moan 2002, Table 3, SRKN_6^b of order four
 order:      4, certificate: ball (interval arithmetic proves that such a method
             exists within the last printed digit)
+digits:     the order conditions hold to 5.6e-17 at the coefficients rounded to
+            double precision
 scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010),
             group SO(3)
 flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0, 1,
@@ -39,7 +41,7 @@ BAD_STEP = 3
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
+    status: NOT_FINITE or BAD_STEP; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -403,7 +405,7 @@ def _run(state, h, steps, trajectory, stride, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
+    """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 12:
         raise ValueError(f"expected 12 numbers in state, found {len(numbers)}")
@@ -429,8 +431,8 @@ def step(state, h):
 def run(state, h, steps, *, stride=0):
     """Return the state after ``steps`` steps of size h, as a list.
 
-    With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. If a step fails, StepFailed is raised, with the last good state.
+    With a positive stride, return rows instead: the initial state, and the state after every
+    stride-th step. If a step fails, StepFailed is raised; it contains the last good state.
     """
     state = _numbers(state)
     h = float(h)

@@ -5,6 +5,7 @@
  * source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic integration in
  *             Lie groups and manifolds, PhD thesis, NTNU 2014, Section 2.2.1
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 2.8e-17 at the coefficients rounded to double precision
  * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 evaluation of the field: equal values are computed once
@@ -13,7 +14,8 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 89 add, 149 mul, 5 stumpff_12 a step
- * stack:      at most 1088 bytes; functions of the mathematical library add to this
+ * stack:      at most 1088 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
+ *             the mathematical library add to this
  * command:    orderconds emit free_rigid_body --method cf4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -45,7 +47,7 @@
 #endif
 
 /* c_2(z) for z <= 1/256 */
-static inline double stumpff_tiny_2(double z)
+static inline double free_rigid_body_cf4_stumpff_tiny_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.04166666666666365)
@@ -53,7 +55,7 @@ static inline double stumpff_tiny_2(double z)
 }
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double free_rigid_body_cf4_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -61,7 +63,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_2(z) for z <= 1/16 */
-static inline double stumpff_small_2(double z)
+static inline double free_rigid_body_cf4_stumpff_small_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.041666666666666664)
@@ -70,7 +72,7 @@ static inline double stumpff_small_2(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double free_rigid_body_cf4_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -79,7 +81,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
-static inline double stumpff_series_2(double z)
+static inline double free_rigid_body_cf4_stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -91,7 +93,7 @@ static inline double stumpff_series_2(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double free_rigid_body_cf4_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -103,15 +105,15 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static void stumpff_12_far(double z, double *c1, double *c2)
+static void free_rigid_body_cf4_stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
+        *c1 = free_rigid_body_cf4_stumpff_series_1(z);
+        *c2 = free_rigid_body_cf4_stumpff_series_2(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 65536.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 65536.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -120,16 +122,16 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+static inline void free_rigid_body_cf4_stumpff_12(double z, double *c1, double *c2)
 {
     if (z <= 0.00390625) {
-        *c1 = stumpff_tiny_1(z);
-        *c2 = stumpff_tiny_2(z);
+        *c1 = free_rigid_body_cf4_stumpff_tiny_1(z);
+        *c2 = free_rigid_body_cf4_stumpff_tiny_2(z);
     } else if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
+        *c1 = free_rigid_body_cf4_stumpff_small_1(z);
+        *c2 = free_rigid_body_cf4_stumpff_small_2(z);
     } else {
-        stumpff_12_far(z, c1, c2);
+        free_rigid_body_cf4_stumpff_12_far(z, c1, c2);
     }
 }
 
@@ -159,7 +161,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double w7 = m2 * w6;
         const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
         double c1_1, c2_1;
-        stumpff_12(w8, &c1_1, &c2_1);
+        free_rigid_body_cf4_stumpff_12(w8, &c1_1, &c2_1);
         const double w10 = m2 * w5 + m1 * w7;
         const double w12 = m1 * w3 + m0 * w5;
         const double w13 = m0 * w7 - m2 * w3;
@@ -173,7 +175,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double w21 = w6 * w20;
         const double w22 = w15 * w15 + w19 * w19 + w21 * w21;
         double c1_2, c2_2;
-        stumpff_12(w22, &c1_2, &c2_2);
+        free_rigid_body_cf4_stumpff_12(w22, &c1_2, &c2_2);
         const double w24 = m2 * w19 - m1 * w21;
         const double w26 = m1 * w15 - m0 * w19;
         const double w27 = m0 * w21 - m2 * w15;
@@ -189,7 +191,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double w37 = 0.75 * h * m2 - 1.5 * h * w36;
         const double w38 = w33 * w33 + w35 * w35 + w37 * w37;
         double c1_3, c2_3;
-        stumpff_12(w38, &c1_3, &c2_3);
+        free_rigid_body_cf4_stumpff_12(w38, &c1_3, &c2_3);
         const double w40 = w17 - w16;
         const double w41 = w20 * w35 + w37 * w40;
         const double w43 = w14 * w35 + w33 * w40;
@@ -208,7 +210,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double w56 = m2 * w52 + w53 + w54 * w55;
         const double w57 = w47 * w47 + w51 * w51 + w56 * w56;
         double c1_4, c2_4;
-        stumpff_12(w57, &c1_4, &c2_4);
+        free_rigid_body_cf4_stumpff_12(w57, &c1_4, &c2_4);
         const double w59 = m2 * w51 - m1 * w56;
         const double w61 = m1 * w47 - m0 * w51;
         const double w62 = m0 * w56 - m2 * w47;
@@ -218,7 +220,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double w66 = w53 + m2 * w55 + w52 * w54;
         const double w67 = w64 * w64 + w65 * w65 + w66 * w66;
         double c1_5, c2_5;
-        stumpff_12(w67, &c1_5, &c2_5);
+        free_rigid_body_cf4_stumpff_12(w67, &c1_5, &c2_5);
         const double w69 = m2 + w61 * c1_4 + (w47 * w62 - w51 * w59) * c2_4;
         const double w70 = m1 + w62 * c1_4 + (w56 * w59 - w47 * w61) * c2_4;
         const double w71 = w65 * w69 - w66 * w70;
@@ -227,7 +229,7 @@ int free_rigid_body_cf4_run(double state[static 3], double h, size_t steps,
         const double new_m0 = w63 + w71 * c1_5 + (w65 * w73 - w66 * w74) * c2_5;
         const double new_m1 = w70 + w74 * c1_5 + (w66 * w71 - w64 * w73) * c2_5;
         const double new_m2 = w69 + w73 * c1_5 + (w64 * w74 - w65 * w71) * c2_5;
-        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+        /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

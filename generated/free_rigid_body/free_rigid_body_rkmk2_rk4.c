@@ -5,6 +5,7 @@
  * source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
  *             Table II.1.2; with brackets: Munthe-Kaas 1998
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 5.6e-17 at the coefficients rounded to double precision
  * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 action, 1 evaluation of dexpinv, 1 exponential: coefficients are zero, or terms
@@ -15,7 +16,8 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 101 add, 164 mul, 4 stumpff_12 a step
- * stack:      at most 1024 bytes; functions of the mathematical library add to this
+ * stack:      at most 1024 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of
+ *             the mathematical library add to this
  * command:    orderconds emit free_rigid_body --method 'rkmk(2):rk4' --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -47,7 +49,7 @@
 #endif
 
 /* c_2(z) for z <= 1/256 */
-static inline double stumpff_tiny_2(double z)
+static inline double free_rigid_body_rkmk2_rk4_stumpff_tiny_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.04166666666666365)
@@ -55,7 +57,7 @@ static inline double stumpff_tiny_2(double z)
 }
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double free_rigid_body_rkmk2_rk4_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -63,7 +65,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_2(z) for z <= 1/16 */
-static inline double stumpff_small_2(double z)
+static inline double free_rigid_body_rkmk2_rk4_stumpff_small_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.041666666666666664)
@@ -72,7 +74,7 @@ static inline double stumpff_small_2(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double free_rigid_body_rkmk2_rk4_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -81,7 +83,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
-static inline double stumpff_series_2(double z)
+static inline double free_rigid_body_rkmk2_rk4_stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -93,7 +95,7 @@ static inline double stumpff_series_2(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double free_rigid_body_rkmk2_rk4_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -105,15 +107,15 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static void stumpff_12_far(double z, double *c1, double *c2)
+static void free_rigid_body_rkmk2_rk4_stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
+        *c1 = free_rigid_body_rkmk2_rk4_stumpff_series_1(z);
+        *c2 = free_rigid_body_rkmk2_rk4_stumpff_series_2(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 65536.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 65536.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -122,16 +124,16 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+static inline void free_rigid_body_rkmk2_rk4_stumpff_12(double z, double *c1, double *c2)
 {
     if (z <= 0.00390625) {
-        *c1 = stumpff_tiny_1(z);
-        *c2 = stumpff_tiny_2(z);
+        *c1 = free_rigid_body_rkmk2_rk4_stumpff_tiny_1(z);
+        *c2 = free_rigid_body_rkmk2_rk4_stumpff_tiny_2(z);
     } else if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
+        *c1 = free_rigid_body_rkmk2_rk4_stumpff_small_1(z);
+        *c2 = free_rigid_body_rkmk2_rk4_stumpff_small_2(z);
     } else {
-        stumpff_12_far(z, c1, c2);
+        free_rigid_body_rkmk2_rk4_stumpff_12_far(z, c1, c2);
     }
 }
 
@@ -160,7 +162,7 @@ int free_rigid_body_rkmk2_rk4_run(double state[static 3], double h, size_t steps
         const double u2_2 = w1 * k0_2;
         const double w3 = u2_0 * u2_0 + w2 * w2 + u2_2 * u2_2;
         double c1_1, c2_1;
-        stumpff_12(w3, &c1_1, &c2_1);
+        free_rigid_body_rkmk2_rk4_stumpff_12(w3, &c1_1, &c2_1);
         const double w5 = m2 * w2 + m1 * u2_2;
         const double w7 = m1 * u2_0 + m0 * w2;
         const double w8 = m0 * u2_2 - m2 * u2_0;
@@ -178,7 +180,7 @@ int free_rigid_body_rkmk2_rk4_run(double state[static 3], double h, size_t steps
         const double u3_2 = w1 * w2_2;
         const double w12 = u3_0 * u3_0 + u3_1 * u3_1 + u3_2 * u3_2;
         double c1_2, c2_2;
-        stumpff_12(w12, &c1_2, &c2_2);
+        free_rigid_body_rkmk2_rk4_stumpff_12(w12, &c1_2, &c2_2);
         const double w14 = m2 * u3_1 - m1 * u3_2;
         const double w16 = m1 * u3_0 - m0 * u3_1;
         const double w17 = m0 * u3_2 - m2 * u3_0;
@@ -196,7 +198,7 @@ int free_rigid_body_rkmk2_rk4_run(double state[static 3], double h, size_t steps
         const double u4_2 = h * w3_2;
         const double w21 = u4_0 * u4_0 + u4_1 * u4_1 + u4_2 * u4_2;
         double c1_3, c2_3;
-        stumpff_12(w21, &c1_3, &c2_3);
+        free_rigid_body_rkmk2_rk4_stumpff_12(w21, &c1_3, &c2_3);
         const double w23 = m2 * u4_1 - m1 * u4_2;
         const double w25 = m1 * u4_0 - m0 * u4_1;
         const double w26 = m0 * u4_2 - m2 * u4_0;
@@ -216,14 +218,14 @@ int free_rigid_body_rkmk2_rk4_run(double state[static 3], double h, size_t steps
             + w31 * (w2_2 + w3_2);
         const double w32 = u_0 * u_0 + u_1 * u_1 + u_2 * u_2;
         double c1_4, c2_4;
-        stumpff_12(w32, &c1_4, &c2_4);
+        free_rigid_body_rkmk2_rk4_stumpff_12(w32, &c1_4, &c2_4);
         const double w34 = m2 * u_1 - m1 * u_2;
         const double w36 = m1 * u_0 - m0 * u_1;
         const double w37 = m0 * u_2 - m2 * u_0;
         const double new_m0 = m0 + w34 * c1_4 + (u_1 * w36 - u_2 * w37) * c2_4;
         const double new_m1 = m1 + w37 * c1_4 + (u_2 * w34 - u_0 * w36) * c2_4;
         const double new_m2 = m2 + w36 * c1_4 + (u_0 * w37 - u_1 * w34) * c2_4;
-        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+        /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

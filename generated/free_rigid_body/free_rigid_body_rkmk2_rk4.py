@@ -5,6 +5,8 @@ source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differentia
             Equations I, Table II.1.2; with brackets: Munthe-Kaas 1998
 order:      4, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
+digits:     the order conditions hold to 5.6e-17 at the coefficients rounded to
+            double precision
 scene:      Free rigid body on the sphere, group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
 left out:   1 action, 1 evaluation of dexpinv, 1 exponential: coefficients are zero,
@@ -37,7 +39,7 @@ BAD_STEP = 3
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
+    status: NOT_FINITE or BAD_STEP; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -229,7 +231,7 @@ def _run(state, h, steps, trajectory, stride, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
+    """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 3:
         raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
@@ -255,8 +257,8 @@ def step(state, h):
 def run(state, h, steps, *, stride=0):
     """Return the state after ``steps`` steps of size h, as a list.
 
-    With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. If a step fails, StepFailed is raised, with the last good state.
+    With a positive stride, return rows instead: the initial state, and the state after every
+    stride-th step. If a step fails, StepFailed is raised; it contains the last good state.
     """
     state = _numbers(state)
     h = float(h)

@@ -5,6 +5,7 @@
  * source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I,
  *             Table II.1.2; with brackets: Munthe-Kaas 1998
  * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold to 5.6e-17 at the coefficients rounded to double precision
  * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 action, 1 exponential: coefficients are zero, or terms cancel
@@ -14,7 +15,8 @@
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 77 add, 141 mul, 4 stumpff_12 a step
- * stack:      at most 960 bytes; functions of the mathematical library add to this
+ * stack:      at most 960 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64; functions of the
+ *             mathematical library add to this
  * command:    orderconds emit free_rigid_body --method rkmk:rk4 --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -46,7 +48,7 @@
 #endif
 
 /* c_2(z) for z <= 1/256 */
-static inline double stumpff_tiny_2(double z)
+static inline double free_rigid_body_rkmk_rk4_stumpff_tiny_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.04166666666666365)
@@ -54,7 +56,7 @@ static inline double stumpff_tiny_2(double z)
 }
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double free_rigid_body_rkmk_rk4_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -62,7 +64,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_2(z) for z <= 1/16 */
-static inline double stumpff_small_2(double z)
+static inline double free_rigid_body_rkmk_rk4_stumpff_small_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.041666666666666664)
@@ -71,7 +73,7 @@ static inline double stumpff_small_2(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double free_rigid_body_rkmk_rk4_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -80,7 +82,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
-static inline double stumpff_series_2(double z)
+static inline double free_rigid_body_rkmk_rk4_stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -92,7 +94,7 @@ static inline double stumpff_series_2(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double free_rigid_body_rkmk_rk4_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -104,15 +106,15 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static void stumpff_12_far(double z, double *c1, double *c2)
+static void free_rigid_body_rkmk_rk4_stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
+        *c1 = free_rigid_body_rkmk_rk4_stumpff_series_1(z);
+        *c2 = free_rigid_body_rkmk_rk4_stumpff_series_2(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 65536.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 65536.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -121,16 +123,16 @@ static void stumpff_12_far(double z, double *c1, double *c2)
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+static inline void free_rigid_body_rkmk_rk4_stumpff_12(double z, double *c1, double *c2)
 {
     if (z <= 0.00390625) {
-        *c1 = stumpff_tiny_1(z);
-        *c2 = stumpff_tiny_2(z);
+        *c1 = free_rigid_body_rkmk_rk4_stumpff_tiny_1(z);
+        *c2 = free_rigid_body_rkmk_rk4_stumpff_tiny_2(z);
     } else if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
+        *c1 = free_rigid_body_rkmk_rk4_stumpff_small_1(z);
+        *c2 = free_rigid_body_rkmk_rk4_stumpff_small_2(z);
     } else {
-        stumpff_12_far(z, c1, c2);
+        free_rigid_body_rkmk_rk4_stumpff_12_far(z, c1, c2);
     }
 }
 
@@ -160,7 +162,7 @@ int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
         const double w7 = m2 * w6;
         const double w8 = w3 * w3 + w5 * w5 + w7 * w7;
         double c1_1, c2_1;
-        stumpff_12(w8, &c1_1, &c2_1);
+        free_rigid_body_rkmk_rk4_stumpff_12(w8, &c1_1, &c2_1);
         const double w10 = m2 * w5 + m1 * w7;
         const double w12 = m1 * w3 + m0 * w5;
         const double w13 = m0 * w7 - m2 * w3;
@@ -179,7 +181,7 @@ int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
         const double w26 = w15 * w23 + w21 * w24 + w6 * w16;
         const double w27 = w22 * w22 + w25 * w25 + w26 * w26;
         double c1_2, c2_2;
-        stumpff_12(w27, &c1_2, &c2_2);
+        free_rigid_body_rkmk_rk4_stumpff_12(w27, &c1_2, &c2_2);
         const double w29 = m2 * w25 - m1 * w26;
         const double w31 = m1 * w22 - m0 * w25;
         const double w32 = m0 * w26 - m2 * w22;
@@ -191,7 +193,7 @@ int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
         const double w38 = w18 * w37;
         const double w39 = w34 * w34 + w36 * w36 + w38 * w38;
         double c1_3, c2_3;
-        stumpff_12(w39, &c1_3, &c2_3);
+        free_rigid_body_rkmk_rk4_stumpff_12(w39, &c1_3, &c2_3);
         const double w41 = m2 * w36 + m1 * w38;
         const double w43 = m1 * w34 + m0 * w36;
         const double w44 = m0 * w38 - m2 * w34;
@@ -210,14 +212,14 @@ int free_rigid_body_rkmk_rk4_run(double state[static 3], double h, size_t steps,
             + (w46 * (-1.5 * m2 - 1.5 * w48) + w47 * (-1.5 * w16 - 1.5 * w37));
         const double w56 = w52 * w52 + w54 * w54 + w55 * w55;
         double c1_4, c2_4;
-        stumpff_12(w56, &c1_4, &c2_4);
+        free_rigid_body_rkmk_rk4_stumpff_12(w56, &c1_4, &c2_4);
         const double w58 = m2 * w54 - m1 * w55;
         const double w60 = m1 * w52 - m0 * w54;
         const double w61 = m0 * w55 - m2 * w52;
         const double new_m0 = m0 + w58 * c1_4 + (w54 * w60 - w55 * w61) * c2_4;
         const double new_m1 = m1 + w61 * c1_4 + (w55 * w58 - w52 * w60) * c2_4;
         const double new_m2 = m2 + w60 * c1_4 + (w52 * w61 - w54 * w58) * c2_4;
-        /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+        /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
         if (isfinite(new_m0 + new_m1 + new_m2) || new_m0 - new_m0 + (new_m1 - new_m1)
             + (new_m2 - new_m2) == 0.0) {
             m0 = new_m0;

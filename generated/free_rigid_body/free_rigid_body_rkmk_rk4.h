@@ -11,16 +11,17 @@ extern "C" {
 enum {
     FREE_RIGID_BODY_RKMK_RK4_OK = 0, /* success */
     FREE_RIGID_BODY_RKMK_RK4_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
-    FREE_RIGID_BODY_RKMK_RK4_BAD_STEP = 3 /* h is infinite or a NaN */
+    FREE_RIGID_BODY_RKMK_RK4_BAD_STEP = 3 /* h is infinite or NaN */
 };
 
 /* Make one step of size h. When the status is not FREE_RIGID_BODY_RKMK_RK4_OK, the state is unchanged. */
 int free_rigid_body_rkmk_rk4_step(double state[3], double h);
 
 /*
- * Make up to steps steps of size h, until one fails; the state is then the last good one and *completed
- * the number of completed steps. A trajectory receives the initial state and every stride-th one after
- * it: steps/stride + 1 rows of 3. trajectory and completed may be NULL.
+ * Make the given number of steps of size h, or fewer if a step fails. On return, state is the last
+ * good state, and *completed is the number of completed steps. The trajectory receives
+ * steps/stride + 1 rows of 3 numbers: the initial state, and the state after every stride-th step.
+ * trajectory and completed may be NULL.
  */
 int free_rigid_body_rkmk_rk4_run(double state[3], double h, size_t steps,
     double *trajectory, size_t stride, size_t *completed);

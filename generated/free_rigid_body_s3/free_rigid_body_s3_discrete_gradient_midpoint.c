@@ -4,6 +4,7 @@
  * method:     family discrete_gradient, tableau midpoint
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold exactly at the coefficients rounded to double precision
  * scene:      Free rigid body with attitude, S^3, group S^3
  * solved by:  the equations of xi: Newton's method, 3 unknowns; 6.2 sweeps and 0.85 matrices a
  *             step, measured over the first 20 steps of h = 0.02
@@ -13,10 +14,11 @@
  *             3 exponentials: exp(x).y is computed without exp(x)
  *             the time: the scene does not depend on it
  * operations: 34 add, 59 mul, 1 stumpff_01 a step
- *             21 add, 42 mul an initial guess, in the first step of a run
+ *             21 add, 42 mul for an initial guess, in the first step of a run
  *             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the equations of xi
  *             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of xi
- * stack:      at most 6592 bytes; functions of the mathematical library add to this
+ * stack:      at most 8000 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1408 of them as
+ *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit free_rigid_body_s3 --method discrete_gradient:midpoint --target c -o
  *             .
  * version:    orderconds 0.1.0
@@ -49,7 +51,7 @@
 #endif
 
 /* c_3(z) for z <= 1/256 */
-static inline double stumpff_tiny_3(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_3(double z)
 {
     const double w = z * z;
     return (0.16666666666666666 + z * -0.008333333333333059)
@@ -57,7 +59,7 @@ static inline double stumpff_tiny_3(double z)
 }
 
 /* c_2(z) for z <= 1/256 */
-static inline double stumpff_tiny_2(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.04166666666666365)
@@ -65,7 +67,7 @@ static inline double stumpff_tiny_2(double z)
 }
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -73,7 +75,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_0(z) for z <= 1/256 */
-static inline double stumpff_tiny_0(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_0(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.5)
@@ -82,7 +84,7 @@ static inline double stumpff_tiny_0(double z)
 }
 
 /* c_3(z) for z <= 1/16 */
-static inline double stumpff_small_3(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_3(double z)
 {
     const double w = z * z;
     return (0.16666666666666666 + z * -0.008333333333333163)
@@ -91,7 +93,7 @@ static inline double stumpff_small_3(double z)
 }
 
 /* c_2(z) for z <= 1/16 */
-static inline double stumpff_small_2(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.041666666666666664)
@@ -100,7 +102,7 @@ static inline double stumpff_small_2(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -109,7 +111,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_0(z) for z <= 1/16 */
-static inline double stumpff_small_0(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_0(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.49999999999999994)
@@ -118,7 +120,7 @@ static inline double stumpff_small_0(double z)
 }
 
 /* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
-static inline double stumpff_series_3(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_3(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -132,7 +134,7 @@ static inline double stumpff_series_3(double z)
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
-static inline double stumpff_series_2(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -144,7 +146,7 @@ static inline double stumpff_series_2(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -156,7 +158,7 @@ static inline double stumpff_series_1(double z)
 }
 
 /* c_0(z) = sum (-z)^j/(2j+0)! up to z = 1 */
-static inline double stumpff_series_0(double z)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_0(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -169,73 +171,73 @@ static inline double stumpff_series_0(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23_far(double z, double *c2, double *c3)
+static inline void free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23_far(double z, double *c2, double *c3)
 {
     if (z <= 1.0) {
-        *c2 = stumpff_series_2(z);
-        *c3 = stumpff_series_3(z);
+        *c2 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_2(z);
+        *c3 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_3(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
     *c2 = 0.5 * (ratio * ratio);
-    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+    *c3 = z <= 4.0 ? free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
 /* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23(double z, double *c2, double *c3)
+static inline void free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23(double z, double *c2, double *c3)
 {
     if (z <= 0.00390625) {
-        *c2 = stumpff_tiny_2(z);
-        *c3 = stumpff_tiny_3(z);
+        *c2 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_2(z);
+        *c3 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_3(z);
     } else if (z <= 0.0625) {
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
+        *c2 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_2(z);
+        *c3 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_3(z);
     } else {
-        stumpff_23_far(z, c2, c3);
+        free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23_far(z, c2, c3);
     }
 }
 
 /* For z > 1/16 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
-static inline void stumpff_01_far(double z, double *c0, double *c1)
+static inline void free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01_far(double z, double *c0, double *c1)
 {
     if (z <= 1.0) {
-        *c0 = stumpff_series_0(z);
-        *c1 = stumpff_series_1(z);
+        *c0 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_0(z);
+        *c1 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_1(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double s = sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double ratio = sin(s) / s;
     *c0 = cos(s);
     *c1 = ratio;
 }
 
 /* For z >= 0 and s = sqrt(z): c_0 = cos(s), c_1 = sin(s)/s */
-static inline void stumpff_01(double z, double *c0, double *c1)
+static inline void free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01(double z, double *c0, double *c1)
 {
     if (z <= 0.00390625) {
-        *c0 = stumpff_tiny_0(z);
-        *c1 = stumpff_tiny_1(z);
+        *c0 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_0(z);
+        *c1 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_tiny_1(z);
     } else if (z <= 0.0625) {
-        *c0 = stumpff_small_0(z);
-        *c1 = stumpff_small_1(z);
+        *c0 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_0(z);
+        *c1 = free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small_1(z);
     } else {
-        stumpff_01_far(z, c0, c1);
+        free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01_far(z, c0, c1);
     }
 }
 
-/* a/b, or 0 if b = 0, which is the limit */
-static inline double quotient(double a, double b)
+/* a/b, or its limit 0 if b = 0 */
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_quotient(double a, double b)
 {
     return b > 0.0 || b < 0.0 ? a / b : b;
 }
 
 /* The largest absolute value of n numbers */
-static double largest(const double *x, size_t n)
+static double free_rigid_body_s3_discrete_gradient_midpoint_largest(const double *x, size_t n)
 {
     double size = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -244,13 +246,13 @@ static double largest(const double *x, size_t n)
     return size;
 }
 
-static inline double greater(double a, double b)
+static inline double free_rigid_body_s3_discrete_gradient_midpoint_greater(double a, double b)
 {
     return a > b ? a : b;
 }
 
 /* Whether n numbers are all finite */
-static int all_finite(const double *x, size_t n)
+static int free_rigid_body_s3_discrete_gradient_midpoint_all_finite(const double *x, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(x[i])) {
@@ -264,7 +266,7 @@ static int all_finite(const double *x, size_t n)
  * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
-struct memory {
+struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     size_t known; /* number of stored solutions */
     double first; /* error of the last guess */
     size_t degree; /* degree of the extrapolation */
@@ -277,7 +279,7 @@ struct memory {
 };
 
 /* Coefficients of backward differences by order, the latest solution first. */
-static const double differences[17][18] = {
+static const double free_rigid_body_s3_discrete_gradient_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
     {1.0, -2.0, 1.0},
@@ -298,7 +300,7 @@ static const double differences[17][18] = {
 };
 
 /* Add the sweeps over one block in one step. */
-static void count_sweeps(free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics,
+static void free_rigid_body_s3_discrete_gradient_midpoint_count_sweeps(free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics,
     size_t block, size_t sweeps, int failed)
 {
     if (statistics != NULL) {
@@ -313,7 +315,7 @@ static void count_sweeps(free_rigid_body_s3_discrete_gradient_midpoint_statistic
 }
 
 /* Add one matrix. */
-static void count_matrix(free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics)
+static void free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics)
 {
     if (statistics != NULL) {
         statistics->matrices++;
@@ -324,8 +326,8 @@ static void count_matrix(free_rigid_body_s3_discrete_gradient_midpoint_statistic
  * A backward difference times sign, from the term with index first on. The latest solution is added
  * last, so that the rest of the sum can be computed before it is known.
  */
-static inline void difference(const struct memory *memory, size_t order, size_t first,
-    double sign, double sum[static 3])
+static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
+    size_t order, size_t first, double sign, double sum[static 3])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -333,8 +335,8 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     for (size_t pair = (order - first) / 2 + 1; pair-- > 0;) {
         const size_t row = memory->place + 2 * pair;
         const size_t column = first + 2 * pair;
-        const double newer = differences[order][column];
-        const double older = differences[order][column + 1];
+        const double newer = free_rigid_body_s3_discrete_gradient_midpoint_differences[order][column];
+        const double older = free_rigid_body_s3_discrete_gradient_midpoint_differences[order][column + 1];
         sum_0 += sign * (newer * memory->values[row][0] + older * memory->values[row + 1][0]);
         sum_1 += sign * (newer * memory->values[row][1] + older * memory->values[row + 1][1]);
         sum_2 += sign * (newer * memory->values[row][2] + older * memory->values[row + 1][2]);
@@ -345,10 +347,11 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
 }
 
 /* The sum of the absolute values of a backward difference. */
-static double difference_size(const struct memory *memory, size_t order)
+static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
+    size_t order)
 {
     double row[3];
-    difference(memory, order, 0, 1.0, row);
+    free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, order, 0, 1.0, row);
     double size = 0.0;
     for (size_t i = 0; i < 3; i++) {
         size += fabs(row[i]);
@@ -360,9 +363,10 @@ static double difference_size(const struct memory *memory, size_t order)
  * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
  * one step later.
  */
-static inline void remember(struct memory *memory, const double solution[static 3])
+static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
+    const double solution[static 3])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -383,27 +387,32 @@ static inline void remember(struct memory *memory, const double solution[static 
     }
     /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
-        const double size = difference_size(memory, memory->degree);
+        const double size = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
+            memory->degree);
         int grows = 0;
         if (memory->degree + 1 < memory->known) {
-            const double higher = difference_size(memory, memory->degree + 1);
+            const double higher = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
+                memory->degree + 1);
             grows = higher < size;
         }
         if (grows) {
             memory->degree++;
         } else if (memory->degree > 0) {
-            const double lower = difference_size(memory, memory->degree - 1);
+            const double lower = free_rigid_body_s3_discrete_gradient_midpoint_difference_size(memory,
+                memory->degree - 1);
             if (size > lower) {
                 memory->degree--;
             }
         }
     }
     /* choose the next solution such that the difference of the next order vanishes */
-    difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
+    free_rigid_body_s3_discrete_gradient_midpoint_difference(memory, memory->degree + 1, 1,
+        -1.0, memory->guess);
 }
 
 /* One step. */
-static inline int advance(double state[static 4], double h, struct memory *memory,
+static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double state[static 4],
+    double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics)
 {
     if (!isfinite(h)) {
@@ -477,7 +486,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double x1_2 = xi_2 * w18;
         const double w19 = x1_0 * x1_0 + x1_1 * x1_1 + x1_2 * x1_2;
         double c0_1, c1_1;
-        stumpff_01(w19, &c0_1, &c1_1);
+        free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01(w19, &c0_1, &c1_1);
         const double w21 = x1_0 * c1_1;
         const double w22 = x1_1 * c1_1;
         const double w24 = x1_2 * c1_1;
@@ -543,7 +552,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double x_1 = h * xi_1;
         const double w74 = x_0 * x_0 + x_1 * x_1 + x_2 * x_2;
         double c0_2, c1_2;
-        stumpff_01(w74, &c0_2, &c1_2);
+        free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01(w74, &c0_2, &c1_2);
         const double w76 = x_2 * c1_2;
         const double w77 = x_0 * c1_2;
         const double w79 = x_1 * c1_2;
@@ -571,12 +580,12 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double d1_2 = Y1_1 * w72 - (Y1_3 * w70 + Y1_2 * w69) + Y1_0 * w73;
         const double w115 = w87 * w88 + w92 * w93 + 0.5 * (w83 * w83) - H0
             - (d1_0 * x_0 + x_1 * d1_1 + x_2 * d1_2);
-        const double w116 = quotient(w115, w74);
+        const double w116 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(w115, w74);
         const double D_0 = d1_0 + x_0 * w116;
         const double D_1 = d1_1 + x_1 * w116;
         const double D_2 = d1_2 + x_2 * w116;
         const double w117 = d1_0 * d1_0 + d1_1 * d1_1 + d1_2 * d1_2;
-        const double w118 = quotient(d1_0 * D_0 + d1_1 * D_1 + d1_2 * D_2, w117);
+        const double w118 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(d1_0 * D_0 + d1_1 * D_1 + d1_2 * D_2, w117);
         const double w119 = 0.5 * Y1_3;
         const double w120 = 0.1 * Y1_3;
         const double w121 = -0.5 * Y1_1;
@@ -591,7 +600,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double w130 = -0.008333333333333333 * Y1_0;
         const double w131 = w32 * w130 - 0.5 + w48 * w52 + w29 * w129 + w41 * w128 + w26 * w127;
         const double w132 = w51 * w126 + w131;
-        const double w133 = quotient(D_1 * w125 + w55 * D_0 + D_2 * w132, w117);
+        const double w133 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(D_1 * w125 + w55 * D_0 + D_2 * w132, w117);
         const double next_xi_0 = w55 * w118 - d1_0 * w133;
         const double next_xi_1 = w118 * w125 - d1_1 * w133;
         const double next_xi_2 = w118 * w132 - d1_2 * w133;
@@ -599,10 +608,10 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const double residual_xi_1 = next_xi_1 - xi_1;
         const double residual_xi_2 = next_xi_2 - xi_2;
         if (make_1 && isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2)) {
-            const double w134 = quotient(1.0, w117);
+            const double w134 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(1.0, w117);
             const double w135 = d1_1 * w134;
             const double w136 = h * w116;
-            const double w137 = quotient(1.0, w74);
+            const double w137 = free_rigid_body_s3_discrete_gradient_midpoint_quotient(1.0, w74);
             const double w138 = w88 * w137;
             const double w139 = 0.5 * w87 * w137;
             const double w140 = 0.5 * w92 * w137;
@@ -625,7 +634,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
             const double w154 = q0 * w150 + q3 * w148 + q1 * w145 - q2 * w152;
             const double w155 = q0 * w152 + q1 * w148 + q2 * w150 - q3 * w145;
             double c2_1, c3_1;
-            stumpff_23(w74, &c2_1, &c3_1);
+            free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23(w74, &c2_1, &c3_1);
             const double w156 = (x_2 * w154 + x_1 * w153 + x_0 * w155) * (0.5 * (c3_1 - c2_1));
             const double w157 = (q3 * w150 + q2 * w145 + q1 * w152 + q0 * (w147 - w146)) * (0.5 * c1_2);
             const double w158 = w156 - (w116 * w137 + w157);
@@ -636,7 +645,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
             const double w163 = w135 * w136 + w159 * w162;
             const double w164 = 2.0 * x1_1 * w18;
             double c2_2, c3_2;
-            stumpff_23(w19, &c2_2, &c3_2);
+            free_rigid_body_s3_discrete_gradient_midpoint_stumpff_23(w19, &c2_2, &c3_2);
             const double w165 = 0.5 * (c3_2 - c2_2);
             const double w166 = x1_2 * w165;
             const double w167 = 0.5 * c1_1;
@@ -982,7 +991,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
             memory->inverse_1[7] = w455 * (w446 * w448 - w414 * w444);
             memory->inverse_1[8] = w455 * (w381 * w444 - w446 * w450);
             memory->age_1 = 1;
-            count_matrix(statistics);
+            free_rigid_body_s3_discrete_gradient_midpoint_count_matrix(statistics);
         }
         const double change_xi_0 = memory->inverse_1[0] * residual_xi_0
             + memory->inverse_1[1] * residual_xi_1 + memory->inverse_1[2] * residual_xi_2;
@@ -990,14 +999,18 @@ static inline int advance(double state[static 4], double h, struct memory *memor
             + memory->inverse_1[4] * residual_xi_1 + memory->inverse_1[5] * residual_xi_2;
         const double change_xi_2 = memory->inverse_1[6] * residual_xi_0
             + memory->inverse_1[7] * residual_xi_1 + memory->inverse_1[8] * residual_xi_2;
-        const double change = greater(fabs(change_xi_0), greater(fabs(change_xi_1),
+        const double change = free_rigid_body_s3_discrete_gradient_midpoint_greater(fabs(change_xi_0),
+            free_rigid_body_s3_discrete_gradient_midpoint_greater(fabs(change_xi_1),
             fabs(change_xi_2)));
-        const double scale = greater(fabs(xi_0), greater(fabs(xi_1), fabs(xi_2)));
+        const double scale = free_rigid_body_s3_discrete_gradient_midpoint_greater(fabs(xi_0),
+            free_rigid_body_s3_discrete_gradient_midpoint_greater(fabs(xi_1), fabs(xi_2)));
         if (sweep == 1) {
-            memory->first = greater(memory->first, change);
+            memory->first = free_rigid_body_s3_discrete_gradient_midpoint_greater(memory->first,
+                change);
         }
         if (previous_1 > 0.0) {
-            rate_1 = greater(change / previous_1, 0.000244140625);
+            rate_1 = free_rigid_body_s3_discrete_gradient_midpoint_greater(change / previous_1,
+                0.000244140625);
         }
         xi_0 += change_xi_0;
         xi_1 += change_xi_1;
@@ -1005,8 +1018,9 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         const int still = previous_1 > 0.0 && change >= previous_1;
         const int close = change <= 9.094947017729282e-13 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        const int converged = close || (still && (change <= 5.684341886080802e-14 * scale
-            || change * fabs(h) <= 7.105427357601002e-15 * largest(state, 4)));
+        const int converged = close || (still && (change <= 5.684341886080802e-14 * scale || change
+            * fabs(h) <= 7.105427357601002e-15
+            * free_rigid_body_s3_discrete_gradient_midpoint_largest(state, 4)));
         status = isfinite(residual_xi_0 + residual_xi_1 + residual_xi_2) ? (converged
             ? FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED)
@@ -1016,20 +1030,20 @@ static inline int advance(double state[static 4], double h, struct memory *memor
         previous_1 = change;
     } while (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED
         && sweep < 100 && !astray);
-    count_sweeps(statistics, 0, sweep,
+    free_rigid_body_s3_discrete_gradient_midpoint_count_sweeps(statistics, 0, sweep,
         status != FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK);
     if (status != FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK) {
         return status;
     }
     memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
     const double solution[3] = {xi_0, xi_1, xi_2};
-    remember(memory, solution);
+    free_rigid_body_s3_discrete_gradient_midpoint_remember(memory, solution);
     const double x_0_ = h * xi_0;
     const double x_1_ = h * xi_1;
     const double x_2_ = h * xi_2;
     const double w456 = x_0_ * x_0_ + x_1_ * x_1_ + x_2_ * x_2_;
     double c0_3, c1_3;
-    stumpff_01(w456, &c0_3, &c1_3);
+    free_rigid_body_s3_discrete_gradient_midpoint_stumpff_01(w456, &c0_3, &c1_3);
     const double w459 = x_0_ * c1_3;
     const double w460 = x_1_ * c1_3;
     const double w461 = x_2_ * c1_3;
@@ -1037,7 +1051,7 @@ static inline int advance(double state[static 4], double h, struct memory *memor
     const double Y_1_ = q3 * w460 - q2 * w461 + (q0 * w459 + q1 * c0_3);
     const double Y_2_ = q1 * w461 - q3 * w459 + (q0 * w460 + q2 * c0_3);
     const double Y_3_ = q2 * w459 - q1 * w460 + (q0 * w461 + q3 * c0_3);
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(Y_0_ + Y_1_ + (Y_2_ + Y_3_)) && !(Y_0_ - Y_0_ + (Y_1_ - Y_1_)
         + (Y_2_ - Y_2_ + (Y_3_ - Y_3_)) == 0.0)) {
         return FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
@@ -1053,11 +1067,13 @@ static inline int advance(double state[static 4], double h, struct memory *memor
  * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
  * if the motion has changed, then by continuation in h from shorter steps.
  */
-static int continued(double state[static 4], double h, struct memory *memory,
+static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
+    double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics)
 {
     if (!(h < 0.0 || h > 0.0)) {
-        return all_finite(state, 4) ? FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
+        return free_rigid_body_s3_discrete_gradient_midpoint_all_finite(state, 4)
+            ? FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
             : FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE;
     }
     double known_solution[3] = {0.0};
@@ -1076,7 +1092,8 @@ static int continued(double state[static 4], double h, struct memory *memory,
             memcpy(memory->guess, known_solution, sizeof known_solution);
             memory->rate_1 = 1.0;
         }
-        const int status = advance(trial, part * h, memory, statistics);
+        const int status = free_rigid_body_s3_discrete_gradient_midpoint_advance(trial, part * h,
+            memory, statistics);
         done = status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK && part >= 1.0;
         if (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK) {
             memcpy(known_solution, memory->values[memory->place], sizeof known_solution);
@@ -1107,11 +1124,13 @@ static int continued(double state[static 4], double h, struct memory *memory,
 int free_rigid_body_s3_discrete_gradient_midpoint_step(double state[static 4], double h,
     free_rigid_body_s3_discrete_gradient_midpoint_statistics *statistics)
 {
-    struct memory memory = {0};
-    int status = advance(state, h, &memory, statistics);
+    struct free_rigid_body_s3_discrete_gradient_midpoint_memory memory = {0};
+    int status = free_rigid_body_s3_discrete_gradient_midpoint_advance(state, h, &memory,
+        statistics);
     if (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED
         || status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE) {
-        status = continued(state, h, &memory, statistics);
+        status = free_rigid_body_s3_discrete_gradient_midpoint_continued(state, h, &memory,
+            statistics);
     }
     return status;
 }
@@ -1122,17 +1141,19 @@ int free_rigid_body_s3_discrete_gradient_midpoint_run(double state[static 4], do
 {
     int status = FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK;
     size_t step = 0;
-    struct memory memory = {0};
+    struct free_rigid_body_s3_discrete_gradient_midpoint_memory memory = {0};
     const int recording = stride > 0 && trajectory != NULL;
     size_t row = 0;
     if (recording) {
         memcpy(trajectory, state, 4 * sizeof *state);
     }
     while (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK && step < steps) {
-        status = advance(state, h, &memory, statistics);
+        status = free_rigid_body_s3_discrete_gradient_midpoint_advance(state, h, &memory,
+            statistics);
         if (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED
             || status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE) {
-            status = continued(state, h, &memory, statistics);
+            status = free_rigid_body_s3_discrete_gradient_midpoint_continued(state, h, &memory,
+                statistics);
         }
         if (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK) {
             step++;

@@ -4,6 +4,8 @@ method:     family discrete_gradient, tableau midpoint
 source:     Table 3.2a of Bogfjellmo and Marthinsen
 order:      2, certificate: exact (every order condition up to it is zero in exact
             arithmetic)
+digits:     the order conditions hold exactly at the coefficients rounded to double
+            precision
 scene:      Free rigid body with attitude, S^3, group S^3
 solved by:  the equations of xi: Newton's method, 3 unknowns; 6.2 sweeps and 0.85
             matrices a step, measured over the first 20 steps of h = 0.02
@@ -13,7 +15,7 @@ left out:   1 sum: coefficients are zero, or terms cancel
             3 exponentials: exp(x).y is computed without exp(x)
             the time: the scene does not depend on it
 operations: 34 add, 59 mul, 1 stumpff_01 a step
-            21 add, 42 mul an initial guess, in the first step of a run
+            21 add, 42 mul for an initial guess, in the first step of a run
             617 add, 828 mul, 1 div, 2 quotient, 2 stumpff_23 a matrix of the
             equations of xi
             148 add, 240 mul, 3 quotient, 2 stumpff_01 a sweep of the equations of
@@ -41,7 +43,7 @@ BAD_STEP = 3
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
+    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -64,9 +66,9 @@ class Statistics:
     def clear(self):
         """Set all fields to zero."""
         self.sweeps = [0] * 1  # by block: the equations of xi
-        self.most = 0  # the most sweeps of one block in one step
-        self.failed = 0  # 1 + the block that failed, 0 if none has
-        self.matrices = 0  # how many Newton matrices were computed
+        self.most = 0  # largest number of sweeps of one block in one step
+        self.failed = 0  # number of the block that failed, counted from 1; 0 if none
+        self.matrices = 0  # number of Newton matrices that were computed
 
     labels = [
         "the equations of xi",
@@ -258,7 +260,7 @@ def _stumpff_01(z):
 
 
 def quotient(a, b):
-    """Return a/b, or 0 if b = 0, which is the limit."""
+    """Return a/b, or its limit 0 if b = 0."""
     return a / b if b else b
 
 
@@ -390,7 +392,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions the guess is only a copy: do not judge it
+    # with fewer than three solutions, the guess copies the last one; its error is
+    # not tested
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])
@@ -1261,7 +1264,7 @@ def _run(state, h, steps, trajectory, stride, statistics, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
+    """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 4:
         raise ValueError(f"expected 4 numbers in state, found {len(numbers)}")
@@ -1278,7 +1281,7 @@ def _failure(status, step, state, h, statistics):
         if status == NOT_CONVERGED:
             reason = f"{label} did not converge"
         else:
-            reason = f"{label} met a number that is not finite"
+            reason = f"{label} computed a number that is not finite"
     return StepFailed(status, reason, step, tuple(map(float, state)))
 
 
@@ -1293,8 +1296,8 @@ def step(state, h, *, statistics=None):
 def run(state, h, steps, *, stride=0, statistics=None):
     """Return the state after ``steps`` steps of size h, as a list.
 
-    With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. If a step fails, StepFailed is raised, with the last good state.
+    With a positive stride, return rows instead: the initial state, and the state after every
+    stride-th step. If a step fails, StepFailed is raised; it contains the last good state.
     """
     state = _numbers(state)
     h = float(h)

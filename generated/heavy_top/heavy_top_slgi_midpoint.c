@@ -4,6 +4,7 @@
  * method:     family slgi, tableau midpoint
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
  * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * digits:     the order conditions hold exactly at the coefficients rounded to double precision
  * scene:      Heavy top as printed, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 6 unknowns; 4.85 sweeps and 1 matrix a
  *             step, measured over the first 20 steps of h = 0.01
@@ -11,10 +12,11 @@
  *             [9..11] mu: right-trivialised momentum in the dual algebra of SO(3)
  * left out:   the time: the scene does not depend on it
  * operations: 50 add, 71 mul, 1 stumpff_1 a step
- *             3 mul an initial guess, in the first step of a run
+ *             3 mul for an initial guess, in the first step of a run
  *             105 add, 215 mul, 2 slope2, 2 slope3 a matrix of the equations of xi1, n1
  *             73 add, 111 mul, 1 stumpff_123, 1 stumpff_23 a sweep of the equations of xi1, n1
- * stack:      at most 5248 bytes; functions of the mathematical library add to this
+ * stack:      at most 6336 bytes with gcc 12 and clang 14 at -O0 to -O3 on x86-64, 1120 of them as
+ *             a margin; functions of the mathematical library add to this
  * command:    orderconds emit heavy_top --method slgi:midpoint --target c -o .
  * version:    orderconds 0.1.0
  *
@@ -46,7 +48,7 @@
 #endif
 
 /* c_3(z) for z <= 1/256 */
-static inline double stumpff_tiny_3(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_tiny_3(double z)
 {
     const double w = z * z;
     return (0.16666666666666666 + z * -0.008333333333333059)
@@ -54,7 +56,7 @@ static inline double stumpff_tiny_3(double z)
 }
 
 /* c_2(z) for z <= 1/256 */
-static inline double stumpff_tiny_2(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_tiny_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.04166666666666365)
@@ -62,7 +64,7 @@ static inline double stumpff_tiny_2(double z)
 }
 
 /* c_1(z) for z <= 1/256 */
-static inline double stumpff_tiny_1(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_tiny_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666663651)
@@ -70,7 +72,7 @@ static inline double stumpff_tiny_1(double z)
 }
 
 /* c_3(z) for z <= 1/16 */
-static inline double stumpff_small_3(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_small_3(double z)
 {
     const double w = z * z;
     return (0.16666666666666666 + z * -0.008333333333333163)
@@ -79,7 +81,7 @@ static inline double stumpff_small_3(double z)
 }
 
 /* c_2(z) for z <= 1/16 */
-static inline double stumpff_small_2(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_small_2(double z)
 {
     const double w = z * z;
     return (0.5 + z * -0.041666666666666664)
@@ -88,7 +90,7 @@ static inline double stumpff_small_2(double z)
 }
 
 /* c_1(z) for z <= 1/16 */
-static inline double stumpff_small_1(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_small_1(double z)
 {
     const double w = z * z;
     return (1.0 + z * -0.16666666666666666)
@@ -97,7 +99,7 @@ static inline double stumpff_small_1(double z)
 }
 
 /* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
-static inline double stumpff_series_3(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_series_3(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -111,7 +113,7 @@ static inline double stumpff_series_3(double z)
 }
 
 /* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
-static inline double stumpff_series_2(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_series_2(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -123,7 +125,7 @@ static inline double stumpff_series_2(double z)
 }
 
 /* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
-static inline double stumpff_series_1(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_series_1(double z)
 {
     const double w = z * z;
     const double w2 = w * w;
@@ -135,57 +137,57 @@ static inline double stumpff_series_1(double z)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23_far(double z, double *c2, double *c3)
+static inline void heavy_top_slgi_midpoint_stumpff_23_far(double z, double *c2, double *c3)
 {
     if (z <= 1.0) {
-        *c2 = stumpff_series_2(z);
-        *c3 = stumpff_series_3(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_series_2(z);
+        *c3 = heavy_top_slgi_midpoint_stumpff_series_3(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
     *c2 = 0.5 * (ratio * ratio);
-    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+    *c3 = z <= 4.0 ? heavy_top_slgi_midpoint_stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
 /* For z >= 0 and s = sqrt(z): c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_23(double z, double *c2, double *c3)
+static inline void heavy_top_slgi_midpoint_stumpff_23(double z, double *c2, double *c3)
 {
     if (z <= 0.00390625) {
-        *c2 = stumpff_tiny_2(z);
-        *c3 = stumpff_tiny_3(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_tiny_2(z);
+        *c3 = heavy_top_slgi_midpoint_stumpff_tiny_3(z);
     } else if (z <= 0.0625) {
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_small_2(z);
+        *c3 = heavy_top_slgi_midpoint_stumpff_small_3(z);
     } else {
-        stumpff_23_far(z, c2, c3);
+        heavy_top_slgi_midpoint_stumpff_23_far(z, c2, c3);
     }
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s */
-static inline double stumpff_1_far(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_1_far(double z)
 {
     if (z <= 1.0) {
-        return stumpff_series_1(z);
+        return heavy_top_slgi_midpoint_stumpff_series_1(z);
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double s = sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double s = sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     return sin(s) / s;
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12_far(double z, double *c1, double *c2)
+static inline void heavy_top_slgi_midpoint_stumpff_12_far(double z, double *c1, double *c2)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
+        *c1 = heavy_top_slgi_midpoint_stumpff_series_1(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_series_2(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
@@ -194,65 +196,65 @@ static inline void stumpff_12_far(double z, double *c1, double *c2)
 }
 
 /* For z > 1/16 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_123_far(double z, double *c1, double *c2, double *c3)
+static inline void heavy_top_slgi_midpoint_stumpff_123_far(double z, double *c1, double *c2, double *c3)
 {
     if (z <= 1.0) {
-        *c1 = stumpff_series_1(z);
-        *c2 = stumpff_series_2(z);
-        *c3 = stumpff_series_3(z);
+        *c1 = heavy_top_slgi_midpoint_stumpff_series_1(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_series_2(z);
+        *c3 = heavy_top_slgi_midpoint_stumpff_series_3(z);
         return;
     }
     /* NaN if the angle is so large that no digit of the result is correct */
-    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : NAN);
+    const double half = 0.5 * sqrt(z <= 4398046511104.0 ? z : (double)NAN);
     const double sine = sin(half);
     const double cosine = cos(half);
     const double ratio = sine / half;
     *c1 = ratio * cosine;
     *c2 = 0.5 * (ratio * ratio);
-    *c3 = z <= 4.0 ? stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
+    *c3 = z <= 4.0 ? heavy_top_slgi_midpoint_stumpff_series_3(z) : (1.0 - ratio * cosine) / z;
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2, c_3 = (s - sin(s))/s^3 */
-static inline void stumpff_123(double z, double *c1, double *c2, double *c3)
+static inline void heavy_top_slgi_midpoint_stumpff_123(double z, double *c1, double *c2, double *c3)
 {
     if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
-        *c3 = stumpff_small_3(z);
+        *c1 = heavy_top_slgi_midpoint_stumpff_small_1(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_small_2(z);
+        *c3 = heavy_top_slgi_midpoint_stumpff_small_3(z);
     } else {
-        stumpff_123_far(z, c1, c2, c3);
+        heavy_top_slgi_midpoint_stumpff_123_far(z, c1, c2, c3);
     }
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s, c_2 = (1 - cos(s))/s^2 */
-static inline void stumpff_12(double z, double *c1, double *c2)
+static inline void heavy_top_slgi_midpoint_stumpff_12(double z, double *c1, double *c2)
 {
     if (z <= 0.00390625) {
-        *c1 = stumpff_tiny_1(z);
-        *c2 = stumpff_tiny_2(z);
+        *c1 = heavy_top_slgi_midpoint_stumpff_tiny_1(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_tiny_2(z);
     } else if (z <= 0.0625) {
-        *c1 = stumpff_small_1(z);
-        *c2 = stumpff_small_2(z);
+        *c1 = heavy_top_slgi_midpoint_stumpff_small_1(z);
+        *c2 = heavy_top_slgi_midpoint_stumpff_small_2(z);
     } else {
-        stumpff_12_far(z, c1, c2);
+        heavy_top_slgi_midpoint_stumpff_12_far(z, c1, c2);
     }
 }
 
 /* For z >= 0 and s = sqrt(z): c_1 = sin(s)/s */
-static inline double stumpff_1(double z)
+static inline double heavy_top_slgi_midpoint_stumpff_1(double z)
 {
     if (z <= 0.00390625) {
-        return stumpff_tiny_1(z);
+        return heavy_top_slgi_midpoint_stumpff_tiny_1(z);
     }
-    return z <= 0.0625 ? stumpff_small_1(z) : stumpff_1_far(z);
+    return z <= 0.0625 ? heavy_top_slgi_midpoint_stumpff_small_1(z) : heavy_top_slgi_midpoint_stumpff_1_far(z);
 }
 
 /* The derivative of c_3 for z >= 0 */
-static inline double slope3(double z)
+static inline double heavy_top_slgi_midpoint_slope3(double z)
 {
     if (z > 1.0) {
         double before, c;
-        stumpff_23(z, &before, &c);
+        heavy_top_slgi_midpoint_stumpff_23(z, &before, &c);
         return 0.5 * (before - 3.0 * c) / z;
     }
     double total = 6.576508197299464e-17;
@@ -267,11 +269,11 @@ static inline double slope3(double z)
 }
 
 /* The derivative of c_2 for z >= 0 */
-static inline double slope2(double z)
+static inline double heavy_top_slgi_midpoint_slope2(double z)
 {
     if (z > 1.0) {
         double before, c;
-        stumpff_12(z, &before, &c);
+        heavy_top_slgi_midpoint_stumpff_12(z, &before, &c);
         return 0.5 * (before - 2.0 * c) / z;
     }
     double total = 1.249536557486898e-15;
@@ -286,7 +288,7 @@ static inline double slope2(double z)
 }
 
 /* The largest absolute value of n numbers */
-static double largest(const double *x, size_t n)
+static double heavy_top_slgi_midpoint_largest(const double *x, size_t n)
 {
     double size = 0.0;
     for (size_t i = 0; i < n; i++) {
@@ -297,7 +299,7 @@ static double largest(const double *x, size_t n)
 
 /* Invert an n x n matrix, stored row by row, in place (Gauss-Jordan with row exchanges). Return 0 if it is
  * singular, else 1. Here n is always 6. */
-static size_t invert(size_t n, double *restrict a)
+static size_t heavy_top_slgi_midpoint_invert(size_t n, double *restrict a)
 {
     double row[6];
     size_t order[6];
@@ -346,13 +348,13 @@ static size_t invert(size_t n, double *restrict a)
     return 1;
 }
 
-static inline double greater(double a, double b)
+static inline double heavy_top_slgi_midpoint_greater(double a, double b)
 {
     return a > b ? a : b;
 }
 
 /* Whether n numbers are all finite */
-static int all_finite(const double *x, size_t n)
+static int heavy_top_slgi_midpoint_all_finite(const double *x, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
         if (!isfinite(x[i])) {
@@ -366,7 +368,7 @@ static int all_finite(const double *x, size_t n)
  * Data that one step of a run stores for the next: solutions of its equations, the latest first, and
  * inverses of Newton's matrices.
  */
-struct memory {
+struct heavy_top_slgi_midpoint_memory {
     size_t known; /* number of stored solutions */
     double first; /* error of the last guess */
     size_t degree; /* degree of the extrapolation */
@@ -379,7 +381,7 @@ struct memory {
 };
 
 /* Coefficients of backward differences by order, the latest solution first. */
-static const double differences[17][18] = {
+static const double heavy_top_slgi_midpoint_differences[17][18] = {
     {1.0},
     {1.0, -1.0},
     {1.0, -2.0, 1.0},
@@ -400,8 +402,8 @@ static const double differences[17][18] = {
 };
 
 /* Add the sweeps over one block in one step. */
-static void count_sweeps(heavy_top_slgi_midpoint_statistics *statistics, size_t block,
-    size_t sweeps, int failed)
+static void heavy_top_slgi_midpoint_count_sweeps(heavy_top_slgi_midpoint_statistics *statistics,
+    size_t block, size_t sweeps, int failed)
 {
     if (statistics != NULL) {
         statistics->sweeps[block] += sweeps;
@@ -415,7 +417,7 @@ static void count_sweeps(heavy_top_slgi_midpoint_statistics *statistics, size_t 
 }
 
 /* Add one matrix. */
-static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
+static void heavy_top_slgi_midpoint_count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
 {
     if (statistics != NULL) {
         statistics->matrices++;
@@ -426,8 +428,8 @@ static void count_matrix(heavy_top_slgi_midpoint_statistics *statistics)
  * A backward difference times sign, from the term with index first on. The latest solution is added
  * last, so that the rest of the sum can be computed before it is known.
  */
-static inline void difference(const struct memory *memory, size_t order, size_t first,
-    double sign, double sum[static 6])
+static inline void heavy_top_slgi_midpoint_difference(const struct heavy_top_slgi_midpoint_memory *memory,
+    size_t order, size_t first, double sign, double sum[static 6])
 {
     double sum_0 = 0.0;
     double sum_1 = 0.0;
@@ -438,8 +440,8 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
     for (size_t pair = (order - first) / 2 + 1; pair-- > 0;) {
         const size_t row = memory->place + 2 * pair;
         const size_t column = first + 2 * pair;
-        const double newer = differences[order][column];
-        const double older = differences[order][column + 1];
+        const double newer = heavy_top_slgi_midpoint_differences[order][column];
+        const double older = heavy_top_slgi_midpoint_differences[order][column + 1];
         sum_0 += sign * (newer * memory->values[row][0] + older * memory->values[row + 1][0]);
         sum_1 += sign * (newer * memory->values[row][1] + older * memory->values[row + 1][1]);
         sum_2 += sign * (newer * memory->values[row][2] + older * memory->values[row + 1][2]);
@@ -456,10 +458,11 @@ static inline void difference(const struct memory *memory, size_t order, size_t 
 }
 
 /* The sum of the absolute values of a backward difference. */
-static double difference_size(const struct memory *memory, size_t order)
+static double heavy_top_slgi_midpoint_difference_size(const struct heavy_top_slgi_midpoint_memory *memory,
+    size_t order)
 {
     double row[6];
-    difference(memory, order, 0, 1.0, row);
+    heavy_top_slgi_midpoint_difference(memory, order, 0, 1.0, row);
     double size = 0.0;
     for (size_t i = 0; i < 6; i++) {
         size += fabs(row[i]);
@@ -471,9 +474,10 @@ static double difference_size(const struct memory *memory, size_t order)
  * Store a solution and extrapolate the next one: the polynomial through the last solutions, evaluated
  * one step later.
  */
-static inline void remember(struct memory *memory, const double solution[static 6])
+static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoint_memory *memory,
+    const double solution[static 6])
 {
-    /* with fewer than three solutions the guess is only a copy: do not judge it */
+    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -497,27 +501,28 @@ static inline void remember(struct memory *memory, const double solution[static 
     }
     /* raise the degree while differences decrease; with a full memory, check every 8 steps */
     if (memory->known < 16 || place % 8 == 0) {
-        const double size = difference_size(memory, memory->degree);
+        const double size = heavy_top_slgi_midpoint_difference_size(memory, memory->degree);
         int grows = 0;
         if (memory->degree + 1 < memory->known) {
-            const double higher = difference_size(memory, memory->degree + 1);
+            const double higher = heavy_top_slgi_midpoint_difference_size(memory, memory->degree + 1);
             grows = higher < size;
         }
         if (grows) {
             memory->degree++;
         } else if (memory->degree > 0) {
-            const double lower = difference_size(memory, memory->degree - 1);
+            const double lower = heavy_top_slgi_midpoint_difference_size(memory, memory->degree - 1);
             if (size > lower) {
                 memory->degree--;
             }
         }
     }
     /* choose the next solution such that the difference of the next order vanishes */
-    difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
+    heavy_top_slgi_midpoint_difference(memory, memory->degree + 1, 1, -1.0, memory->guess);
 }
 
 /* One step. */
-static inline int advance(double state[static 12], double h, struct memory *memory,
+static inline int heavy_top_slgi_midpoint_advance(double state[static 12], double h,
+    struct heavy_top_slgi_midpoint_memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
     if (!isfinite(h)) {
@@ -568,7 +573,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         Y_2 = h * xi1_2;
         w1 = Y_0 * Y_0 + Y_1 * Y_1 + Y_2 * Y_2;
         double c2_1, c3_1;
-        stumpff_23(w1, &c2_1, &c3_1);
+        heavy_top_slgi_midpoint_stumpff_23(w1, &c2_1, &c3_1);
         w2 = c2_1;
         const double w3 = mu1 * Y_2 - mu2 * Y_1;
         const double w5 = mu2 * Y_0 - mu0 * Y_2;
@@ -579,7 +584,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         z_2 = xi1_2 * w8;
         const double w9 = z_0 * z_0 + z_1 * z_1 + z_2 * z_2;
         double c1_1, c2_2, c3_2;
-        stumpff_123(w9, &c1_1, &c2_2, &c3_2);
+        heavy_top_slgi_midpoint_stumpff_123(w9, &c1_1, &c2_2, &c3_2);
         w10 = c2_2;
         const double w11 = n1_2 * z_1 - n1_1 * z_2;
         const double w13 = n1_1 * z_0 - n1_0 * z_1;
@@ -624,8 +629,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             const double w30 = h * mu1;
             const double w31 = Y_2 * w28;
             const double w32 = h * mu2;
-            const double w33 = slope3(w1);
-            const double w34 = slope2(w1);
+            const double w33 = heavy_top_slgi_midpoint_slope3(w1);
+            const double w34 = heavy_top_slgi_midpoint_slope2(w1);
             const double w35 = 0.001 * w7 * w33 - 0.001 * w3 * w34;
             const double w36 = 2.0 * Y_0 * h;
             const double w37 = 0.0005 * h;
@@ -634,8 +639,8 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             const double w40 = n1_1 * w8;
             const double w41 = z_2 * w38;
             const double w42 = n1_2 * w8;
-            const double w43 = slope3(w9);
-            const double w44 = slope2(w9);
+            const double w43 = heavy_top_slgi_midpoint_slope3(w9);
+            const double w44 = heavy_top_slgi_midpoint_slope2(w9);
             const double w45 = w15 * w37 * w43 - w11 * w37 * w44;
             const double w46 = 2.0 * z_0 * w8;
             const double w47 = w29 * w30 + w31 * w32 + w35 * w36 + w39 * w40 + w41 * w42 + w45 * w46;
@@ -730,9 +735,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             memory->inverse_1[33] = 0.0;
             memory->inverse_1[34] = 0.0;
             memory->inverse_1[35] = 1.0;
-            memory->age_1 = invert(6, memory->inverse_1);
+            memory->age_1 = heavy_top_slgi_midpoint_invert(6, memory->inverse_1);
             if (memory->age_1 > 0) {
-                count_matrix(statistics);
+                heavy_top_slgi_midpoint_count_matrix(statistics);
             }
         }
         const double change_xi1_0 = memory->inverse_1[0] * residual_xi1_0
@@ -759,16 +764,19 @@ static inline int advance(double state[static 12], double h, struct memory *memo
             + memory->inverse_1[31] * residual_xi1_1 + (memory->inverse_1[32] * residual_xi1_2
             + memory->inverse_1[33] * residual_n1_0) + (memory->inverse_1[34] * residual_n1_1
             + memory->inverse_1[35] * residual_n1_2);
-        const double change = greater(greater(fabs(change_xi1_0), greater(fabs(change_xi1_1),
-            fabs(change_xi1_2))), greater(fabs(change_n1_0), greater(fabs(change_n1_1),
-            fabs(change_n1_2))));
-        const double scale = greater(greater(fabs(xi1_0), greater(fabs(xi1_1), fabs(xi1_2))),
-            greater(fabs(n1_0), greater(fabs(n1_1), fabs(n1_2))));
+        const double change = heavy_top_slgi_midpoint_greater(heavy_top_slgi_midpoint_greater(fabs(change_xi1_0),
+            heavy_top_slgi_midpoint_greater(fabs(change_xi1_1), fabs(change_xi1_2))),
+            heavy_top_slgi_midpoint_greater(fabs(change_n1_0),
+            heavy_top_slgi_midpoint_greater(fabs(change_n1_1), fabs(change_n1_2))));
+        const double scale = heavy_top_slgi_midpoint_greater(heavy_top_slgi_midpoint_greater(fabs(xi1_0),
+            heavy_top_slgi_midpoint_greater(fabs(xi1_1), fabs(xi1_2))),
+            heavy_top_slgi_midpoint_greater(fabs(n1_0), heavy_top_slgi_midpoint_greater(fabs(n1_1),
+            fabs(n1_2))));
         if (sweep == 1) {
-            memory->first = greater(memory->first, change);
+            memory->first = heavy_top_slgi_midpoint_greater(memory->first, change);
         }
         if (previous_1 > 0.0) {
-            rate_1 = greater(change / previous_1, 0.000244140625);
+            rate_1 = heavy_top_slgi_midpoint_greater(change / previous_1, 0.000244140625);
         }
         xi1_0 += change_xi1_0;
         xi1_1 += change_xi1_1;
@@ -779,9 +787,9 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         const int still = previous_1 > 0.0 && change >= previous_1;
         const int close = change <= 3.552713678800501e-15 * scale
             && change * rate_1 <= 1.1102230246251565e-16 * scale;
-        const int converged = close || (still && (change <= 5.684341886080802e-14 * scale
-            || (change * fabs(h) <= 7.105427357601002e-15 * largest(state, 9)
-            && change * fabs(h) <= 7.105427357601002e-15 * largest(state + 9, 3))));
+        const int converged = close || (still && (change <= 5.684341886080802e-14 * scale || (change
+            * fabs(h) <= 7.105427357601002e-15 * heavy_top_slgi_midpoint_largest(state, 9) && change
+            * fabs(h) <= 7.105427357601002e-15 * heavy_top_slgi_midpoint_largest(state + 9, 3))));
         status = isfinite(residual_xi1_0 + residual_xi1_1 + residual_xi1_2 + residual_n1_0
             + residual_n1_1 + residual_n1_2) ? (memory->age_1 > 0 && converged
             ? HEAVY_TOP_SLGI_MIDPOINT_OK : HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED)
@@ -790,20 +798,21 @@ static inline int advance(double state[static 12], double h, struct memory *memo
         make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     } while (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED && sweep < 100 && !astray);
-    count_sweeps(statistics, 0, sweep, status != HEAVY_TOP_SLGI_MIDPOINT_OK);
+    heavy_top_slgi_midpoint_count_sweeps(statistics, 0, sweep,
+        status != HEAVY_TOP_SLGI_MIDPOINT_OK);
     if (status != HEAVY_TOP_SLGI_MIDPOINT_OK) {
         return status;
     }
     memory->rate_1 = sweep > 1 ? rate_1 : 2.0 * rate_1;
     const double solution[6] = {xi1_0, xi1_1, xi1_2, n1_0, n1_1, n1_2};
-    remember(memory, solution);
+    heavy_top_slgi_midpoint_remember(memory, solution);
     const double w101 = Y_1 * w2;
     const double w102 = Y_1 * w101;
     const double w103 = Y_2 * w2 * Y_2;
     const double g_0 = 1.0 - (w102 + w103);
     const double w104 = Y_0 * w2;
     const double w105 = Y_1 * w104;
-    const double c1_2 = stumpff_1(w1);
+    const double c1_2 = heavy_top_slgi_midpoint_stumpff_1(w1);
     const double w107 = Y_2 * c1_2;
     const double g_1 = w105 - w107;
     const double w108 = Y_1 * c1_2;
@@ -838,7 +847,7 @@ static inline int advance(double state[static 12], double h, struct memory *memo
     const double new_g21 = g01 * g_6 + g11 * g_7 + g21 * g_8;
     const double new_g22 = g02 * g_6 + g12 * g_7 + g22 * g_8;
     const double new_mu2 = mu0 * g_6 + mu1 * g_7 + mu2 * g_8 + w118;
-    /* one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite */
+    /* one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN */
     if (!isfinite(new_g00 + new_g01 + (new_g02 + new_g10) + (new_g11 + new_g12)
         + (new_g20 + new_g21) + (new_g22 + mu1_0) + (mu1_1 + new_mu2)) && !(new_g00 - new_g00
         + (new_g01 - new_g01) + (new_g02 - new_g02 + (new_g10 - new_g10))
@@ -866,11 +875,12 @@ static inline int advance(double state[static 12], double h, struct memory *memo
  * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
  * if the motion has changed, then by continuation in h from shorter steps.
  */
-static int continued(double state[static 12], double h, struct memory *memory,
+static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
+    struct heavy_top_slgi_midpoint_memory *memory,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
     if (!(h < 0.0 || h > 0.0)) {
-        return all_finite(state, 12) ? HEAVY_TOP_SLGI_MIDPOINT_OK
+        return heavy_top_slgi_midpoint_all_finite(state, 12) ? HEAVY_TOP_SLGI_MIDPOINT_OK
             : HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE;
     }
     double known_solution[6] = {0.0};
@@ -889,7 +899,7 @@ static int continued(double state[static 12], double h, struct memory *memory,
             memcpy(memory->guess, known_solution, sizeof known_solution);
             memory->rate_1 = 1.0;
         }
-        const int status = advance(trial, part * h, memory, statistics);
+        const int status = heavy_top_slgi_midpoint_advance(trial, part * h, memory, statistics);
         done = status == HEAVY_TOP_SLGI_MIDPOINT_OK && part >= 1.0;
         if (status == HEAVY_TOP_SLGI_MIDPOINT_OK) {
             memcpy(known_solution, memory->values[memory->place], sizeof known_solution);
@@ -920,11 +930,11 @@ static int continued(double state[static 12], double h, struct memory *memory,
 int heavy_top_slgi_midpoint_step(double state[static 12], double h,
     heavy_top_slgi_midpoint_statistics *statistics)
 {
-    struct memory memory = {0};
-    int status = advance(state, h, &memory, statistics);
+    struct heavy_top_slgi_midpoint_memory memory = {0};
+    int status = heavy_top_slgi_midpoint_advance(state, h, &memory, statistics);
     if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED
         || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
-        status = continued(state, h, &memory, statistics);
+        status = heavy_top_slgi_midpoint_continued(state, h, &memory, statistics);
     }
     return status;
 }
@@ -935,17 +945,17 @@ int heavy_top_slgi_midpoint_run(double state[static 12], double h, size_t steps,
 {
     int status = HEAVY_TOP_SLGI_MIDPOINT_OK;
     size_t step = 0;
-    struct memory memory = {0};
+    struct heavy_top_slgi_midpoint_memory memory = {0};
     const int recording = stride > 0 && trajectory != NULL;
     size_t row = 0;
     if (recording) {
         memcpy(trajectory, state, 12 * sizeof *state);
     }
     while (status == HEAVY_TOP_SLGI_MIDPOINT_OK && step < steps) {
-        status = advance(state, h, &memory, statistics);
+        status = heavy_top_slgi_midpoint_advance(state, h, &memory, statistics);
         if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED
             || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
-            status = continued(state, h, &memory, statistics);
+            status = heavy_top_slgi_midpoint_continued(state, h, &memory, statistics);
         }
         if (status == HEAVY_TOP_SLGI_MIDPOINT_OK) {
             step++;

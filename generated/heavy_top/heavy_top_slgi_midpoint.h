@@ -12,15 +12,15 @@ enum {
     HEAVY_TOP_SLGI_MIDPOINT_OK = 0, /* success */
     HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED = 1, /* an implicit block did not converge */
     HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
-    HEAVY_TOP_SLGI_MIDPOINT_BAD_STEP = 3 /* h is infinite or a NaN */
+    HEAVY_TOP_SLGI_MIDPOINT_BAD_STEP = 3 /* h is infinite or NaN */
 };
 
 /* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */
 typedef struct {
     size_t sweeps[1]; /* by block: the equations of xi1, n1 */
-    size_t most; /* the most sweeps of one block in one step */
-    size_t failed; /* 1 + the block that failed, 0 if none has */
-    size_t matrices; /* how many Newton matrices were computed */
+    size_t most; /* largest number of sweeps of one block in one step */
+    size_t failed; /* number of the block that failed, counted from 1; 0 if none */
+    size_t matrices; /* number of Newton matrices that were computed */
 } heavy_top_slgi_midpoint_statistics;
 
 /* Make one step of size h. When the status is not HEAVY_TOP_SLGI_MIDPOINT_OK, the state is unchanged. */
@@ -28,9 +28,10 @@ int heavy_top_slgi_midpoint_step(double state[12], double h,
     heavy_top_slgi_midpoint_statistics *statistics);
 
 /*
- * Make up to steps steps of size h, until one fails; the state is then the last good one and *completed
- * the number of completed steps. A trajectory receives the initial state and every stride-th one after
- * it: steps/stride + 1 rows of 12. statistics, trajectory and completed may be NULL.
+ * Make the given number of steps of size h, or fewer if a step fails. On return, state is the last
+ * good state, and *completed is the number of completed steps. The trajectory receives
+ * steps/stride + 1 rows of 12 numbers: the initial state, and the state after every stride-th step.
+ * statistics, trajectory and completed may be NULL.
  */
 int heavy_top_slgi_midpoint_run(double state[12], double h, size_t steps,
     double *trajectory, size_t stride, heavy_top_slgi_midpoint_statistics *statistics,

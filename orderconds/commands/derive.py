@@ -39,12 +39,15 @@ def command(
     as_json: bool,
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order."""
+    from orderconds import families
     from orderconds.derivation import derive
+    from orderconds.explain.kinds import refuse_too_many_trees
 
     if explicit and stages is None:
         raise click.UsageError("--explicit has no effect without --stages; give --stages S too")
     if as_json and form not in (None, "json"):
         raise click.UsageError(f"--json and --format {form} select two output formats; leave one out")
+    refuse_too_many_trees(families.get(family), order)
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, every=every)
         if stages is not None:

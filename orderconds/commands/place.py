@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 from pathlib import Path
 
 import click
@@ -33,18 +35,37 @@ FILE = Place("file", "leave the option out for stdout")
 
 
 def put(path: str, content: bytes) -> None:
-    """Write a file under a temporary name and rename it; write directly to devices and pipes.
+    """Write a file under a temporary name and rename it; write directly to devices, and to pipes that have a
+    reader.
 
     Raises :class:`~orderconds.errors.InputError` if writing fails.
 
     >>> import os
     >>> put(os.devnull, b"gone")
     """
-    target = Path(path).resolve()  # write to the target of a link, and keep the link
     try:
+        target = Path(os.path.realpath(path))  # write to the target of a link, and keep the link
+        if target.is_symlink():
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
         if target.exists() and not target.is_file():
-            target.write_bytes(content)
+            _write_directly(target, content)
             return
         write_files({target: content})
     except OSError as problem:
         raise InputError(reason(problem), where=path, expected="a file that can be written") from None
+
+
+def _write_directly(path: Path, content: bytes) -> None:
+    """Write to an existing device or pipe; raise an OSError if no process reads the pipe, instead of waiting
+    for one.
+    """
+    try:
+        handle = os.open(path, os.O_WRONLY | getattr(os, "O_NONBLOCK", 0))
+    except OSError as problem:
+        if problem.errno == errno.ENXIO:
+            raise OSError(problem.errno, "no process reads this pipe") from None
+        raise
+    with os.fdopen(handle, "wb") as stream:
+        if os.name == "posix":
+            os.set_blocking(handle, True)  # a slow reader is waited for
+        stream.write(content)

@@ -121,9 +121,13 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
 
 
 def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
+    from orderconds import families
+    from orderconds.explain.kinds import refuse_too_many_trees
     from orderconds.solve.solver import Order
     from orderconds.solve.spec import Spec
 
+    # A symmetric method of even order needs the conditions below that order only.
+    refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
         **{key: options[key] for key in ("fix", "positive", "exponentials", "inner")},

@@ -9,9 +9,13 @@ import click
 
 from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
+from orderconds.errors import InputError
 
 if TYPE_CHECKING:
     from orderconds.explain.kinds import Kind
+
+MAX_TREES = 100_000
+"""The command lists at most this many members; their number grows exponentially with the order."""
 
 
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
@@ -58,6 +62,8 @@ def command(
     chosen = kinds.get(kind)
     if count and (draw or (explain and svg is None)):
         raise click.UsageError("--count prints only a number; leave --draw and --explain out")
+    if not count or svg is not None:
+        _refuse_too_many(kind, chosen, order)
     if svg is not None:
         _write_svg(chosen, order, svg, explain)
     if as_json:
@@ -68,6 +74,18 @@ def command(
         for line in _listed(chosen, order, draw, explain, plain):
             click.echo(line)
     return 0
+
+
+def _refuse_too_many(name: str, kind: Kind, order: int) -> None:
+    """Raise an InputError if there are more than :data:`MAX_TREES` members."""
+    members = kind.count(order)
+    if members > MAX_TREES:
+        raise InputError(
+            f"{members} members of order {order}",
+            where=f"trees {name}",
+            expected=f"at most {MAX_TREES}",
+            hint="lower --order, or give --count for their number alone",
+        )
 
 
 def _record(

@@ -12,13 +12,17 @@ from typing import Any
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
-from orderconds.errors import UnknownName
+from orderconds.errors import InputError, UnknownName
 from orderconds.explain.diagram import Diagram
 from orderconds.explain.lines import Style, draw
 from orderconds.families import Family
 
 Member = Any
 """A tree, forest or word, in the encoding of its kind."""
+
+
+MAX_TREES = 7_000
+"""No order with more trees than this is derived: their number grows exponentially with the order."""
 
 
 @dataclass(frozen=True)
@@ -111,6 +115,25 @@ def of_family(label: str) -> Kind | None:
     """
     name = families.get(label).trees
     return None if name is None else get(name)
+
+
+def refuse_too_many_trees(family: Family, order: int) -> None:
+    """Raise an InputError if an order up to ``order`` has more than :data:`MAX_TREES` trees.
+
+    >>> refuse_too_many_trees(families.get("rk"), 12)
+    """
+    if family.trees is None:
+        return
+    kind = get(family.trees)
+    for n in range(1, min(order, family.order_bound or order) + 1):
+        trees = kind.count(n)
+        if trees > MAX_TREES:
+            raise InputError(
+                f"{trees} trees of order {n}, and more at each further order",
+                where=family.label(),
+                expected=f"at most {MAX_TREES}",
+                hint=f"lower --order to {n - 1}",
+            )
 
 
 def named_by(condition: OrderCondition) -> str:

@@ -27,7 +27,7 @@ from orderconds.tableau.record import Tableau
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
     from orderconds.series.action import ActionSeries
     from orderconds.series.action_relations import Polynomial
 
@@ -53,7 +53,7 @@ class ActionFamily(Family):
         """Return the action series of a method; raises ZeroWeight if a weight b_i is zero."""
 
     @abstractmethod
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of random methods of the family, one method for each sample of the ring.
 
         These methods have enough stages to distinguish the independent conditions up to ``order``.
@@ -90,6 +90,16 @@ class ActionFamily(Family):
             )
             for tree, polynomial in polynomials.items()
         }
+
+    def dependence_holds(self, order: int) -> bool:
+        """Whether the relations of the dependent conditions of this order hold exactly over Q.
+
+        The relations are verified at a random method with two stages more than those of the rank computation.
+        """
+        from orderconds.series.action_relations import hold_over_rationals, relations
+
+        polynomials = relations(partial(self.random_series, order=order), _independent(self, order))
+        return hold_over_rationals(partial(self.random_series, order=order + 2), polynomials)
 
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of this order. Trees that differ only in the choice of

@@ -156,6 +156,14 @@ class Family(ABC):
         conditions."""
         return self.conditions(order)
 
+    def dependence_holds(self, order: int) -> bool:
+        """Whether :meth:`conditions` imply all conditions of this order, verified without ranks modulo
+        primes.
+
+        By default this is a theorem about trees or words, and nothing is computed.
+        """
+        return True
+
     def decisive_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return conditions that imply all conditions of this order, and that can be selected without
         computation of ranks.
@@ -223,6 +231,10 @@ class Family(ABC):
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the method does not belong to the family."""
         return
+
+    def converted(self, convert: Callable[[Element], Element]) -> Family:
+        """Return the family with its own coefficients converted; most families have none."""
+        return self
 
     def for_method(self, method: Method) -> Family:
         """Return the family in which ``check`` evaluates a file that claims no order. It is called on the

@@ -7,13 +7,16 @@ series of the compiled program. Hence the computed order is the order of the pro
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from operator import attrgetter
 
 from orderconds.families.reductions import UnseenCut
 from orderconds.families.rkmk import MuntheKaasFamily
-from orderconds.ring.protocol import Ring
+from orderconds.ring.balls import Enclosures
+from orderconds.ring.protocol import Element, Ring
 from orderconds.series.bracketed_steps import BracketedSeries
-from orderconds.series.brackets import BracketProgram
+from orderconds.series.brackets import BracketProgram, Row
 from orderconds.series.lie_butcher import ForestSeries
 from orderconds.tableau.products import Method
 
@@ -36,7 +39,25 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of the program. ``method``, the tableau of the program, is not
         used."""
-        return BracketedSeries(ring, self.program)
+        # Residuals over balls are evaluated with flint's own balls, without the wrapper.
+        inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
+        return BracketedSeries(ring, inner.program)
+
+    def converted(self, convert: Callable[[Element], Element]) -> MinimalBrackets:
+        """Return the family of the program with converted coefficients."""
+
+        def row(given: Row) -> Row:
+            return {name: convert(x) for name, x in given.items()}
+
+        program = self.program
+        return MinimalBrackets(
+            replace(
+                program,
+                brackets=tuple((row(x), row(y)) for x, y in program.brackets),
+                stages=tuple(map(row, program.stages)),
+                update=row(program.update),
+            )
+        )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
         """Return None: the program computes arguments that differ from those of RKMK, so no theorem about

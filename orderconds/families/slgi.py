@@ -53,6 +53,6 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order in ``vrkmk(0)``, or a larger lower bound that follows from the order in
-        ``low_order``."""
+        """Return a lower bound of the order: the larger of the order in ``vrkmk(0)`` and the bound of the
+        base class."""
         return max(super().implied_order(orders), orders.get("vrkmk(0)", 0))

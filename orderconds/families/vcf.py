@@ -28,7 +28,7 @@ from orderconds.tableau.work import Work, commutator_free_work
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
@@ -68,7 +68,7 @@ class VariationalCommutatorFree(ActionFamily):
             ring, [tuple(sparse(ring, row) for row in rows) for rows in exponentials(method)]
         )
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random methods. Each exponential of these methods combines the velocities of
         all stages."""
         stages = max(order - 1, 2)

@@ -25,7 +25,7 @@ from orderconds.tableau.work import Work, crouch_grossman_work
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
@@ -61,7 +61,7 @@ class VariationalCrouchGrossman(ActionFamily):
         require_nonzero_weights(self.label(), ring, tableau.b)
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the series of random full tableaux with order - 1 stages; more stages do not increase the
         ranks."""
         stages = max(order - 1, 2)

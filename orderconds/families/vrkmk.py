@@ -27,7 +27,7 @@ from orderconds.tableau.products import Method
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
@@ -66,7 +66,7 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         leaf = velocity()
         return self.condition(velocity((leaf,), (transport((leaf,) * (order - 2)),)))
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of random full tableaux."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]

@@ -25,7 +25,7 @@ from orderconds.tableau.record import Tableau
 if TYPE_CHECKING:
     import numpy as np
 
-    from orderconds.ring.residues import Residues
+    from orderconds.ring.protocol import RandomRing
 
 
 @register
@@ -52,7 +52,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         require_nonzero_weights(self.label(), ring, tableau.b)
         return PadeActionSeries(ring, tableau.A, tableau.b, self.cutoff)
 
-    def random_series(self, ring: Residues, generator: np.random.Generator, order: int) -> ActionSeries:
+    def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
         """Return the action series of random full tableaux."""
         if self.cutoff is None:
             return super().random_series(ring, generator, order)

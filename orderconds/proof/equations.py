@@ -106,7 +106,13 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 @lru_cache(maxsize=8)
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
-    conditions = [c for n in range(1, order + 1, step) for c in family.conditions(n)]
+    orders = range(1, order + 1, step)
+    # Ranks modulo primes choose the independent conditions of some families, so a rank that is too small
+    # would leave out an equation. The certificate rests on relations that hold over Q.
+    for n in orders:
+        if not family.dependence_holds(n):
+            raise NotProved(f"conditions of order {n} of {label} that were left out do not follow over Q")
+    conditions = [c for n in orders for c in family.conditions(n)]
     return tuple(c for c in conditions if letters is None or max(c.key) <= letters)
 
 

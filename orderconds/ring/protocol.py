@@ -7,7 +7,10 @@ side, unary ``-``, and ``/`` if the ring is a field. All other operations are me
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    import numpy as np
 
 Element = Any
 """An element of some ring, or the second operand of an arithmetic operation. The type is open, so that
@@ -54,3 +57,10 @@ class RealRing(Ring, Protocol):
 
     def nearest_float(self, x: Element) -> float:
         """Return the double nearest to x."""
+
+
+class RandomRing(Ring, Protocol):
+    """A ring with random elements."""
+
+    def random(self, generator: np.random.Generator) -> Element:
+        """Return a random element."""

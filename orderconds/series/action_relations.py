@@ -10,13 +10,21 @@ psi_{L(HH)} - psi_{L(H)}^2``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from functools import cache
 from itertools import chain
+from math import prod
 
+import numpy as np
+
+from orderconds.ring.protocol import Element, RandomRing
 from orderconds.ring.rank import combinations
+from orderconds.ring.rationals import Rationals
 from orderconds.ring.reconstruct import rational_number
 from orderconds.ring.residues import PRIMES
+from orderconds.series import action_exact
+from orderconds.series.action import ActionSeries
 from orderconds.series.action_rank import RandomSeries, sample
 from orderconds.series.action_switching import classes
 from orderconds.series.action_trees import Velocity
@@ -30,7 +38,7 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
     ``independent`` contains the independent trees of each order 1, 2, ..., from
     :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
-    10^-8. The tests verify the relations over Q at other methods.
+    10^-8. :func:`hold_over_rationals` verifies them over Q.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -60,6 +68,56 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
         for tree in of_class
         if tree not in independent[-1]
     }
+
+
+SEED = 61
+"""The seed of the random method over Q; any number serves."""
+
+
+class _Drawn(Rationals):
+    """The ring Q with random elements of 61 bits."""
+
+    def random(self, generator: np.random.Generator) -> Element:
+        """Return a random fraction, not zero."""
+        numerator, denominator = (int(n) for n in generator.integers(1, 2**61, 2))
+        return self.rational(numerator, denominator)
+
+
+def hold_over_rationals(
+    series: Callable[[RandomRing, np.random.Generator], ActionSeries],
+    polynomials: Mapping[Velocity, Polynomial],
+) -> bool:
+    """Whether relations hold exactly at a random method over Q, and for the exact flow.
+
+    ``series`` returns the series of a random method with coefficients in a ring. It should have more stages
+    than the methods from which the relations were computed. A relation of degree d that is not an identity
+    holds at a random method with a probability below d/2^60.
+
+    >>> from functools import partial
+    >>> from orderconds.families import get
+    >>> from orderconds.series.action_rank import independent_trees
+    >>> random_series = get("vcg").random_series
+    >>> family = partial(random_series, order=2)
+    >>> right = relations(family, independent_trees(family, 2))
+    >>> wrong = {tree: ((q + 1, trees),) for tree, ((q, trees),) in right.items()}
+    >>> [hold_over_rationals(partial(random_series, order=4), x) for x in (right, wrong)]
+    [True, False]
+    """
+    ring = _Drawn()
+    method = series(ring, np.random.default_rng(SEED))
+
+    def flow(tree: Velocity) -> Element:
+        exact = action_exact.condition(tree)
+        return ring.rational(exact.numerator, exact.denominator)
+
+    for value in (cache(method.condition), cache(flow)):
+        for tree, polynomial in polynomials.items():
+            total = ring.zero
+            for q, trees in polynomial:
+                total += ring.rational(q.numerator, q.denominator) * prod(map(value, trees))
+            if total != value(tree):
+                return False
+    return True
 
 
 def _coefficients(

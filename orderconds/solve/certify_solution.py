@@ -17,6 +17,7 @@ import numpy as np
 from flint import arb, arb_mat
 
 from orderconds.checking import check, claimable_families
+from orderconds.errors import ZeroWeight
 from orderconds.proof.certificate import certify
 from orderconds.proof.krawczyk import NotProved, jets
 from orderconds.proof.refine import decimal_places
@@ -242,7 +243,10 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
     """Return the solution with exact coefficients, or None if the method does not have the required order."""
     tableau = Tableau.loads(text)
     label = problem.ansatz.family
-    report = check(tableau, label, problem.order)
+    try:
+        report = check(tableau, label, problem.order)
+    except ZeroWeight:  # the family divides by weights, and one is zero
+        return None
     if report.verdict != "holds" or report.orders[0].certificate != "exact":
         return None
     method = _without_zeros(tableau.method, tableau.ring)

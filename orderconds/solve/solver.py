@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from orderconds.errors import InputError
+from orderconds.errors import InputError, ZeroWeight
 from orderconds.proof.krawczyk import NotProved
 from orderconds.solve.abscissae import WHERE
 from orderconds.solve.certify_solution import Solution, certify_solution
@@ -159,6 +159,6 @@ def _finished(
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        except NotProved as problem_met:
+        except (NotProved, ZeroWeight) as problem_met:  # some families divide by weights
             refused = str(problem_met)
     return None, refused

@@ -15,6 +15,9 @@ from numpy.typing import NDArray
 
 from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, ROOT, Operation, Trace
 
+MOST_SLOPES = 1 << 24
+"""The largest number of derivatives stored at once (128 MiB); more points are evaluated in several parts."""
+
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
 
@@ -89,6 +92,16 @@ class Tape:
 
     def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
         """Return the outputs and their Jacobians, points x outputs x inputs."""
+        part = max(1, MOST_SLOPES // max(1, self.length * self.width))
+        if len(points) <= part:
+            return self._jacobians(points)
+        values = np.empty((len(points), self.size))
+        slopes = np.empty((len(points), self.size, self.width))
+        for k in range(0, len(points), part):
+            values[k : k + part], slopes[k : k + part] = self._jacobians(points[k : k + part])
+        return values, slopes
+
+    def _jacobians(self, points: Floats) -> tuple[Floats, Floats]:
         values = self._forward(points)
         slopes = np.zeros((self.length, points.shape[0], self.width))
         for row, number in self._inputs:

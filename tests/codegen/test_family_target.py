@@ -28,6 +28,7 @@ from codegen.emitter import Compiled, compile_method, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.number import Number
+from codegen.ir.precision import DOUBLE, SINGLE
 from codegen.lab.orders.local_error import local_error, valuation
 from codegen.lab.reference import reference
 from codegen.lab.runner import Interpreted
@@ -36,7 +37,6 @@ from codegen.lower import lowering, names, problem_for
 from codegen.lower.flow_words import FlowLowering
 from codegen.printers import names as target_names
 from codegen.printers.c.module import FLAGS
-from codegen.run.precision import DOUBLE, SINGLE
 from codegen.scene.problem import Problem
 from codegen.scenes import load as gallery
 from tests.promises import clean_c, clean_python, ulps

@@ -1,15 +1,15 @@
 """Mutated tableau files in every format: each is read or refused with one message.
 
-A small mutator, seeded: pieces of one file are deleted, doubled, exchanged, put into another one, or replaced
-by hostile text. The longest time of one input is a bound against inputs that never end, not a measurement.
+The bounds on time and memory of one input are against inputs that never end, they are no measurements.
 """
 
 from __future__ import annotations
 
+import resource
 import signal
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from random import Random
 from types import FrameType
@@ -20,128 +20,42 @@ from click.testing import CliRunner
 from orderconds.cli import program
 from orderconds.errors import InputError
 from orderconds.exchange import FORMATS, export, read_data
-from orderconds.tableau.file_format import Data
-from orderconds.tableau.library import available, find
 from orderconds.tableau.record import from_data
+from tests.fuzz.mutated_files import drawn
 
 SECONDS = 20
 
-HOSTILE = (
-    b"\x00",
-    b"\xff\xfe",
-    b"\xe2\x80\xae",
-    b"\r",
-    b"\n",
-    b"1e999",
-    b"nan",
-    b"inf",
-    b"-0",
-    b"1/0",
-    b"~",
-    b"0.1~",
-    b"[",
-    b"]" * 9,
-    b"{" * 50,
-    b"(" * 60,
-    b"\\",
-    b"\\\\",
-    b"*/",
-    b"/*",
-    b"#",
-    b"%",
-    b'"""',
-    b"'",
-    b"sqrt(",
-    b"^",
-    b"9" * 400,
-    b"0." + b"3" * 300,
-    b"a." * 40,
-    b"lambda",
-    b"__import__('os')",
-    b"x^64^64",
-    b"2^(1/24)",
-    b",,,",
-    b"\\begin{pmatrix}",
-    b"\\end{array}",
-    b"&",
-    b"A = [",
-    b"proof",
-    b"order = 99",
-    b"2000-01-01",
-    b"true",
-    b"1.5",
-)
-"""Pieces that have a meaning in one of the formats, or none in any."""
+MEGABYTES = 2048
 
 
 class TooLong(BaseException):
     """One input took longer than :data:`SECONDS`."""
 
 
+def address_space() -> int:
+    """Return the bytes of this process's address space."""
+    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0])
+    return pages * resource.getpagesize()
+
+
 @contextmanager
 def limited() -> Iterator[None]:
+    """Raise :class:`TooLong` or a MemoryError where one input takes more than its share."""
+
     def stop(number: int, frame: FrameType | None) -> None:
         raise TooLong
 
     previous = signal.signal(signal.SIGALRM, stop)
     signal.setitimer(signal.ITIMER_REAL, SECONDS)
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    if sys.platform == "linux":
+        resource.setrlimit(resource.RLIMIT_AS, (address_space() + (MEGABYTES << 20), hard))
     try:
         yield
     finally:
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, previous)
-
-
-@cache
-def library() -> tuple[Data, ...]:
-    """Return the small files of the library as keys and values."""
-    found = []
-    for name in available():
-        content = Path(find(name)).read_bytes()
-        if len(content) < 3000:
-            found.append(read_data(content, "toml", name))
-    return tuple(found)
-
-
-@cache
-def written(place: int, to: str) -> bytes | None:
-    """Return a file of the library in a format, None where that cannot hold it."""
-    try:
-        return export(library()[place], to)
-    except InputError:
-        return None
-
-
-def mutated(content: bytes, other: bytes, generator: Random) -> bytes:
-    for _ in range(generator.choice((1, 1, 1, 2, 3, 8))):
-        start, end = sorted(generator.randrange(len(content) + 1) for _ in range(2))
-        end = min(end, start + generator.choice((1, 3, 20, 400)))
-        piece = content[start:end]
-        replaced = generator.choice(
-            (
-                b"",
-                piece * 2,
-                piece[::-1],
-                piece * generator.choice((1, 50)),
-                generator.choice(HOSTILE),
-                bytes(generator.randrange(256) for _ in range(3)),
-                other[start:end],
-                piece.swapcase(),
-            )
-        )
-        content = content[:start] + replaced + content[end:]
-    return content
-
-
-def drawn(seed: int) -> tuple[str, bytes]:
-    """Return a format and a mutated file."""
-    generator = Random(seed)
-    of = generator.choice(sorted(FORMATS))
-    content = None
-    while content is None:
-        content = written(generator.randrange(len(library())), of)
-    other = written(generator.randrange(len(library())), generator.choice(sorted(FORMATS))) or b""
-    return of, mutated(content, other, generator)
 
 
 def read_or_refused(seed: int) -> bool:
@@ -174,6 +88,14 @@ def checked(seed: int, folder: Path) -> int:
     assert result.exit_code in (0, 1, 2), (seed, of, result.output, content[:2000])
     assert result.exception is None or isinstance(result.exception, SystemExit), (seed, result.exception)
     return result.exit_code
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_the_memory_of_an_input_is_bounded() -> None:
+    with limited():
+        bytearray(MEGABYTES // 2 << 20)
+    with pytest.raises(MemoryError), limited():
+        bytearray(MEGABYTES + 1 << 20)
 
 
 def test_mutated_files_are_read_or_refused() -> None:

@@ -25,7 +25,7 @@ BAD_STEP = 3
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_FINITE or BAD_STEP; step: the number of steps completed before it;
+    status: NOT_FINITE or BAD_STEP; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -155,7 +155,7 @@ def _run(state, h, steps, trajectory, stride, completed):
 
 
 def _numbers(state):
-    """Return the numbers of a state as a list; a ValueError if their number is wrong."""
+    """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
     if len(numbers) != 3:
         raise ValueError(f"expected 3 numbers in state, found {len(numbers)}")
@@ -181,8 +181,8 @@ def step(state, h):
 def run(state, h, steps, *, stride=0):
     """Return the state after ``steps`` steps of size h, as a list.
 
-    With a positive stride, return rows instead: the initial state and every stride-th one
-    after it. If a step fails, StepFailed is raised, with the last good state.
+    With a positive stride, return rows instead: the initial state, and the state after every
+    stride-th step. If a step fails, StepFailed is raised; it contains the last good state.
     """
     state = _numbers(state)
     h = float(h)

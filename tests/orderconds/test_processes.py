@@ -14,6 +14,7 @@ import pytest
 
 from orderconds.errors import InputError
 from orderconds.processes import in_processes
+from orderconds.tableau import find
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
@@ -103,28 +104,67 @@ def test_workers_end_with_the_program_so_that_its_pipe_closes(
     assert err.count("\n") == (name != "SIGKILL")
 
 
+def heed_interrupts() -> None:
+    """Undo what a shell does to background jobs: they ignore SIGINT."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def kept(checkpoint: Path) -> int:
     """Return how many batches a checkpoint holds; all but the first come from workers."""
     return len(json.loads(checkpoint.read_text())["batches"]) if checkpoint.exists() else 0
 
 
 @posix
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGKILL"])
+@pytest.mark.parametrize(
+    ("name", "status", "said"),
+    [("SIGTERM", 143, "stopped by SIGTERM"), ("SIGINT", 130, "interrupted"), ("SIGKILL", -9, "")],
+)
 def test_a_search_that_is_stopped_leaves_no_workers_and_goes_on_from_its_checkpoint(
-    name: str, tmp_path: Path
+    name: str, status: int, said: str, tmp_path: Path
 ) -> None:
     words = ["solve", "vcg", "--stages", "3", "--order", "3", "--minimise", "error", "--processes", "2"]
     command = [sys.executable, "-m", "orderconds", *words, "-o", str(tmp_path / "found.toml"), "--starts"]
     checkpoint = tmp_path / "found.toml.search"
-    with subprocess.Popen([*command, "1000000"], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as child:
+    with subprocess.Popen(
+        [*command, "1000000"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=heed_interrupts,
+    ) as child:
         while child.poll() is None and kept(checkpoint) < 2:
             time.sleep(0.01)
         child.send_signal(getattr(signal, name))
         _, err = child.communicate(timeout=30)
-    assert child.returncode == {"SIGTERM": 143, "SIGKILL": -9}[name]
-    if name == "SIGTERM":
-        assert err.decode().startswith("orderconds: stopped by SIGTERM; finished starts are kept in ")
+    assert child.returncode == status
+    if said:
+        assert err.decode().startswith(f"orderconds: {said}; finished starts are kept in ")
         assert err.count(b"\n") == 1
         assert os.listdir(tmp_path) == ["found.toml.search"]
     subprocess.run([*command, "64"], check=True, capture_output=True)
     assert {"found.toml"} == {path.name for path in tmp_path.iterdir() if not path.name.startswith(".")}
+
+
+@posix
+@pytest.mark.parametrize(("name", "status"), [("SIGINT", 130), ("SIGTERM", 143), ("SIGHUP", 129)])
+@pytest.mark.parametrize("words", [[], ["--json"]])
+def test_a_check_of_a_folder_that_is_stopped_leaves_no_workers_and_one_document(
+    name: str, status: int, words: list[str], tmp_path: Path
+) -> None:
+    (tmp_path / "000.toml").write_text("=")  # its message says that the check has begun
+    for number in range(1, 400):
+        (tmp_path / f"{number:03}.toml").symlink_to(find("dop853"))
+    with subprocess.Popen(
+        [sys.executable, "-m", "orderconds", "check", str(tmp_path), *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=heed_interrupts,
+    ) as child:
+        assert child.stderr is not None
+        assert "000.toml" in child.stderr.readline()
+        child.send_signal(getattr(signal, name))
+        out, err = child.communicate(timeout=60)  # the workers hold the pipes too
+    assert child.returncode == status
+    assert err.count("\n") == 1
+    if words:
+        assert json.loads(out)["error"]["status"] == status

@@ -24,7 +24,7 @@ CLEAR = 100.0
 slope by less than 0.03."""
 
 ZERO = 0.5
-"""Very short steps have order zero if the coefficients are decimals, so an order below ZERO is no evidence."""
+"""Very short steps have order zero if the coefficients are decimals: an order below ZERO is no evidence."""
 
 FIRST = 5
 """Number of steps in the first run."""

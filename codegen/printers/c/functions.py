@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import groupby
 
+from codegen.ir.precision import Precision
 from codegen.printers.c.terms import Terms, literal
 from codegen.printers.c.text import block_comment, comment, fill, together
 from codegen.printers.infix import closed
@@ -29,41 +30,42 @@ from codegen.run.language import (
     While,
     terms,
 )
-from codegen.run.precision import Precision
 from codegen.run.scope import declarations
 from codegen.run.terms import Kind, Term, own, symbols
 from codegen.run.writes import written
+from codegen.snippets.graph import LIBRARY
 
 MANY = 20
 """More than MANY consecutive short statements share lines."""
 
-ONE_TEST = (
-    "one test for all values; if only their sum overflows, test each x - x: 0, or NaN if x is not finite"
-)
+ONE_TEST = "one test for all values; if the sum overflows, test the terms x - x: 0 if x is finite, else NaN"
 
 
 class FunctionPrinter:
-    """Writes the functions of one unit in C; names of functions start with a prefix."""
+    """Writes the functions of one unit in C; names of functions, records and tables start with a prefix."""
 
     def __init__(
         self, unit: Unit, identifiers: dict[str, Identifiers], precision: Precision, prefix: str
     ) -> None:
         self.unit, self.identifiers, self.precision, self.prefix = unit, identifiers, precision, prefix
         self.real = precision.c_type
+        # The changed parameters are found once for each function, because the search follows calls through
+        # the whole unit.
         self.writes = {f.name: written(unit, f) for f in unit.functions}
 
     def called(self, name: str) -> str:
         """Return the name of a function in C."""
-        function = self.unit.parts.get(name)
-        return f"{self.prefix}{name}" if function is not None and function.public else name
+        return name if name in LIBRARY else f"{self.prefix}{name}"
 
     def type_of(self, kind: Kind) -> str:
         """Return the type of a scalar."""
+        # Counts have the type size_t, so that indices and sizes need no conversions, about which -Wconversion
+        # warns.
         return {Kind.REAL: self.real, Kind.WIDE: "double", Kind.COUNT: "size_t"}.get(kind, "int")
 
     def record_type(self, name: str) -> str:
         """Return the type of a record."""
-        return f"{self.prefix}{name}" if self.unit.record(name).public else f"struct {name}"
+        return f"{'' if self.unit.record(name).public else 'struct '}{self.prefix}{name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
         """Return the declaration of a parameter; without ``static`` sizes in a ``header``, as in C++."""
@@ -80,8 +82,11 @@ class FunctionPrinter:
             size = f"[{promised}{parameter.shape[0]}]" if parameter.shape else ""
             return f"{const}{of} {name}{size}" if size else f"{const}{of} *{name}"
         kind = self.type_of(parameter.kind)
+        # Scalars are passed by value; a const on them would mean nothing to callers.
         if not parameter.shape:
             return f"{kind} {name}"
+        # An optional array is declared as a pointer, because it may be NULL; a ``static`` size would promise
+        # that it is not.
         if parameter.cell or parameter.optional:
             return f"{const}{kind} *{name}"
         promised = "" if function.name == "jacobian" and parameter.text != "state" else promised
@@ -90,8 +95,8 @@ class FunctionPrinter:
 
     def head(self, function: Function, header: bool = False) -> list[str]:
         """Return the lines of a function's head, or of its prototype in a ``header``."""
-        # Private functions are static: the compiler may inline them, and two modules in one program have no
-        # name conflicts.
+        # Private functions are static, so that the compiler may inline them. They have the prefix as well:
+        # two modules may be included in one file, and no header declares such a name.
         storage = "" if function.public else "static inline " if function.often else "static "
         kind = "void" if function.returns is None else self.type_of(function.returns)
         listed = [self.parameter(function, p, header) for p in function.parameters]
@@ -115,7 +120,8 @@ class FunctionPrinter:
         """Return the lines of a constant array."""
         rows = [[literal(self.precision, x) for x in row] for row in table.rows]
         size = "".join(f"[{n}]" for n in table.name.shape)
-        start = f"static const {self.real} {table.name.text}{size} ="
+        start = f"static const {self.real} {self.prefix}{table.name.text}{size} ="
+        # Tables are static const, so that compilers can fold their entries into the code.
         about = [f"/* {comment(table.about)} */"]
         if len(table.name.shape) == 1:
             entries = [f"{x}," for x in rows[0][:-1]] + [rows[0][-1]]
@@ -126,7 +132,7 @@ class FunctionPrinter:
         """Return the lines of a record's type."""
         record = self.unit.record(name)
         lines = block_comment(record.about)
-        lines.append("typedef struct {" if record.public else f"struct {record.name} {{")
+        lines.append("typedef struct {" if record.public else f"{self.record_type(name)} {{")
         for field, about in record.fields:
             size = "".join(f"[{n}]" for n in field.shape)
             note = f" /* {comment(about)} */" if about else ""
@@ -136,6 +142,7 @@ class FunctionPrinter:
 
 def _without_zeros(row: Sequence[str]) -> str:
     """Return a row without trailing zeros; C initialises the remaining entries to zero."""
+    # Rows of a table of differences have different lengths; their padding would only be noise.
     kept = list(row)
     while len(kept) > 1 and kept[-1].startswith("0.0"):
         kept.pop()
@@ -149,8 +156,10 @@ class _Body:
         self.printer, self.function = printer, function
         self.identifiers = printer.identifiers[function.name]
         self.declared = declarations(function, self.identifiers)
+        # Records among the parameters are pointers, local records are not: their fields need -> or a dot.
         pointers = {p.text for p in function.parameters if p.kind is Kind.RECORD}
-        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers)
+        tables = [table.name.text for table in printer.unit.tables]
+        self.terms = Terms(self.identifiers, printer.precision, printer.prefix, pointers, tables)
         self.pointers = pointers
 
     def lines(self) -> list[str]:
@@ -171,14 +180,18 @@ class _Body:
         """Return the lines of statements; many consecutive short ones share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
+            # A declaration must come between two statements, so it ends a group of short ones.
             before = self.before(statement)
             own = list(self.statement(statement))
+            # Only plain copies share lines: a line with several sums would be hard to read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
+            # Kernels with many unknowns copy hundreds of scalars, which would fill pages with one copy a
+            # line.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
@@ -227,6 +240,7 @@ class _Body:
     def branch(self, statement: If) -> Iterator[str]:
         """Yield the lines of a branch; an else that is a single branch becomes ``else if``."""
         test = statement.test
+        # The test appears with and without a negation: as a guard, and as the test of a loop's success.
         finite = test.args[0] if test.op == "not" else test
         if finite.op == "finite" and len(finite.args) > 1:
             yield f"/* {ONE_TEST} */"
@@ -247,6 +261,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
+        # C has this loop, so no flag or break is needed.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)
@@ -261,6 +276,8 @@ class _Body:
         name = self.identifiers.of(target) if target.op == "name" else ""
         # ``const`` for variables that are assigned once: a reader sees that the value is final, and the
         # compiler checks it.
+        # Statements are identified by id, because equal statements at different places declare different
+        # variables.
         constant = self.declared.by.get(id(statement), {}).get(name)
         if constant is None:
             return ""
@@ -284,6 +301,8 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
+        # Compound assignments are printed only where the target is the first operand: for x = x + y, but not
+        # for x = y + x, because x += y would exchange the operands.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed and not kind:
             more = self.terms.text(value.args[1])
@@ -311,6 +330,7 @@ class _Body:
         name = statement.name
         identifier = self.identifiers.of(name)
         size = "".join(f"[{n}]" for n in name.shape)
+        # Records always begin with zeros: a count or age of zero means that nothing is stored yet.
         if name.kind is Kind.RECORD:
             yield f"{self.printer.record_type(name.record)} {identifier}{size} = {{0}};"
             return
@@ -323,6 +343,7 @@ class _Body:
             return
         entries = [self.terms.line(x) for x in statement.values]
         segments = closed("{", (*(f"{x}," for x in entries[:-1]), entries[-1]), "}")
+        # An array with given values is never changed, so it is const.
         yield from fill(f"const {kind} {identifier}{size} =", segments, ";")
 
     def argument(self, term: Term) -> str:
@@ -330,6 +351,7 @@ class _Body:
         text = self.terms.line(term)
         if term.kind is not Kind.RECORD or term.op == "none" or term.shape:
             return text
+        # A parameter is a pointer already; a local record, or an entry of an array of records, is not.
         return text if term.text in self.pointers and term.op == "name" else f"&{text}"
 
     def call(self, statement: Call) -> Iterator[str]:
@@ -337,6 +359,8 @@ class _Body:
         given = [self.argument(a) for a in statement.arguments]
         name, results = statement.function, statement.results
         if name == "sample":
+            # A signal is printed as two arguments, function and context. Sampling calls the function with the
+            # context.
             given = [given[0].partition(",")[0], *given[1:], self.terms.line(results[0]), "context"]
             callee, *given = given
             yield from fill(f"{callee}(", _arguments(given), ";", separator="")

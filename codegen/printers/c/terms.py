@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import ClassVar
 
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.printers.c.text import closed_call, greatest
 from codegen.printers.expression import Style, render
 from codegen.printers.infix import (
@@ -20,7 +21,6 @@ from codegen.printers.infix import (
     joined,
 )
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE, Precision
 from codegen.run.terms import Kind, Term, paired
 from codegen.snippets.graph import LIBRARY
 
@@ -33,26 +33,37 @@ def literal(precision: Precision, x: float) -> str:
     return precision.text(x) + precision.suffix
 
 
-def style(precision: Precision) -> Style:
-    """Return the constants and function names of C in a precision: ``0.5f`` and ``sqrtf``."""
+def style(precision: Precision, prefix: str = "") -> Style:
+    """Return the constants and function names of C: ``0.5f``, ``sqrtf``, helpers with the module's prefix."""
 
     def called(name: str) -> str:
-        return name + precision.suffix if name in LIBRARY and name != "isfinite" else name
+        if name not in LIBRARY:
+            return prefix + name
+        # isfinite is a macro for all types. The other functions without suffix would compute in double.
+        return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
 
 
 class Terms(Infix):
-    """Writes the terms of one function in C; ``pointers`` are the parameters that are records."""
+    """Writes the terms of one function in C.
+
+    ``pointers`` are the parameters that are records, ``tables`` the names of the unit's tables.
+    """
 
     words: ClassVar[dict[str, str]] = {"and": "&&", "or": "||", "//": "/"}
 
     def __init__(
-        self, identifiers: Identifiers, precision: Precision, prefix: str, pointers: Collection[str]
+        self,
+        identifiers: Identifiers,
+        precision: Precision,
+        prefix: str,
+        pointers: Collection[str],
+        tables: Collection[str] = (),
     ) -> None:
-        self.identifiers, self.precision, self.upper = identifiers, precision, prefix.upper()
-        self.pointers = frozenset(pointers)
-        self.style = style(precision)
+        self.identifiers, self.precision, self.prefix = identifiers, precision, prefix
+        self.pointers, self.tables = frozenset(pointers), frozenset(tables)
+        self.style = style(precision, prefix)
 
     def negated(self, test: Term) -> Text:
         """Return the text of the negation of a test."""
@@ -61,6 +72,7 @@ class Terms(Infix):
         if test.op == "finite" and len(test.args) > 1:
             finite, exact = self.one_test(test.args)
             return Text((*closed("!", finite, ""), *closed("&& !(", exact, ")")), AND)
+        # No test is inverted to its opposite: for a NaN, !(a < b) and a >= b differ.
         inner = self.text(test)
         return Text(closed("!", inner.within(SIGN), ""), SIGN)
 
@@ -82,9 +94,11 @@ class Terms(Infix):
                 return Text((self.number(term),))
             case "value":
                 assert term.value is not None
+                # The weakest precedence of arithmetic is assumed, so an expression of the kernel has
+                # parentheses wherever it may need them.
                 return Text(render(term.value, dict(self.identifiers.by_name), self.style), SUM)
             case "status":
-                return Text((self.upper + term.text,))
+                return Text((self.prefix.upper() + term.text,))
             case "item" | "part" | "field":
                 return self.access(term)
             case "select":
@@ -98,17 +112,23 @@ class Terms(Infix):
             case "wide" | "narrow":
                 return self.converted(term)
             case "holding":
-                return Text((f"hold, {self.line(term.args[0])}",))
+                # The function ``hold`` of the module copies the values behind its context.
+                return Text((f"{self.prefix}hold, {self.line(term.args[0])}",))
             case "none":
                 return Text(("NULL",))
             case _:
                 assert term.op == "infinity"
-                return Text(("INFINITY",))
+                # INFINITY is a float; the cast avoids the warning of -Wdouble-promotion.
+                return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:
         """Return a name; a signal of inputs is passed as a function and the function's context."""
-        # Two arguments, because C has no closures.
-        return "input, context" if term.kind is Kind.SIGNAL else self.identifiers.of(term)
+        # A signal becomes two arguments, because C has no closures.
+        if term.kind is Kind.SIGNAL:
+            return "input, context"
+        if not term.own and term.text in self.tables:
+            return self.prefix + term.text
+        return self.identifiers.of(term)
 
     def number(self, term: Term) -> str:
         """Return a constant."""
@@ -125,14 +145,19 @@ class Terms(Infix):
         if term.op == "part":
             start = int(term.number)
             return Text((f"{self.line(base)} + {start}",), SUM) if start else self.text(base)
+        # A cell is a pointer to one value, so its entry is that value.
         if base.cell:
             return Text((f"*{self.line(base)}",), SIGN)
-        if base.shape[0] == 0 and len(base.shape) > 1:  # rows that a caller gives lie one after the other
+        if (
+            base.shape[0] == 0 and len(base.shape) > 1
+        ):  # the caller passes all rows in one array, one after the other
             if _is_zero(term.args[1]):
                 return self.text(base)
             return Text((f"{self.line(base)} + {base.shape[1]} * {self.line(term.args[1])}",), SUM)
         if base.op == "item" and base.args[0].shape[0] == 0:
             row, width = base.args[1], base.args[0].shape[1]
+            # The caller passes all rows in one array, one after the other, so row and column become one
+            # index.
             place = (
                 self.line(width * row + term.args[1])
                 if not _is_zero(term.args[1])
@@ -153,8 +178,9 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the test that all values are finite."""
         first = values[0]
+        # An array has a helper with a loop, because its test would be as long as the array.
         if first.shape:
-            return Text((f"all_finite({self.line(first)}, {first.shape[0]})",))
+            return Text((f"{self.prefix}all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:
             return Text(closed("isfinite(", self.text(first).segments, ")"))
         finite, exact = self.one_test(values)
@@ -163,11 +189,12 @@ class Terms(Infix):
     def called(self, term: Term) -> Text:
         """Return a call of the library."""
         if term.text == "greatest":
-            return Text(greatest([self.line(x) for x in term.args]))
+            return Text(greatest([self.line(x) for x in term.args], f"{self.prefix}greater"))
         if term.text == "largest":
             (array,) = term.args
-            return Text((f"largest({self.line(array)}, {array.shape[0]})",))
+            return Text((f"{self.prefix}largest({self.line(array)}, {array.shape[0]})",))
         name = FUNCTIONS.get(term.text, term.text)
+        # Without the suffix, a function would convert its argument to double and the result back.
         name += "" if name == "isfinite" else self.precision.suffix
         if len(term.args) == 1:
             return Text(closed(f"{name}(", self.text(term.args[0]).segments, ")"))
@@ -177,6 +204,7 @@ class Terms(Infix):
         """Return a term as a double, or a double rounded to the format."""
         (x,) = term.args
         inner = self.text(x)
+        # In double precision only counts need a conversion.
         if self.precision is DOUBLE and (term.op == "narrow" or x.kind is Kind.REAL):
             return inner
         to = "double" if term.op == "wide" else self.precision.c_type

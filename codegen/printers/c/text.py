@@ -10,8 +10,8 @@ from codegen.printers.infix import closed
 WIDTH = 100
 
 
-def greatest(terms: list[str]) -> tuple[str, ...]:
-    """Return the maximum of terms as a balanced tree of two-argument calls, in segments that end in commas.
+def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
+    """Return the maximum of terms as a balanced tree of two-argument calls of ``name``, in segments.
 
     >>> greatest(["a", "b", "c"])
     ('greater(a,', 'greater(b,', 'c))')
@@ -20,8 +20,8 @@ def greatest(terms: list[str]) -> tuple[str, ...]:
         return (terms[0],)
     # A balanced tree has logarithmic depth; in a linear chain each comparison would wait for the one before.
     middle = len(terms) // 2
-    first, second = greatest(terms[:middle]), greatest(terms[middle:])
-    return (*closed("greater(", first, ","), *closed("", second, ")"))
+    first, second = greatest(terms[:middle], name), greatest(terms[middle:], name)
+    return (*closed(f"{name}(", first, ","), *closed("", second, ")"))
 
 
 def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
@@ -30,18 +30,21 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
     >>> closed_call("f", ["a", "b"])
     ('f(a,', 'b)')
     """
+    # Commas belong to the segments before them, so that no line begins with a comma.
     segments = [f"{x}," for x in arguments[:-1]] + [f"{x})" for x in arguments[-1:]]
     return (f"{name}({segments[0]}", *segments[1:]) if segments else (f"{name}()",)
 
 
 def comment(text: str) -> str:
     """Return the text, changed so that it cannot end a C comment."""
+    # The start of a comment is changed, too: compilers warn about it inside a comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 
 def block_comment(text: str) -> list[str]:
     """Return a comment on one line or, with stars, on several lines; no lines for an empty text."""
     safe = comment(text)
+    # Words are never broken: names and commands must stay intact for searching and copying.
     lines = wrap(safe, WIDTH, break_long_words=False, break_on_hyphens=False)
     if len(lines) < 2:
         return [f"/* {line} */" for line in lines]
@@ -61,6 +64,7 @@ def fill(
     lines = [start]
     for position, segment in enumerate(segments):
         tail = end if position == len(segments) - 1 else ""
+        # The margin of 8 leaves room for the indentation that the caller adds afterwards.
         if position and len(lines[-1]) + 1 + len(segment) + len(tail) > width - 8:
             lines.append(f"    {segment}{tail}")
         else:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from codegen.snippets.stumpff import SETS
-
 _WORDS = """
     auto break case char const continue default do double else enum extern float for goto if inline int long
     register restrict return short signed sizeof static struct switch typedef union unsigned void volatile
@@ -15,17 +13,29 @@ _WORDS = """
     requires static_cast template this throw try typeid typename using virtual wchar_t xor xor_eq
     complex imaginary I EOF errno assert far linux near unix
     HUGE_VAL HUGE_VALF HUGE_VALL FP_FAST_FMA FP_ILOGB0 FP_ILOGBNAN FP_INFINITE FP_NAN FP_NORMAL FP_SUBNORMAL
-    FP_ZERO MATH_ERREXCEPT MATH_ERRNO math_errhandling
-    M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
+    FP_ZERO FP_INT_DOWNWARD FP_INT_TONEAREST FP_INT_TONEARESTFROMZERO FP_INT_TOWARDZERO FP_INT_UPWARD
+    FP_LLOGB0 FP_LLOGBNAN MATH_ERREXCEPT MATH_ERRNO math_errhandling MAXFLOAT
+    SNAN SNANF SNANL SNANF32 SNANF32X SNANF64 SNANF64X SNANF128
+    HUGE_VAL_F32 HUGE_VAL_F32X HUGE_VAL_F64 HUGE_VAL_F64X HUGE_VAL_F128
+    stdin stdout stderr BUFSIZ FILENAME_MAX FOPEN_MAX TMP_MAX P_tmpdir L_tmpnam L_ctermid L_cuserid
+    EXIT_FAILURE EXIT_SUCCESS MB_CUR_MAX RAND_MAX BIG_ENDIAN LITTLE_ENDIAN PDP_ENDIAN BYTE_ORDER
+    FD_SETSIZE NFDBITS WCONTINUED WEXITED WNOHANG WNOWAIT WSTOPPED WUNTRACED
+    SEEK_CUR SEEK_DATA SEEK_END SEEK_HOLE SEEK_SET L_INCR L_SET L_XTND F_LOCK F_OK F_TEST F_TLOCK F_ULOCK
+    R_OK W_OK X_OK STDERR_FILENO STDIN_FILENO STDOUT_FILENO CLOSE_RANGE_CLOEXEC CLOSE_RANGE_UNSHARE
+    RENAME_EXCHANGE RENAME_NOREPLACE RENAME_WHITEOUT
     main NULL INFINITY NAN size_t memcpy memset fmax
     sqrt sin cos exp log sinh cosh fabs isfinite pow copysign sqrtf sinf cosf expf logf sinhf coshf fabsf
-    greater largest quotient signed_stumpff0 signed_stumpff1 invert slope2 slope3 all_finite
-    input context hold
+    input context
 """
 
-RESERVED = frozenset(_WORDS.split()) | {f"stumpff_{''.join(map(str, orders))}" for orders in SETS}
+_CONSTANTS = """
+    M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2
+"""
+_FORMATS = ("", "f", "l", "f32", "f32x", "f64", "f64x", "f128")
+
+RESERVED = frozenset(_WORDS.split()) | {f"{name}{kind}" for name in _CONSTANTS.split() for kind in _FORMATS}
 """Words that are excluded as names of variables, besides the names of the run representation.
 
 Keywords of C and, since both read headers, of C++; macros of headers that the module or its caller is likely
-to include; the mathematical library; helpers.
+to include, in any dialect; the mathematical library. Helpers have the prefix of their module.
 """

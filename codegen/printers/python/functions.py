@@ -46,7 +46,9 @@ class FunctionPrinter:
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function."""
         own = self.identifiers[function.name]
+        # All functions are private: public ones in the template convert arguments and raise exceptions.
         head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
+        # Text from users must not end the docstring, nor contain an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
         lines = [*head, *docstring(about)] if about else head
         depth = 2 if function.guard else 1
@@ -63,6 +65,7 @@ class FunctionPrinter:
             return ["        return NOT_FINITE"]
         if function.returns is not None:
             return ["        return nan"]
+        # A function with this guard changes exactly one array, its result.
         (changed,) = written(self.unit, function)
         return [f"        {changed}[:] = [nan] * len({changed})"]
 
@@ -71,6 +74,7 @@ class FunctionPrinter:
         rows = [[self.constants.text(x) for x in row] for row in table.rows]
         about = [f"# {table.about}"] if table.about else []
         if len(table.name.shape) == 1:
+            # A table is a tuple and not a list, because nothing may change a table.
             return [*about, *filled(f"{table.name.text} = (", rows[0], ")", 0)]
         lines = [*about, f"{table.name.text} = ("]
         for row in rows:
@@ -85,6 +89,8 @@ class FunctionPrinter:
             return self.constants.text(0.0) if kind in (Kind.REAL, Kind.WIDE) else "0"
         inner = self.zeros(shape[1:], kind, record)
         if len(shape) > 1 or kind is Kind.RECORD:
+            # The rows are created by a comprehension, because ``[[0.0] * n] * m`` would contain the same row
+            # m times.
             return f"[{inner} for _ in range({shape[0]})]"
         return f"[{inner}] * {shape[0]}"
 
@@ -93,6 +99,7 @@ class FunctionPrinter:
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
+            # Large arrays have no note, because it would make their lines too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)
@@ -132,7 +139,7 @@ class _Body:
         self.terms = Terms(self.identifiers, printer.constants)
 
     def block(self, body: Body, depth: int) -> list[str]:
-        """Return the lines of some statements."""
+        """Return the lines of consecutive statements."""
         lines: list[str] = []
         place = 0
         while place < len(body):
@@ -153,6 +160,7 @@ class _Body:
         for statement in body:
             if not isinstance(statement, Assign):
                 break
+            # A group either reads or writes consecutive entries.
             if group and not (self.follow(group, statement, True) or self.follow(group, statement, False)):
                 break
             if not group and _entry(statement.target) is None and _entry(statement.value) is None:
@@ -243,6 +251,7 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
+        # The rule against leaving a loop in its middle holds for the run representation, not for its text.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:
@@ -259,6 +268,7 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
+        # Compound assignments are printed only where the target is the first operand, as in C.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)
@@ -280,12 +290,14 @@ class _Body:
         results = [self.terms.line(r) for r in statement.results]
         name = "sampled" if statement.function == "sample" else statement.function
         start = f"{', '.join(results)} = " if results else ""
+        # ``invert`` is a snippet with the same name in both targets.
         called = "invert" if name == "invert" else f"_{name}"
         yield from filled(f"{start}{called}(", given, ")", depth)
 
 
 def _entry(term: Term) -> int | None:
     """Return the constant index of an entry of a list of scalars; None for any other term."""
+    # A variable index has no value at compile time, so the neighbours of such an entry are unknown.
     if term.op != "item" or term.shape or term.args[1].op != "number":
         return None
     return int(term.args[1].number)

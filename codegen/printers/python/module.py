@@ -7,6 +7,7 @@ from functools import cached_property
 
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import Kernel
+from codegen.ir.precision import DOUBLE
 from codegen.kernel.operations import costs
 from codegen.printers.interface import Interface
 from codegen.printers.needs import functions_of
@@ -19,7 +20,6 @@ from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import RAISES_STATUS, Unit, terms
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE
 from codegen.run.unit import unit_of
 from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
@@ -59,6 +59,7 @@ class _Module:
     @cached_property
     def constants(self) -> Constants:
         """The constants of the module."""
+        # Constants are global, so their names must differ from the identifiers of every function.
         taken = {name for of in self.identifiers.values() for name in of.by_name.values()}
         return Constants(self.interface.format, frozenset(taken))
 
@@ -95,13 +96,17 @@ class _Module:
         return needed("python", sorted(wanted), self.interface.format, chain=chain(self.kernel))
 
     def imports(self) -> tuple[list[str], list[str]]:
-        """Return what is imported from ``math`` and from NumPy."""
+        """Return the names to import from ``math``, and the names to import from NumPy."""
         names = set(self.needed.library)
+        # Names are imported only if they are used, because linters of the user's project report unused
+        # imports.
         plain = {"isfinite"} if self.called & {"finite", "isfinite"} else set[str]()
+        # The helper for powers returns an infinity for a negative power of zero.
         plain |= {"inf"} if self.called & {"infinity", "power"} else set()
         plain |= self.called & {"nan", "copysign"}
         if not self.single:
             return sorted(names | plain), []
+        # NumPy's functions keep float32; those of ``math`` return doubles.
         return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:
@@ -114,6 +119,8 @@ class _Module:
     def keyword_arguments(self) -> list[str]:
         """Return the run-time parameters, with the scene's values as defaults if all values are known."""
         known = self.recipe.defaults
+        # Either all parameters have defaults or none has, because a parameter with a default must not precede
+        # a parameter without a default.
         if not all(p in known for p in self.interface.parameters):
             return self.parameters
         pairs = zip(self.interface.parameters, self.parameters, strict=True)
@@ -132,6 +139,7 @@ class _Module:
         parts = self.parts()  # before the constants, which they use
         imports, arrays = self.imports()
         variables: dict[str, object] = {
+            # Titles and names come from users and must not end the docstring.
             "recipe": [line.replace("\\", "\\\\").replace('"""', "'''") for line in comments],
             "usage": usage(interface, self.recipe),
             "imports": imports,

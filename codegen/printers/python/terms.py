@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import ClassVar
 
 from codegen.ir.number import Number
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.printers.expression import Style, render
 from codegen.printers.infix import CHOICE, COMPARED, NOT, OR, SUM, Infix, Text, closed, joined
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE, Precision
 from codegen.run.terms import Kind, Term
 
 
@@ -31,8 +31,10 @@ class Constants:
     def text(self, x: float) -> str:
         """Return the text of a number of the format, with its sign."""
         text = self.precision.text(x)
+        # Literals of doubles are constants of the byte code, which need no name.
         if self.precision is DOUBLE:
             return text
+        # Both signs use one constant, because negation is exact.
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
@@ -57,6 +59,7 @@ class Terms(Infix):
         """Return the text of the negation of a test."""
         if test.op == "given":
             return Text((f"{self.line(test.args[0])} is None",), COMPARED)
+        # No test is inverted to its opposite: for a NaN, not a < b and a >= b differ.
         return Text(closed("not ", self.text(test).within(COMPARED), ""), NOT)
 
     def special(self, term: Term) -> Text:
@@ -84,6 +87,7 @@ class Terms(Infix):
                 return Text(self.called(term))
             case "finite":
                 first = term.args[0]
+                # ``all`` and ``map`` loop in C, so the test of many values is not executed as byte code.
                 listed = self.line(first) if first.shape else self.tuple_of(term.args)
                 return Text((f"all(map(isfinite, {listed}))",))
             case "wide" | "narrow":
@@ -128,12 +132,14 @@ class Terms(Infix):
         # `0.0 ** -1` raises in Python; the helper ``_power`` returns an infinity, as C does.
         name = {"greatest": "max", "power": "_power"}.get(term.text, term.text)
         segments = closed(f"{name}(", (*(f"{x}," for x in given[:-1]), given[-1]), ")")
+        # ``math.copysign`` returns a Python float, with which the next product would be a double.
         return closed("float32(", segments, ")") if self.single and name == "copysign" else segments
 
     def converted(self, term: Term) -> Text:
         """Return a term as a double, or a double rounded to the format."""
         (x,) = term.args
         inner = self.text(x)
+        # Python floats are doubles, and integers are converted exactly, so only float32 needs a conversion.
         if not self.single or (term.op == "wide" and x.kind is not Kind.REAL):
             return inner
         return Text(closed("float(" if term.op == "wide" else "float32(", inner.segments, ")"))

@@ -10,12 +10,12 @@ WIDTH = 88
 
 def quoted(text: str) -> str:
     """Return a string literal with double quotes."""
+    # A JSON string is a Python literal, too, and always has double quotes, unlike ``repr``.
     return json.dumps(text, ensure_ascii=False)
 
 
 def filled(start: str, terms: Sequence[str], end: str, depth: int) -> list[str]:
     """Return start, terms with commas, and end: on one line, or on as few lines as possible.
-
 
     >>> filled("x = f(", ["a" * 42, "b" * 42, "c"], ")", 0)[2]
     '    bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c,'
@@ -47,6 +47,7 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
     """
     space = "    " * depth
     line = f"{space}{start}{' '.join(segments)}"
+    # A single segment gains nothing from parentheses: it cannot be broken.
     if len(line) <= WIDTH or len(segments) == 1:
         return [line]
     return [f"{space}{start}(", *packed(segments, depth + 1), f"{space})"]
@@ -55,6 +56,7 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
     """Return start and a tuple of terms: on one line without parentheses, else on several in parentheses."""
     space = "    " * depth
+    # The comma makes a single term a tuple.
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
         return [line]
@@ -64,6 +66,7 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
 def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
     """Return the lines that unpack a list into names."""
     lines = listed("", names, depth)
+    # Otherwise the names need parentheses, inside which Python allows line breaks.
     if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
         return [f"{lines[0]} = {value}"]
     return filled("(", names, f") = {value}", depth)

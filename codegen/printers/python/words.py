@@ -11,6 +11,7 @@ _WORDS = """
     OK NOT_CONVERGED NOT_FINITE BAD_STEP LIMIT StepFailed Statistics step run run_adaptive jacobian
 """
 
+# Builtins that a module calls are included: a parameter ``max`` would hide the function.
 RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
 """Keywords, and names that a module imports or defines."""
 
@@ -20,4 +21,4 @@ _PUBLIC = """
 """
 
 PUBLIC = frozenset(_PUBLIC.split())
-"""Local names of the public functions, excluded for parameters."""
+"""Local names of the public functions, which no parameter may have."""

@@ -6,6 +6,8 @@ import os
 import signal
 import subprocess
 import sys
+import time
+from functools import partial
 from pathlib import Path
 
 import click
@@ -149,3 +151,59 @@ def test_an_almost_empty_environment_is_enough(tmp_path: Path) -> None:
     ]
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
+
+
+REPORT = ("report", "free_rigid_body", "-m", "cg:cg3", "--quick", "--only", "orders", "--only", "long", "-o")
+
+
+@posix
+@pytest.mark.parametrize(("name", "status"), [("SIGKILL", -9), ("SIGINT", 130)])
+def test_a_report_that_is_stopped_leaves_whole_pages_and_is_completed_by_the_next(
+    name: str, status: int, tmp_path: Path
+) -> None:
+    folder = tmp_path / "report"
+    command = [sys.executable, "-m", "orderconds", *REPORT, str(folder)]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(
+        command,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),  # background jobs ignore it
+    ) as child:
+        while child.poll() is None and not list(folder.glob(".measured/*")):
+            time.sleep(0.005)
+        child.send_signal(getattr(signal, name))
+        _, err = child.communicate(timeout=60)  # its workers hold the pipes too
+    assert (child.returncode, err.count(b"\n")) == (status, int(name == "SIGINT"))
+    assert not list(folder.glob("*.html"))
+    assert not [path for path in folder.rglob("*") if name == "SIGINT" and path.name.endswith(SUFFIX)]
+    done = subprocess.run([*command, "--json"], env=environment, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert sorted(contents(folder)) == ["free_rigid_body.html", "index.html"]
+    for page in contents(folder).values():
+        assert page.endswith(b"</html>\n")
+
+
+@posix
+@pytest.mark.parametrize(
+    "words",
+    [
+        "emit free_rigid_body -m cf4 -o FOLDER/made",
+        "convert rk4 -o FOLDER/rk4.json",
+        "solve rk -s 1 -p 1 -o FOLDER/found.toml",
+        "report free_rigid_body -m cg:cg3 --only orders -o FOLDER/report",
+        "regenerate -o FOLDER/made",
+    ],
+)
+def test_a_read_only_folder_is_one_message(words: str, tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    if os.access(tmp_path, os.W_OK):
+        pytest.skip("this user writes everywhere")
+    command = [sys.executable, "-m", "orderconds", *words.replace("FOLDER", str(tmp_path)).split()]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    tmp_path.chmod(0o700)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert "permission denied" in done.stderr.lower()
+    assert list(tmp_path.iterdir()) == []

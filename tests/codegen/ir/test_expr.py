@@ -24,7 +24,7 @@ def test_equal_expressions_are_one_node(s):
 
 
 def test_spaces_do_not_mix(s):
-    with pytest.raises(ValueError, match="two spaces"):
+    with pytest.raises(ValueError, match="two different spaces"):
         s.sym("x") + Space().sym("x")
 
 

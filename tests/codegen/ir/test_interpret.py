@@ -60,7 +60,7 @@ def test_a_block_that_does_not_settle_is_named():
     scene = field_scene("S^2")
     method = Method("cg", butcher("stiff", [[1]], [1]))
     program = lower(scene, method)
-    with pytest.raises(NotConverged, match=r"^stages did not settle in 30 sweeps"):
+    with pytest.raises(NotConverged, match=r"^stages did not converge in 30 sweeps"):
         interpret(program, scene, FloatDomain(5.0), start(scene, FloatDomain(5.0)), limit=30, newton=False)
 
 

@@ -132,9 +132,9 @@ def test_a_wrong_piece_is_caught(monkeypatch):
     right = outlining.function
 
     def wrong(*args):
-        made, places = right(*args)
+        made, *arguments = right(*args)
         spoilt = (made.outputs[0] + made.outputs[1], *made.outputs[1:])
-        return replace(made, outputs=spoilt), places
+        return replace(made, outputs=spoilt), *arguments
 
     monkeypatch.setattr(outlining, "function", wrong)
     with pytest.raises(IllFormed, match="outlining changed the meaning"):
@@ -223,9 +223,9 @@ def test_an_explicit_step_calls_what_it_repeats():
 
 def test_calls_are_counted_by_place():
     made = compiled(*EXPLICIT)
-    source = next(t for name, t in emit_compiled(made, "c").files.items() if name.endswith(".c"))
+    emission = emit_compiled(made, "c", "my")
     for name, often in calls(made.kernel).items():
-        assert source.count(f" {name}(") == 1 + often  # its definition, and the calls
+        assert emission.files["my.c"].count(f" my_{name}(") == 1 + often  # its definition, and the calls
 
 
 def test_single_precision_takes_functions_too():
@@ -236,3 +236,15 @@ def test_single_precision_takes_functions_too():
     assert load(emission).run(start, 0.01, 1) == pytest.approx(exact.run(start, 0.01, 1), abs=1e-5)
     python = load(emit_compiled(made, "python", precision="single", prefix="python_gauss4_"))
     assert python.run(start, 0.01, 1) == pytest.approx(exact.run(start, 0.01, 1), abs=1e-5)
+
+
+def test_functions_have_the_parameters_of_the_scene_that_they_read():
+    compiled = compile_method("stiff_driven_spin", "cg:cg5", parameters=("nu",))
+    assert any("nu" in function.inputs for function in compiled.kernel.outlined)
+    integrators = [load(emit_compiled(compiled, target)) for target in ("c", "python")]
+    folded = load(emit_compiled(compile_method("stiff_driven_spin", "cg:cg5"), "c"))
+    state = [1.0, 0.0, 0.0]
+    expected = folded.run(state, 1e-4, 10)
+    for integrator in integrators:
+        assert integrator.run(state, 1e-4, 10, nu=2.0) == pytest.approx(expected, rel=0, abs=1e-15)
+        assert integrator.run(state, 1e-4, 10, nu=3.0) != pytest.approx(expected, rel=0, abs=1e-12)

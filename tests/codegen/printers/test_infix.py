@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from codegen.ir.precision import DOUBLE
 from codegen.printers.infix import PRODUCT, SUM, Text, closed, joined
 from codegen.printers.python.terms import Constants, Terms
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import Kind, Term, both, either, negated, real, select
 
 PYTHON = Terms(Identifiers({}), Constants(DOUBLE, frozenset()))

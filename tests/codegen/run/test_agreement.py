@@ -12,12 +12,12 @@ from codegen.emitter import compile_method, emit_compiled, start_of
 from codegen.ir.angle_depth import chain
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
+from codegen.ir.precision import DOUBLE, Precision
 from codegen.loader import Statistics, load
 from codegen.run import stopping
 from codegen.run.execute import Machine
 from codegen.run.floats import EmittedFloats
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE, Precision
 from codegen.run.solver_choice import amount
 from codegen.run.terms import OK, STATUSES
 from codegen.run.unit import unit_of

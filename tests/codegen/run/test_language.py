@@ -10,6 +10,7 @@ from codegen.build import build
 from codegen.emitter import compile_method
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import NEWTON
+from codegen.ir.precision import DOUBLE, SINGLE
 from codegen.printers.c.functions import FunctionPrinter as InC
 from codegen.printers.c.words import RESERVED as WORDS_OF_C
 from codegen.printers.python.functions import FunctionPrinter as InPython
@@ -31,7 +32,6 @@ from codegen.run.language import (
     statements,
 )
 from codegen.run.plan import Plan
-from codegen.run.precision import DOUBLE, SINGLE
 from codegen.run.scope import declarations
 from codegen.run.terms import (
     Kind,

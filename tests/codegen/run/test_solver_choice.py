@@ -129,7 +129,7 @@ def test_a_scene_that_is_solved_by_continuation_says_so():
     (choice,) = compiled("stiff_driven_spin", "ambient:gauss2").solvers
     assert choice.solver == NEWTON
     assert choice.reason == (
-        f"no solver converges in the first {STEPS} steps of h = 0.05 at once: by continuation in h, "
+        f"no solver converges in the first {STEPS} steps of h = 0.05 directly; with continuation in h, "
         "15.5 sweeps and 7.6 matrices a step"
     )
 

@@ -93,7 +93,7 @@ class TestHandWrittenFields:
 
 class TestTheInitialState:
     def test_is_on_the_group(self):
-        with pytest.raises(SceneError, match=r"g\^T g = 1 off by"):
+        with pytest.raises(SceneError, match=r"violates g\^T g = 1 by"):
             top(q0=eye(3) + SMALL * diag(1, 0, 0))
 
     def test_of_an_algebraic_rotation_passes(self):
@@ -102,7 +102,7 @@ class TestTheInitialState:
 
     def test_of_a_field_on_the_group_is_on_the_group(self):
         q = SO3().point("q")
-        with pytest.raises(SceneError, match=r"det g = 1 off by -2"):
+        with pytest.raises(SceneError, match=r"violates det g = 1 by -2"):
             FieldScene(group=SO3(), action=LeftMultiplication(), y=q, f=[1, 2, 3], y0=-eye(3), span=(0, 1))
 
 

@@ -168,3 +168,15 @@ def test_output_does_not_depend_on_the_hash_seed() -> None:
 
 def test_right_hand_sides_are_fractions() -> None:
     assert all(Fraction(c["rhs"]) > 0 for c in derived("rk", "--order", "4")["conditions"])
+
+
+@pytest.mark.parametrize(
+    ("family", "order", "trees"), [("rk", 13, 12486), ("vcg", 7, 51677), ("splitting", 17, 7710)]
+)
+def test_an_order_with_more_trees_than_can_be_derived_is_refused_at_once(
+    family: str, order: int, trees: int
+) -> None:
+    result = run(family, "--order", "20")
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert result.stderr.startswith(f"orderconds: {family}: {trees} trees of order {order}, and more at")
+    assert f"lower --order to {order - 1}" in result.stderr

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from pathlib import Path
 
 import pytest
@@ -56,3 +57,34 @@ def test_a_full_disk_leaves_the_file_as_it_was(tmp_path: Path, monkeypatch: pyte
     with pytest.raises(InputError, match="no space left on device; expected a file that can be written"):
         put(str(tmp_path / "x"), b"after")
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == {"x": b"before"}
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
+def test_a_pipe_without_a_reader_is_refused_and_one_with_a_slow_reader_gets_everything(
+    tmp_path: Path,
+) -> None:
+    pipe, content = tmp_path / "pipe", b"text" * 50_000  # more than a pipe holds
+    os.mkfifo(pipe)
+    with pytest.raises(InputError, match="pipe: no process reads this pipe; expected a file"):
+        put(str(pipe), b"")
+    found: list[bytes] = []
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    os.set_blocking(reader, True)
+
+    def read() -> None:
+        with os.fdopen(reader, "rb") as stream:
+            found.append(stream.read())
+
+    slow = threading.Timer(0.1, read)
+    slow.start()
+    put(str(pipe), content)
+    slow.join()
+    assert found == [content]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of POSIX")
+def test_a_link_to_itself_is_bad_input(tmp_path: Path) -> None:
+    loop = tmp_path / "loop"
+    loop.symlink_to("loop")
+    with pytest.raises(InputError, match="loop: too many levels of symbolic links; expected a file"):
+        put(str(loop), b"")

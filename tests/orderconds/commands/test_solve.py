@@ -113,6 +113,7 @@ def test_nothing_found_says_what_was_tried() -> None:
         ("vcf --stages 2 --order 4 --explicit --symmetric", "--explicit with --symmetric"),
         ("rk --stages 2 --order 2 -o nowhere/found.toml", "no such folder"),
         ("rk --stages 2 --order 2 --fix a21=sqrt(2)", "not linear"),
+        ("vcg --stages 4 --order 12", "vcg: 51677 trees of order 7, and more at each further order"),
     ],
 )
 def test_bad_input_is_one_message(args: str, said: str) -> None:
@@ -159,3 +160,10 @@ def test_two_processes_that_resume_one_search_give_the_file_of_one(tmp_path: Pat
     subprocess.run([*start, str(tmp_path / "one.toml")], check=True, capture_output=True)
     assert (tmp_path / "both.toml").read_bytes() == (tmp_path / "one.toml").read_bytes()
     assert sorted(os.listdir(tmp_path)) == ["both.toml", "one.toml"]
+
+
+def test_candidates_that_the_family_cannot_read_do_not_end_the_search() -> None:
+    """Some solutions that this search meets have a zero weight, by which the family divides."""
+    result = run("vrkmk_pade", "--stages", "3", "--order", "3", "--starts", "256", "--json")
+    assert result.exit_code == 1
+    assert json.loads(result.stdout)["tried"][0].startswith("structure full: 12 free coefficients")

@@ -103,3 +103,14 @@ def test_bad_usage_exits_2_with_one_message(args: list[str]) -> None:
 
 def test_a_misspelt_kind_is_told_the_right_one() -> None:
     assert "orderconds trees rooted" in run("roted", "--order", "3").stderr
+
+
+@pytest.mark.parametrize("words", [[], ["--json"], ["--svg", "trees.svg"], ["--count", "--svg", "trees.svg"]])
+def test_more_trees_than_anyone_reads_are_refused_before_the_first(words: list[str]) -> None:
+    result = run("graded", "--order", "40", *words)
+    assert result.exit_code == 2
+    assert "trees graded: 27487764474 members of order 40; expected at most 100000" in result.stderr
+
+
+def test_their_number_has_no_such_bound() -> None:
+    assert run("graded", "--order", "40", "--count").stdout == "27487764474\n"

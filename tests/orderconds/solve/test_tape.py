@@ -56,3 +56,18 @@ def test_a_constant_output_has_no_slope() -> None:
     values, slopes = Tape([R.rational(1, 2), R.inputs[0]], 1).jacobians(np.array([[3.0]]))
     assert values.tolist() == [[0.5, 3.0]]
     assert slopes.tolist() == [[[0.0], [1.0]]]
+
+
+def test_points_that_are_evaluated_in_parts_have_the_values_of_all_points_together(monkeypatch) -> None:
+    x, y = Traces(2).inputs
+    outputs = [x * y - 1, x / y, x * x * y]
+    points = np.random.default_rng(0).standard_normal((7, 2))
+    together = Tape(outputs, 2).jacobians(points)
+    tape = Tape(outputs, 2)
+    monkeypatch.setattr("orderconds.solve.tape.MOST_SLOPES", 2 * tape.length * tape.width)
+    sizes = []
+    forward = tape._forward
+    monkeypatch.setattr(tape, "_forward", lambda p: sizes.append(len(p)) or forward(p))
+    parts = tape.jacobians(points)
+    assert sizes == [2, 2, 2, 1]
+    assert [a.tobytes() for a in parts] == [a.tobytes() for a in together]

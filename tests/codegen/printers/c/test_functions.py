@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from codegen.ir.precision import DOUBLE
 from codegen.printers.c.functions import FunctionPrinter
 from codegen.run.identifiers import identify
 from codegen.run.language import Array, Assign, Call, For, Function, If, Return, Table, Unit, While
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import Kind, count, number, real, whole
 
 X, Y, N, INDEX = real("x"), real("y"), count("n"), count("i")
@@ -29,7 +29,7 @@ def test_a_variable_is_const_if_it_is_assigned_once() -> None:
 
 def test_an_array_parameter_is_const_unless_it_is_written() -> None:
     head = lines(Assign(OUT, STATE), parameters=(STATE, OUT))
-    assert head[0] == "static void f(const double state[static 3], double out[static 3])"
+    assert head[0] == "static void m_f(const double state[static 3], double out[static 3])"
     assert "    memcpy(out, state, 3 * sizeof *state);" in head
 
 
@@ -40,9 +40,11 @@ def test_a_local_array_is_copied_by_its_own_size() -> None:
     )
 
 
-def test_public_functions_alone_have_a_prefix_and_no_storage_class() -> None:
+def test_every_function_has_the_prefix_and_public_ones_no_storage_class() -> None:
     assert lines(Return(X), returns=Kind.REAL, public=True)[0] == "double m_f(double x, size_t n)"
-    assert lines(Return(X), returns=Kind.REAL, often=True)[0] == "static inline double f(double x, size_t n)"
+    assert (
+        lines(Return(X), returns=Kind.REAL, often=True)[0] == "static inline double m_f(double x, size_t n)"
+    )
 
 
 def test_an_unread_parameter_is_cast_to_void() -> None:
@@ -77,15 +79,15 @@ def test_a_result_is_assigned_and_several_are_written_through_pointers() -> None
         Assign(STATE[0], Y),
         parameters=(X, STATE),
     )
-    assert "    const double y = two(x);" in text
-    assert "    pair(x, &a, &b);" in text
+    assert "    const double y = m_two(x);" in text
+    assert "    m_pair(x, &a, &b);" in text
 
 
 def test_a_table_leaves_zeros_at_the_ends_of_rows_to_c() -> None:
     printer = FunctionPrinter(Unit((), (), (), ()), {}, DOUBLE, "m_")
     table = Table(real("t", 2, 3), ((1.0, 0.0, 0.0), (0.0, 2.0, 0.0)), "about")
     assert printer.table(table)[1:] == [
-        "static const double t[2][3] = {",
+        "static const double m_t[2][3] = {",
         "    {1.0},",
         "    {0.0, 2.0},",
         "};",

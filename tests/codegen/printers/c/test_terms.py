@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from codegen.ir.precision import DOUBLE, SINGLE
 from codegen.printers.c.terms import Terms, literal
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE, SINGLE
 from codegen.run.terms import (
     INFINITY,
     OK,
@@ -42,10 +42,10 @@ SINGLES = Terms(Identifiers({}), SINGLE, "m_", ())
     [
         (own("double"), "double_"),
         (code(OK), "M_OK"),
-        (INFINITY, "INFINITY"),
+        (INFINITY, "(double)INFINITY"),
         (size(A), "fabs(a)"),
-        (greatest([A, B]), "greater(a, b)"),
-        (largest(real("x", 7)), "largest(x, 7)"),
+        (greatest([A, B]), "m_greater(a, b)"),
+        (largest(real("x", 7)), "m_largest(x, 7)"),
         (select(A < B, A, B), "a < b ? a : b"),
         (negated(A < B), "!(a < b)"),
         (either(both(A < B, B < C), C < A), "(a < b && b < c) || c < a"),
@@ -55,7 +55,7 @@ SINGLES = Terms(Identifiers({}), SINGLE, "m_", ())
         (real("t", 1, cell=True)[0], "*t"),
         (MEMORY.field("known", Kind.COUNT), "memory->known"),
         (record("other", "memory").field("known", Kind.COUNT), "other.known"),
-        (all_finite(real("x", 3)), "all_finite(x, 3)"),
+        (all_finite(real("x", 3)), "m_all_finite(x, 3)"),
         (wide(count("n")), "(double)n"),
         (narrow(A), "a"),
     ],

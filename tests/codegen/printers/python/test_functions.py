@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from codegen.ir.precision import DOUBLE
 from codegen.printers.python.functions import FunctionPrinter
 from codegen.printers.python.terms import Constants
 from codegen.run.identifiers import identify
 from codegen.run.language import RAISES_NAN, RAISES_STATUS, Array, Assign, Function, Return, Unit, While
-from codegen.run.precision import DOUBLE
 from codegen.run.terms import OK, Kind, code, number, real
 
 X, Y = real("x"), real("y")

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from codegen.ir.precision import DOUBLE, SINGLE
 from codegen.printers.python.terms import Constants, Terms
 from codegen.run.identifiers import Identifiers
-from codegen.run.precision import DOUBLE, SINGLE
 from codegen.run.terms import (
     INFINITY,
     OK,

@@ -1,4 +1,4 @@
-"""Constants are rounded once, to the nearest number of the format, and spelled with the fewest digits."""
+"""Constants are rounded once, to the nearest number of the format, and printed with the fewest digits."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from codegen.ir.number import Number
-from codegen.run.precision import DOUBLE, SINGLE, precision
+from codegen.ir.precision import DOUBLE, SINGLE, precision
 from orderconds.errors import InputError, UnknownName
 from tests.strategies import shipped
 

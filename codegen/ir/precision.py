@@ -48,11 +48,13 @@ class Precision:
         >>> SINGLE.scaled(2.0**-44) == 2.0**-15
         True
         """
+        # Both units are powers of two, so their quotient is exact.
         return tolerance * (self.unit / UNIT)
 
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format, rounded once; InputError if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
+        # The condition is negated, because comparisons with a NaN are false: a NaN is refused, too.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -62,9 +64,10 @@ class Precision:
 
     def text(self, x: float) -> str:
         """Return the shortest float literal that reads back as this number of the format."""
+        # Python's ``repr`` of a float is already the shortest text that reads back as the same double.
         if self.bits == 53:
             return repr(x)
-        # Python prints the shortest digits of a double; for a single they are found by trial.
+        # Python prints the shortest digits of a double; the shortest digits of a single are found by trial.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
@@ -76,6 +79,7 @@ def _double(value: Number | Fraction | float) -> float:
     try:
         return float(value)
     except OverflowError:
+        # ``round`` then reports a constant that does not fit, with its exact value in the message.
         return math.inf
 
 
@@ -90,6 +94,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # Rounding to a double first would round twice, and the second rounding may decide ties wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
+    # The bit lengths give two candidates for the exponent; this comparison decides.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits: the last place has a fixed exponent there.
     exponent = max(exponent, SUBNORMAL[bits])

@@ -1,0 +1,75 @@
+"""Order conditions at rounded coefficients: the residuals that remain after rounding to a target's
+precision.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from codegen.ir.precision import Precision
+from codegen.method import Method
+from orderconds.ring.balls import Balls
+from orderconds.ring.decimals import endpoints
+from orderconds.ring.protocol import Element
+from orderconds.tableau import Tableau
+
+if TYPE_CHECKING:
+    from orderconds.families import Family
+
+RING = Balls(256)
+"""The balls in which residuals are evaluated; they have more bits than the coefficients, because terms of
+residuals cancel.
+"""
+
+MOST = 3000
+"""The most conditions of one order that are evaluated; with more, the evaluation would take most of the time
+of ``emit``.
+"""
+
+
+def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:
+    """Return the largest residual of the conditions up to ``order`` at the coefficients in ``target``.
+
+    Every coefficient is rounded once to the target's format; otherwise as :func:`largest_residual`.
+
+    >>> from codegen.method import parse
+    >>> from codegen.ir.precision import DOUBLE, SINGLE
+    >>> from orderconds.families import get
+    >>> kutta = parse("rk:kutta3", ("rk",))
+    >>> [f"{rounded_residual(kutta, get('rk'), 3, target):.1e}" for target in (DOUBLE, SINGLE)]
+    ['5.6e-17', '3.0e-08']
+    """
+
+    def convert(x: Element) -> Element:
+        return RING.constant(Fraction(target.round(method.number(x))))
+
+    return largest_residual(method.tableau.over(RING, convert), family.converted(convert), order)
+
+
+def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
+    """Return an upper bound of the residuals of the conditions up to ``order``, by absolute value.
+
+    It is None if an order has more than :data:`MOST` conditions, and if a family divides by a coefficient
+    that may be zero.
+    """
+    coefficients = family.read(tableau.over(RING))
+    if coefficients is None:
+        return None
+    largest = Fraction(0)
+    for n in range(1, order + 1):
+        keys = tuple(islice(family.decisive_in_turn(n), MOST + 1))
+        if len(keys) > MOST:
+            return None
+        try:
+            residuals = family.residuals(coefficients, RING, tuple(condition() for _, condition in keys))
+        except ZeroDivisionError:
+            return None
+        largest = max([largest, *(abs(_fraction(end)) for x in residuals for end in endpoints(x.value))])
+    # The division rounds to the nearest double.
+    return float(largest)
+
+
+def _fraction(x: Element) -> Fraction:
+    return Fraction(int(x.p), int(x.q))
