@@ -466,6 +466,8 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
+    import numpy
+
     # The order of operations is that of the emitted code, so that doubles agree in every bit.
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
