@@ -96,7 +96,8 @@ class _Begun:
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]
-            reason += f"; take shorter steps, or emit with --solver {' or '.join(others)}"
+            options = f", or emit with --solver {' or '.join(others)}" if others else ""
+            reason += f"; take shorter steps{options}"
         return StepFailed(Status(status), step, like(self.state, state), reason)
 
 
