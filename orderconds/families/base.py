@@ -114,7 +114,7 @@ class Family(ABC):
     """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
     search."""
     equal_abscissae: ClassVar[bool] = False
-    """Whether the conditions of order three force abscissae of one stage to be equal
+    """Whether the conditions of order three force the different abscissae of each stage to be equal
     (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed; None: no limit."""

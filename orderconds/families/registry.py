@@ -150,7 +150,7 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        import_module(BUILT_IN[name])  # the import registers the family
+        import_module(BUILT_IN[name])  # importing the module registers the family
     kind = _registered.get(name) or _installed(name)
     if kind is None:
         import difflib

@@ -6,7 +6,7 @@ line through them has a valid interval from Student's distribution (batch means)
 
 A modulation that is slower than the blocks also has a slope, and its interval may exclude zero. A drift
 therefore also has to persist: the means over five consecutive parts of the record must be monotone. A
-sinusoid passes this test only if its period is longer than 1.6 records.
+sinusoid passes this test only if its period is longer than 1.2 records.
 
 The growth of a deviation may end, for example at a fixed point of the method. A line through the whole record
 then has the slope of the constant part. A record that saturates is therefore fitted before it saturates.
@@ -155,9 +155,8 @@ def fit(
     if count < FEWEST:
         return Drift(math.nan, math.nan, largest, math.nan, rounding)
     least = numpy.abs(y) if lows is None else numpy.array(lows, dtype=float)
-    least[1:][numpy.sign(y[1:]) * numpy.sign(y[:-1]) < 0] = (
-        0.0  # the deviation crosses zero between two samples
-    )
+    signs = numpy.sign(y)
+    least[1:][signs[1:] * signs[:-1] < 0] = 0.0  # the deviation crosses zero between two samples
     level = None if count < len(t) else saturation(size, least)
     until = None if level is None else float(t[level])
     if level is not None and level >= FEWEST:
@@ -182,7 +181,7 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
     """Return the drift of finite values; the caller sets ``largest``, ``rounding`` and ``until``."""
     whole, scale = float(t[-1]), float(size.max()) or 1.0
-    t, y, size = t / whole, y / scale, size / scale  # no overflow of squares
+    t, y, size = t / whole, y / scale, size / scale  # so that squares do not overflow
     slope, half = _slope(t, y)
     means = _means(t, y, PARTS)[1].tolist()
     early = float(size[: (len(size) + 1) // 2].max())

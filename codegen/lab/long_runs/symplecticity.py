@@ -70,14 +70,15 @@ def symplectic_defect(
     t: float = 0.0,
     near: list[list[float]] | None = None,
 ) -> float:
-    """Return the largest entry of J^T Omega(end) J - Omega(start), relative to that of Omega(start).
+    """Return the largest entry of J^T Omega(end) J - Omega(start) divided by the largest entry of
+    Omega(start).
 
     Entries are compared by absolute value.
 
     ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
     Implicit blocks are solved by fixed-point iteration. If it does not converge, Newton's method begins at
-    ``near``, the solutions of emitted code. :class:`NotConverged` if Newton's method does not converge
-    either.
+    ``near``, the solutions of emitted code. Raises :class:`NotConverged` if Newton's method does
+    not converge either.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)

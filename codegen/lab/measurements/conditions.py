@@ -90,7 +90,7 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names():
-            continue  # only the compiler defines this family; its conditions have no index sums
+            continue  # a family of the compiler only, without index sums
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
 

@@ -55,7 +55,7 @@ class Region:
 def region(method: Method) -> Region | None:
     """Return the linear stability of a method's tableau on R^n.
 
-    None for splitting methods, and for tableaux whose coefficients are not exact.
+    The result is None for splitting methods, and for tableaux whose coefficients are not exact.
     """
     tableau = method.tableau
     try:

@@ -18,7 +18,7 @@ from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.loader import StepFailed, load
 from codegen.run import solver_choice
 from codegen.run.execute import _inverted
-from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate
+from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate, is_linear
 from codegen.run.step_cost import Amounts, StepCost
 from codegen.scene import FieldScene
 from orderconds.errors import UnknownName
@@ -204,6 +204,7 @@ def test_an_unknown_solver_is_named_with_those_there_are():
 def test_a_robust_solver_may_not_take_many_times_as_long(monkeypatch):
     """With no price at all to be paid, the faster fixed point stays; the reason warns of longer steps."""
     monkeypatch.setattr(solver_choice, "PRICE", 1.0)
+    monkeypatch.setattr(solver_choice, "is_linear", lambda loop: False)
     choice, _ = chosen_from(heat(32, 20), monkeypatch)
     assert choice.solver == FIXED_POINT
     assert choice.reason.endswith("; does not converge in a step of 8 h: longer steps may fail")
@@ -248,3 +249,10 @@ def test_the_inverse_of_the_executor_is_that_of_emitted_code_in_every_bit():
         exact = max(abs(float(x) - y) / max(1.0, abs(y)) for x, y in zip(objects, given, strict=True))
         assert exact < 1e-9
     assert _inverted(2, [0.0] * 4) == 0
+
+
+def test_linear_equations_are_recognised():
+    assert is_linear(compile_method(heat(4, 1), "ambient:gauss2").kernel.loops[0])
+    assert is_linear(compile_method(heat(4, 1), "ambient:midpoint").kernel.loops[0])
+    for scene, method in (("dipole", "vcg:midpoint"), ("duffing", "ambient:gauss2")):
+        assert not is_linear(compiled(scene, method, FIXED_POINT).kernel.loops[0])

@@ -287,7 +287,7 @@ def test_table_2_1_is_reproduced():
     """Marthinsen's thesis: RKMK with theta = 0 drifts; the symplectic methods and theta = 1/2 do not."""
     methods = ("rkmk(0):euler", "rkmk(0):midpoint", "slgi:euler", "slgi:midpoint")
     options = [word for m in methods for word in ("-m", m)]
-    found = laws("heavy_top", *options, "--h", "0.05", "--steps", "5000")
+    found = laws("heavy_top", *options, "--h", "0.05", "--steps", "2500")
     energies = [found[m, "energy"] for m in methods]
     assert [e["drifts"] for e in energies] == [True, False, False, False]
     assert [e["law"] for e in energies] == ["lost", "bounded", "bounded", "bounded"]
@@ -322,7 +322,7 @@ def test_a_slow_drift_beside_a_large_oscillation_is_a_drift():
     assert found.law == "drift"
 
 
-@pytest.mark.parametrize("period", [300, 700, 1000, 1500])
+@pytest.mark.parametrize("period", [300, 700, 1000, 1190])
 @pytest.mark.parametrize("phase", [0.0, 0.8, math.pi / 2])
 def test_a_slow_modulation_is_no_drift(period, phase):
     found = law_of(
@@ -418,7 +418,7 @@ def test_a_quantity_near_zero_is_not_lost_by_rounding():
 def test_a_small_truncation_error_is_no_rounding():
     """A drift of 1e-12 in all is less than one rounding error a step, but the exact step has it as well."""
     oscillator = scene_of(lambda y: [y[1], -y[0]], [1, 1], {"energy": lambda y: y[0] ** 2 + y[1] ** 2})
-    h = 0.003  # RK4 loses h^6/72 of the energy in a step
+    h = 0.0045  # RK4 loses h^6/72 of the energy in a step
     run = long_run(compile_method(oscillator, "ambient:rk4"), h, 20_000, back=False)
     energy = kept(run, "energy").drift
     assert energy.largest < 20_000 * 2.0**-52
@@ -467,7 +467,7 @@ def test_a_defect_is_measured_where_fixed_point_iteration_diverges():
 
 
 def test_a_defect_that_is_not_measured_has_a_reason(monkeypatch):
-    def fail(*arguments):
+    def fail(*arguments, **options):
         raise NotConverged("stage 1 did not converge")
 
     monkeypatch.setattr("codegen.lab.long_runs.symplecticity.precise_step", fail)
