@@ -136,10 +136,12 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
 
 def show(result: Convergence | NotEmitted, first: bool) -> None:
     """Print the runs as a table with the verdict below it."""
+    from codegen.lab.orders.convergence import NotEmitted
+
     if not first:
         click.echo()
     click.echo(f"{result.method} on {result.scene}, {result.target}")
-    if result.failure:
+    if isinstance(result, NotEmitted):
         click.echo(f"  {result.sentence()}")
         return
     runs, clean = result.refinement.runs, result.refinement.clean

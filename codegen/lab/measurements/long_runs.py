@@ -36,7 +36,7 @@ class LongRuns(Measurement[Result]):
 
         def measure(m: CompiledMethod) -> LongRun:
             subject.progress(f"{scene.name}, {m.label}: {effort.steps} steps")
-            key = ("long", m.files, h, effort.steps, effort.back, effort.rounding)
+            key = ("long runs", m.files, h, effort.steps, effort.back, effort.rounding)
             return subject.cache.get(
                 key,
                 LongRun,

@@ -38,7 +38,6 @@ class Convergence:
     target: str
     stated: CertifiedOrder
     refinement: Refinement
-    failure = ""
 
     @property
     def observed(self) -> float | None:
