@@ -140,6 +140,10 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
             )
+    if output and path and Path(output).absolute().resolve() == Path(path).absolute().resolve():
+        raise InputError(
+            "the file of --output", where=f"--checkpoint {path}", expected="another file than --output"
+        )
     return Order(
         family,
         options["order"],

@@ -113,6 +113,8 @@ class Family(ABC):
     unknowns: ClassVar[str | None] = None
     """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
     search."""
+    symplectic: ClassVar[bool] = False
+    """Whether a search is restricted to tableaux with b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
     """Whether the conditions of order three force the different abscissae of each stage to be equal
     (:mod:`orderconds.solve.abscissae`)."""

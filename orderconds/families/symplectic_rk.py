@@ -45,6 +45,7 @@ class SymplecticFamily(Family):
     search_limit = 12
     low_order = "rk"
     unknowns = "rk"
+    symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent conditions of this order, one for each free tree that no edge divides into
