@@ -70,6 +70,10 @@ LARGE = 64
 """Above LARGE unknowns a trial has FEW_STEPS steps. It omits continuation in h: thousands of sweeps."""
 
 
+NONLINEAR = 2
+"""The degree of expressions that are not linear."""
+
+
 @dataclass(frozen=True)
 class Choice:
     """The solver of one block and the reason; ``compared`` has a sentence on each solver considered.
@@ -165,14 +169,11 @@ def is_linear(loop: Loop) -> bool:
     return all(_degree(image, degrees) <= 1 for image in loop.images)
 
 
-NONLINEAR = 2
-
-
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
     """Return the degree of an expression in the symbols that have a degree, at most NONLINEAR."""
-    found: dict[int, int] = {}
+    degree_of: dict[int, int] = {}
     for e in walk((root,)):
-        args = [found[a.id] for a in e.args]
+        args = [degree_of[a.id] for a in e.args]
         if e.op == "sym":
             degree = degrees.get(str(e.payload), 0)
         elif e.op in ("add", "sub", "neg"):
@@ -183,8 +184,8 @@ def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
             degree = args[0]
         else:
             degree = NONLINEAR if any(args) else 0
-        found[e.id] = min(degree, NONLINEAR)
-    return found[root.id]
+        degree_of[e.id] = min(degree, NONLINEAR)
+    return degree_of[root.id]
 
 
 class Candidate:

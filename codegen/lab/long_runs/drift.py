@@ -161,8 +161,8 @@ def fit(
     until = None if level is None else float(t[level])
     if level is not None and level >= FEWEST:
         count = level
-    found = replace(_fitted(t[:count], y[:count], size[:count]), largest=largest, rounding=rounding)
-    return replace(found, until=until)
+    fitted = _fitted(t[:count], y[:count], size[:count])
+    return replace(fitted, largest=largest, rounding=rounding, until=until)
 
 
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:

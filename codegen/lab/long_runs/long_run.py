@@ -200,7 +200,7 @@ def _before_saturation(
     start = early(steps)
     deviations, peaks, _ = start.series[name].relative(trajectory.scales[name])
     elapsed = [t - start.times[0] for t in start.times[1:]]
-    reached = next(k for k, x in enumerate(peaks) if x >= LEVEL * whole.largest)
+    reached = next((k for k, x in enumerate(peaks) if x >= LEVEL * whole.largest), len(peaks) - 1)
     count = max(reached + 1, FEWEST)
-    found = fit(elapsed[:count], deviations[:count], peaks[:count])
-    return replace(found, largest=whole.largest, rounding=whole.rounding, until=elapsed[reached])
+    growth = fit(elapsed[:count], deviations[:count], peaks[:count])
+    return replace(growth, largest=whole.largest, rounding=whole.rounding, until=elapsed[reached])

@@ -162,12 +162,12 @@ def converge(
         if steps
         else refine(run, runner.most_steps, to_rounding)
     )
-    found = Convergence(scene.name, runner.compiled.method.label, runner.target, stated, refinement)
+    result = Convergence(scene.name, runner.compiled.method.label, runner.target, stated, refinement)
     proved = stated.certificate not in UNPROVED
-    if found.observed is None or (found.verdict == "holds" and proved):
-        return found
+    if result.observed is None or (result.verdict == "holds" and proved):
+        return result
     short = order_of_short_steps(runner.compiled, stated.order)
-    return replace(found, refinement=replace(refinement, short=short))
+    return replace(result, refinement=replace(refinement, short=short))
 
 
 def _rung(scene: Problem, runner: Runner, exact: Reference, steps: int, size: float) -> Run:
