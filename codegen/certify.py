@@ -42,11 +42,12 @@ class CertifiedOrder:
     def text(self) -> str:
         """Return the order and its certificate for a header."""
         how = {
+            "construction": "a step is the Taylor polynomial of this degree",
             "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
-            "none": f"the uncertainty of the coefficients, {self.radius}, exceeds the rounding error of a double",
+            "none": f"the uncertainty of the coefficients, {self.radius}, exceeds the rounding error of doubles",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
@@ -114,6 +115,6 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    radius = uncertainty(method.tableau, DOUBLE_BITS)
+    radius = "" if method.coefficients is None else uncertainty(method.coefficients, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate
     return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

@@ -17,17 +17,18 @@ from typing import Any
 from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
+from codegen.error_estimate import order_of_estimate
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
-from codegen.kernel.operations import STEP, operations
-from codegen.kernel.schedule import arrange
+from codegen.kernel.operations import STEP, step_operations
+from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
-from codegen.lower import families_for, lower, lower_composed, problem_for
+from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
 from codegen.method import Method, parse
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
@@ -36,6 +37,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
+from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
@@ -77,11 +79,13 @@ class Compiled(Optimised):
     """A method on a scene, ready to be printed: the optimised program with its kernel.
 
     ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
+    ``form`` is the classical form whose equations ``scene`` contains, None for the equations as printed.
     """
 
     kernel: Kernel
     solvers: tuple[Choice, ...] = ()
     asked: str = AUTO
+    form: ClassicalForm | None = None
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -102,6 +106,7 @@ def compile_method(
     *,
     solver: str = AUTO,
     jacobian: bool = False,
+    form: str = PRINTED,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -109,8 +114,8 @@ def compile_method(
     parameters become constants with the scene's values. ``inputs`` are signals that become run-time inputs.
     ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
-    embedded method, ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName,
-    TableauError.
+    embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
+    scene (:mod:`codegen.scene.classical_forms`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -118,7 +123,8 @@ def compile_method(
         scene = with_runtime(scene, tuple(parameters))
     if inputs:
         scene = with_inputs(scene, tuple(inputs))
-    scene = with_frame(scene, frame)
+    chosen = find_form(scene, form) if form != PRINTED else None
+    scene = with_frame(scene if chosen is None else chosen.problem, frame)
     if isinstance(method, str):
         method = parse(method, families_for(scene))
     if adaptive:
@@ -126,10 +132,12 @@ def compile_method(
     problem = problem_for(scene, method)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
-    candidates = []
+    candidates, degree = [], lowering(method.family).degree(method)
+    estimated = order_of_estimate(method, scene) if method.adaptive and not degree else 0
     for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
-        kernel = fastest(program, problem)
-        candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel))
+        looped = looped_kernel(program, problem, degree) if degree else None
+        kernel = looped or fastest(program, problem)
+        candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel, form=chosen))
     best = min(candidates, key=lambda c: work(c.kernel))
     if known_solver(solver) and best.kernel.loops:
         kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
@@ -137,18 +145,19 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
-    embedded, estimate = method.embedded(), best.kernel.estimate
-    if embedded is None or estimate is None:
+    if degree and method.adaptive:
+        return replace(best, kernel=with_step_control(best.kernel, problem, degree))
+    estimate = best.kernel.estimate
+    if estimate is None:
         return best
-    order = 1 + min(certified_order(m, scene).order for m in (method, embedded))
-    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=order)))
+    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
 
 
 def work(kernel: Kernel) -> int:
     """Estimate the cost of a step in units of one addition. The operations of each block are counted SWEEPS
     times, all other operations once."""
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
-    for key, counts in operations(arrange(kernel)).items():
+    for key, counts in step_operations(kernel).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
         total += cost * (1 if key == STEP else sweeps)
     return total
@@ -167,6 +176,7 @@ def emit(
     adaptive: bool = False,
     solver: str = AUTO,
     jacobian: bool = False,
+    form: str = PRINTED,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -175,7 +185,8 @@ def emit(
     ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
     inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
     control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,
-    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. Errors: the errors of
+    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key
+    of a classical form of the scene, by default the equations as printed. Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -184,7 +195,7 @@ def emit(
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
     return emit_compiled(compiled, target, prefix, named, precision=precision)
 
@@ -204,7 +215,8 @@ def emit_compiled(
     of :func:`certified_order`, if the caller has computed it already.
     """
     scene, method = compiled.scene, compiled.method
-    named = named or {"scene": scene.name, "method": method.label}
+    own = scene if compiled.form is None else compiled.form.scene
+    named = named or {"scene": own.name, "method": method.label}
     body = scene.body_group is not None
     single = known_precision(precision) is not DOUBLE
     chosen = (
@@ -216,11 +228,12 @@ def emit_compiled(
     words += ["--target", target, *options, *options_of(compiled, precision), "-o", "."]
     recipe = recipe_of(compiled, order, " ".join(words), known_precision(precision))
     about = {
-        "scene": scene.name,
+        "scene": own.name,
+        **({} if compiled.form is None else {"form": compiled.form.key}),
         "method": method.label,
         "family": method.family_label,
-        "tableau": method.tableau.name,
-        "source": method.tableau.source,
+        "tableau": method.name,
+        "source": method.source,
         "order": order.order,
         "certificate": order.certificate,
         "initial": list(recipe.initial),
@@ -235,6 +248,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     """Return the options of the command that regenerates a module, except the prefix."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
+    options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
@@ -250,14 +264,17 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
+    # Without a tableau there are no coefficients that could be rounded.
+    tableau = method.coefficients is not None
+    digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
-            ("method", f"family {method.family_label}, tableau {method.tableau.name}"),
-            ("source", method.tableau.source),
+            ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
+            ("source", method.source),
             ("order", order.text()),
-            ("digits", rounding_of_digits(method, order, target, scene)),
-            ("scene", f"{scene.title}, group {scene.group.name}"),
+            *digits,
+            *scene_facts(compiled),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
@@ -296,7 +313,7 @@ def emit_kernel(
         "interface": interface.as_json(),
         "defaults": {p: float(recipe.defaults[p]) for p in interface.parameters if p in recipe.defaults},
         "files": {name: digest(text) for name, text in files.items()},
-        "operations": operations(arrange(kernel)),
+        "operations": step_operations(kernel),
         "state": [{"name": f.name, "symbols": list(f.symbols), "meaning": f.meaning} for f in kernel.state],
         "command": recipe.command,
         "version": recipe.version,
@@ -304,8 +321,23 @@ def emit_kernel(
     return Artifact(files, manifest)
 
 
+def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
+    """Return the lines of the header about the scene, and about the form of its equations."""
+    form = compiled.form
+    if form is None:
+        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"),)
+    return (
+        ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
+        ("form", f"{form.name}; {form.state}"),
+        *((("to scene", form.conversion),) if form.conversion else ()),
+    )
+
+
 def steps_of(kernel: Kernel) -> str:
     """Describe the step control of a run."""
+    if kernel.expansion is not None:
+        last = kernel.expansion.degree
+        return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
     assert kernel.estimate is not None
     return (
         f"constant, or chosen by a proportional-integral controller with an error estimate "
@@ -377,9 +409,10 @@ def default_prefix(scene: Problem, method: Method) -> str:
     A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
     """
     family = method.family + ("" if method.cutoff is None else str(method.cutoff))
-    tableau = method.tableau.name
-    parts = [scene.name, *([] if tableau.startswith(method.family) else [family]), tableau]
-    name = re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII)
+    tableau = method.name
+    named = bool(tableau) and tableau.startswith(method.family)
+    parts = [scene.name, *([] if named else [family]), tableau]
+    name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
     return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
 
 

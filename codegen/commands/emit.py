@@ -42,6 +42,11 @@ if TYPE_CHECKING:
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
 @click.option(
+    "--form",
+    default="printed",
+    help="Form of the equations: printed (the default), body-matrix, quaternion; see the header of the file.",
+)
+@click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
 @click.option(
@@ -72,6 +77,7 @@ def command(
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     frame: str,
+    form: str,
     jacobian: bool,
     adaptive: bool,
     precision: str,
@@ -81,6 +87,7 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
+    A warning is printed if no solver of an implicit method converges in the first steps of the example.
     Without -o no file is written; --explain or --json is then required and prints a description of the
     module.
     """
@@ -95,8 +102,9 @@ def command(
         known_target(name)
     known_precision(precision)
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
+    _warn(compiled, scene, method)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, object]] = []
     if explain and not as_json:
@@ -121,11 +129,17 @@ def command(
     return 0
 
 
+def _warn(compiled: Compiled, scene: str, method: str) -> None:
+    """Print a warning for each implicit block that no solver solves in the first steps of the example."""
+    for choice in compiled.solvers:
+        if not choice.converges:
+            click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
+
+
 def explanation(compiled: Compiled) -> str:
     """Return the program as lowered and after each pass, with operation counts, and the simplifications."""
     from codegen.emitter import left_out
-    from codegen.kernel.operations import operations, sentences
-    from codegen.kernel.schedule import arrange
+    from codegen.kernel.operations import sentences, step_operations
 
     parts = [f"# lowered: {counted(compiled.lowered.counts())}\n{compiled.lowered.text()}"]
     for report in compiled.trace:
@@ -134,7 +148,7 @@ def explanation(compiled: Compiled) -> str:
         added = f", added {came}" if came else ""
         parts.append(f"# {report.name}: removed {gone}{added}; remaining: {counted(report.after)}")
         parts.append(report.program.text())
-    costs = sentences(operations(arrange(compiled.kernel)))
+    costs = sentences(step_operations(compiled.kernel))
     parts.append("# kernel\n" + "".join(f"  {line}\n" for line in costs))
     functions = functions_of(compiled)
     if functions:

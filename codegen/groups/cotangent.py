@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import Coadjoint, CotangentBundle
+from codegen.groups.base import C, LieGroup
+from codegen.groups.capabilities import Coadjoint, CotangentBundle, Projection
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
 
-class Cotangent(CotangentBundle):
+class Cotangent(CotangentBundle, Projection):
     """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu); the coordinates of g come before the
     coordinates of mu.
 
@@ -75,6 +75,17 @@ class Cotangent(CotangentBundle):
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
         pairs = zip(self.base.adt(d, b, mu), a, strict=True)
         return b + tuple(x - y for x, y in pairs)
+
+    def offers(self, capability: type[C]) -> C | None:
+        """Return this group as a group with a capability; it has a projection only if the base group has
+        one."""
+        own = super().offers(capability)
+        return None if capability is Projection and self.base.offers(Projection) is None else own
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the pair g = (q, mu) with q projected onto the base group."""
+        q, mu = self._split(g)
+        return self.base.require(Projection).project(d, q) + mu
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the base group; the momentum may be any covector."""

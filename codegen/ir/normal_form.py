@@ -107,8 +107,8 @@ class NormalForms:
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
-                    # The argument is in normal form, so two calls of a function with equal arguments are the
-                    # same variable.
+                    # Arguments are in normal form, so calls of a function with equal arguments become one
+                    # variable.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value

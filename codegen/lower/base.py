@@ -58,6 +58,10 @@ class Lowering(ABC):
     This is false for a family that expands dexp^{-1} over the whole step.
     """
 
+    in_coordinates: ClassVar[bool] = False
+    """Whether the methods integrate the coordinates of the state, so that every classical form of a scene
+    (:mod:`codegen.scene.classical_forms`) suits them."""
+
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         return None
@@ -90,6 +94,13 @@ class Lowering(ABC):
         # symplectic() returns None if it cannot decide whether b_i a_ij + b_j a_ji = b_i b_j for all i, j.
         # The method counts as symplectic only if this is proved.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
+
+    def degree(self, method: Method) -> int:
+        """Return the degree of the Taylor polynomial that a step evaluates, 0 for other steps.
+
+        :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
+        """
+        return 0
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the family whose order conditions apply to the program; the conditions may depend on the

@@ -50,12 +50,14 @@ class Peer:
 
     ``controlled`` is ``"tolerance"`` or ``"steps"``. ``prepare(scene, control)`` returns a run over the span
     of the scene with this tolerance or number of steps. ``version`` is the name and version of the software.
+    A peer that ``projects`` needs the manifold of the scene.
     """
 
     name: str
     controlled: str
     prepare: Callable[[Problem, float], Prepared]
     version: str
+    projects: bool = False
 
 
 class PeerModule(Protocol):
@@ -71,7 +73,7 @@ PEERS = {
     "scipy-radau": ("solve_ivp", "scipy"),
     "scipy-radau-projected": ("solve_ivp", "scipy"),
     "scipy-lsoda": ("solve_ivp", "scipy"),
-    "heyoka": ("taylor", "heyoka"),
+    "heyoka": ("heyoka", "heyoka"),
     "diffrax": ("jax", "diffrax"),
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
