@@ -47,7 +47,7 @@ class CertifiedOrder:
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
-            "none": f"the uncertainty of the coefficients, {self.radius}, exceeds the rounding error of doubles",
+            "none": f"the uncertainty of the coefficients, {self.radius}, exceeds double precision",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
