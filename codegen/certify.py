@@ -47,7 +47,8 @@ class CertifiedOrder:
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
-            "none": f"the uncertainty of the coefficients, {self.radius}, exceeds double precision",
+            "none": f"the uncertainty of the coefficients is {self.radius}, "
+            "which is larger than the rounding error of a double",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""

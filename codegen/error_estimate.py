@@ -1,10 +1,11 @@
 """The order of the error estimate of an embedded method, compared with the order of the error.
 
-The estimate is the difference of the results of two rows. It is blind if it has a higher order than the local
-error, that is if both rows have the same leading error. RKMK methods with a small cut-off are an example: the
-same brackets are missing in both rows. If the orders of the rows differ, the estimate is not blind. Otherwise
-the orders of the estimate and of the local error are computed from very short steps in 100 digits. The local
-error is compared by the difference between one step of h and two steps of h/2.
+The estimate is the difference of the results of two rows. The estimate is called blind if it has a higher
+order than the local error, that is, if both rows have the same leading error term. RKMK methods with a small
+cut-off are an example: the same brackets are missing in both rows. If the orders of the rows differ, the
+estimate is not blind. Otherwise the orders of the estimate and of the local error are computed from very
+short steps in 100 digits. The local error is measured by the difference between one step of size h and two
+steps of size h/2.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from codegen.scene.problem import Problem
 
 DIGITS = 100
 SMALLEST = 60
-"""The shortest step makes a local error of about 10^-SMALLEST."""
+"""The local error in the shortest step is about 10^-SMALLEST."""
 
 RATIO = 8
 HIGHER = 0.5
@@ -37,7 +38,8 @@ State = tuple[Scalar, ...]
 def order_of_estimate(method: Method, scene: Problem) -> int:
     """Return the power of h in the error estimate of an adaptive method.
 
-    :class:`MethodError` if the method has no embedded row, or if the estimate is blind on the scene.
+    :class:`MethodError` is raised if the method has no embedded row, or if the estimate is blind on the
+    scene.
     """
     embedded = method.embedded()
     if embedded is None:
@@ -56,8 +58,8 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
     """Whether the difference of two rows has a higher order than the local error, from very short steps.
 
-    ``order`` is the order of both rows. A difference of zero is blind. If the steps cannot be computed, the
-    answer is False.
+    ``order`` is the order of both rows. An estimate that is always zero is blind. If the steps cannot be
+    computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
@@ -77,7 +79,8 @@ def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bo
 
 
 def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], float, float], State]:
-    """Return the step of a method in many digits, from a state and a time after the start of the span."""
+    """Return a function that computes a step of a method in many digits; the arguments are a state and a time
+    after the start of the span."""
     problem, program = problem_for(scene, method), lower(scene, method)
 
     def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
@@ -103,7 +106,8 @@ def _slope(gaps: Sequence[Scalar]) -> float:
 
 
 def _hint(method: Method, scene: Problem) -> str:
-    """Return a sentence with the smallest larger cut-off whose estimate is not blind."""
+    """Return a hint for the user that names the smallest larger cut-off for which the estimate is not
+    blind."""
     if method.cutoff is not None:
         for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):
             longer = replace(method, cutoff=cutoff)

@@ -1,7 +1,7 @@
 """A method: a family with a tableau, such as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or
 ``cf4``.
 
-A family without tableau is a method itself, as ``taylor(12)``.
+Some families need no tableau: ``taylor(12)`` is a method.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
-"""The label of a family, perhaps with a number, that may be a method without tableau."""
+"""The form of a label of a method without tableau: the name of a family, and a number in parentheses if
+necessary."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
@@ -61,7 +62,7 @@ class Method:
 
     @property
     def name(self) -> str:
-        """The name of the tableau, '' without one."""
+        """The name of the tableau; '' for a method without tableau."""
         return "" if self.coefficients is None else self.coefficients.name
 
     @property
@@ -76,7 +77,7 @@ class Method:
 
     @property
     def ring(self) -> Ring:
-        """The ring of the coefficients; those of a family without tableau are rational."""
+        """The ring of the coefficients; it is QQ for a family without tableau."""
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
@@ -183,7 +184,8 @@ def with_estimate() -> tuple[str, ...]:
 
 
 def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
-    """Return the method of a label such as ``taylor(12)``, None if a text is no label of such a family."""
+    """Return the method that a label such as ``taylor(12)`` names; None if the text names no family without
+    tableau."""
     match = ALONE.fullmatch(text.strip())
     if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
         return None
@@ -192,7 +194,7 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
             f"family {match['family']} on this scene", where=text, expected=f"one of {', '.join(families)}"
         )
     number = None if match["number"] is None else int(match["number"])
-    # The family checks its number: InputError for a number that is missing or out of range.
+    # The family raises an InputError for a number that is missing or out of range.
     get(text.strip()).degree_of_step()
     return Method(match["family"], None, number)
 

@@ -47,7 +47,7 @@ class LieGroup(ABC):
     abelian: bool = False
     layout: str = ""
     coordinates: ClassVar[str] = "coordinates"
-    """A noun for the coordinates of an element; classical forms of a scene are named by it."""
+    """A noun for the coordinates of an element. It is part of the names of classical forms of a scene."""
     provides: ClassVar[str] = "group operations"
     """A noun for the operations that a capability adds. It is part of the error message for a group without
     the capability."""

@@ -124,7 +124,8 @@ class BodyFrame(LeftTranslation):
 
     @abstractmethod
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x), each row computed from the same row of g, so that unused rows can be left out."""
+        """Return g exp(x). Each row is computed from the same row of g, so that rows that nothing reads need
+        not be computed."""
 
 
 class ClosedFormSeries(Coadjoint):
@@ -234,18 +235,18 @@ class Covered(LieGroup):
 
     @abstractmethod
     def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the element of the group below q, by the shortest polynomials; q satisfies the laws of the
-        cover."""
+        """Return the image of q under the covering map, by the shortest polynomials. They are valid for q
+        that satisfies the equations of the cover."""
 
     @abstractmethod
     def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
-        """Return the element of the group below the projection of q onto the cover; it satisfies the laws of
-        the group exactly."""
+        """Return the image, under the covering map, of q projected onto the cover. It satisfies the equations
+        of the group exactly."""
 
     @abstractmethod
     def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
-        """Return the element of the cover's algebra above x: the inverse of the derivative of the covering
-        map at e."""
+        """Return the element of the cover's algebra that the derivative of the covering map at e maps to
+        x."""
 
     @abstractmethod
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
@@ -257,7 +258,7 @@ class Covered(LieGroup):
 
     @abstractmethod
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return an element of the cover above g, by the formula with this number."""
+        """Return an element of the cover that the covering map maps to g, by the formula with this index."""
 
 
 class Rotations(MatrixElements):
@@ -326,7 +327,7 @@ class Projection(LieGroup):
 class DependentCoordinates(LieGroup):
     """Some coordinates of an element are functions of its other coordinates."""
 
-    provides: ClassVar[str] = "coordinates that the others determine"
+    provides: ClassVar[str] = "coordinates that its other coordinates determine"
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:

@@ -77,7 +77,7 @@ class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection)
         return x
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
-        """Return no relations."""
+        """Return no relations, because the coordinates are independent."""
         return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:

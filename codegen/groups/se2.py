@@ -92,7 +92,8 @@ class SE2(Coadjoint, PointMotions, Projection):
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g with (c, s) times 1 + e/2 + 3 e^2/8, e = 1 - c^2 - s^2, which leaves a defect O(e^3)."""
+        """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2; the error of c^2 +
+        s^2 = 1 is then O(e^3)."""
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

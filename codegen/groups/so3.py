@@ -233,7 +233,8 @@ class SO3(
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return the rows and the columns: each is the cross product of the next two."""
+        """Return the indices of the rows and of the columns. Each row is the cross product of the next two
+        rows, in cyclic order, and each column of the next two columns."""
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 
@@ -275,7 +276,8 @@ class SO3(
         return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
 
     def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
-        """Return the matrix with this diagonal; ``double`` is twice the imaginary part of q."""
+        """Return the rotation matrix of q with the given diagonal; ``double`` is twice the imaginary part of
+        q."""
         (w, x, y, _), (a, b, c) = q, double
         xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c
         return (diagonal[0], xy - wz, xz + wy, xy + wz, diagonal[1], yz - wx, xz - wy, yz + wx, diagonal[2])
@@ -285,7 +287,8 @@ class SO3(
         return tuple(d.rational(1, 2) * a for a in x)
 
     def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2 of the quaternions (w, x, y, z) above g."""
+        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2, where (w, x, y, z) is a unit quaternion whose rotation is
+        g."""
         one = d.rational(1)
         return (
             one + (g[0] + g[4] + g[8]),
@@ -295,7 +298,8 @@ class SO3(
         )
 
     def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
-        """Return the quaternion above g in which the component with the number ``formula`` is positive."""
+        """Return the unit quaternion whose rotation is g and whose component with the index ``formula`` is
+        positive."""
         root: S = d.call("sqrt", self.pivots(d, g)[formula])
         half = d.rational(1, 2)
         wx, wy, wz = g[7] - g[5], g[2] - g[6], g[3] - g[1]

@@ -186,7 +186,8 @@ class _Gathering:
         """Return (1/sqrt x)^n as 1/x^m for n = 2 m, or as 1/(x^m sqrt x) for n = 2 m + 1."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
-        # With y = 1/sqrt x: c collects the numeric factors of y^n, so the power that remains has none.
+        # Let y = 1/sqrt x. The variable c collects the numeric factors of y^n, so the power that remains has
+        # no numeric factor.
         c = Number.rational(1)
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()

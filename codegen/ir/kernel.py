@@ -115,8 +115,8 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # 512 rounding units, not one: rounding alone changes the unknowns by more than one unit, and by more the
-    # more terms a sweep has.
+    # 512 rounding units. One unit is too small, because the rounding errors of all terms of a sweep change
+    # the unknowns.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -246,17 +246,19 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial of the solution at a state: a step evaluates it, and a run may choose h from it.
+    """The Taylor polynomial of the solution at a state. A step evaluates it, and a run may choose the step
+    size h from its coefficients.
 
     The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
-    other. It is that of other coordinates than the state where ``enter`` computes them from the state;
-    ``leave`` computes the new state from the old one, followed by the new coordinates. Both are None where
-    there is nothing to compute.
+    other. If the polynomial is in other coordinates than the state, ``enter`` computes these coordinates from
+    the state, and ``leave`` computes the new state from the old state and the new coordinates. If nothing has
+    to be computed, ``enter`` or ``leave`` is None.
 
     With ``following`` the coefficients are computed in a loop over their order n
     (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values for
     all orders, and the coefficients 1. The outputs of ``following`` are the left and the right operands of
-    ``sums`` inner sums, and the coefficients n + 1. ``controlled`` asks for a run that chooses its steps.
+    ``sums`` inner sums, and the coefficients n + 1. If ``controlled`` is true, there is a run with step
+    control.
     """
 
     degree: int

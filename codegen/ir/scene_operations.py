@@ -133,7 +133,8 @@ class Bivector(OfGroup):
 
 @dataclass(frozen=True)
 class TaylorStep(Operation):
-    """The Taylor polynomial of a degree at y, evaluated after the time h; where ``timed``, at (y, t)."""
+    """The Taylor polynomial of the solution that begins at y, evaluated after the time h. If ``timed`` is
+    true, the arguments are y and t."""
 
     degree: int
     timed: bool = False
@@ -156,7 +157,7 @@ class TaylorStep(Operation):
 
 @dataclass(frozen=True)
 class ToOrbit(OfGroup):
-    """y moved back to the manifold that contains the second argument."""
+    """The first argument y, projected onto the manifold that contains the second argument."""
 
     name = "to_orbit"
     takes, gives = P + P, P

@@ -59,8 +59,8 @@ class Lowering(ABC):
     """
 
     in_coordinates: ClassVar[bool] = False
-    """Whether the methods integrate the coordinates of the state, so that every classical form of a scene
-    (:mod:`codegen.scene.classical_forms`) suits them."""
+    """Whether the methods integrate the coordinates of the state. Such methods accept every classical form of
+    a scene (:mod:`codegen.scene.classical_forms`)."""
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
@@ -96,7 +96,8 @@ class Lowering(ABC):
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def degree(self, method: Method) -> int:
-        """Return the degree of the Taylor polynomial that a step evaluates, 0 for other steps.
+        """Return the degree of the Taylor polynomial that a step evaluates, or 0 if a step evaluates no
+        Taylor polynomial.
 
         :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
         """

@@ -150,7 +150,7 @@ class Reference:
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
         """Yield results of the longest step and of shorter steps, in which more programs converge.
 
-        The steps begin at the initial state, or at one moved from it.
+        The steps begin at the initial state, or at a state near it.
         """
         state = _state(self.scene, FloatDomain(0.0), moved)
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.

@@ -30,7 +30,7 @@ from codegen.scene.problem import TIME, Problem, StateField
 from codegen.scene.values import Bindings
 
 PRINTED = "printed"
-"""The key of the form with the equations of the scene as printed."""
+"""The key of the form that contains the equations as the scene states them."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class ClassicalForm:
 
     @property
     def printed(self) -> bool:
-        """Whether the equations are those of the scene as printed."""
+        """Whether the form contains the equations as the scene states them."""
         return self.key == PRINTED
 
     def scene_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -68,8 +68,8 @@ class ClassicalForm:
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the forms of a scene: the equations as printed first, then each form that its group offers.
 
-    For the coordinates of the scene and for those of covers, the frame with fewer operations is taken: the
-    body frame for inertia that is fixed in the body, the space frame for inertia that is fixed in space.
+    For the coordinates of the scene and for those of covers, the frame with fewer operations is chosen: the
+    body frame for inertia that is fixed in the body, and the space frame for inertia that is fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -107,16 +107,16 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # In the frame of the scene and its own coordinates the equations are those as printed.
+        # Without a change of the frame or of the coordinates, the equations would be those of the first form.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
 
 @dataclass(frozen=True)
 class _Leaf:
-    """A factor of the group that is no product.
+    """A factor of the group that is no product itself.
 
-    ``symbols`` are its coordinates in the scene, ``own`` its coordinates in the form; ``at`` is the number of
+    ``symbols`` are its coordinates in the scene, ``own`` its coordinates in the form; ``at`` is the index of
     its first component in the Lie algebra. ``cover`` is None if the form has the coordinates of the scene.
     """
 
@@ -230,7 +230,8 @@ class _Change:
         problem, key = self.problem, self.key()
         to_scene, from_scene = self.to_scene(), self.from_scene()
         known = dict(zip(problem.symbols, to_scene, strict=True))
-        # The flow of a form may leave the manifold. Invariants are invariants of the state of the scene.
+        # The coordinates of a form may leave the manifold. The invariants are functions of the state of the
+        # scene.
         invariants = {name: self.evaluated((x,), known)[0] for name, x in problem.invariants.items()}
         constants = self.evaluated([e for block in problem.state for e in block.initial], {})
         initial = self.evaluated(from_scene, dict(zip(problem.symbols, constants, strict=True)))
@@ -293,7 +294,7 @@ class _Change:
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:
-        """Return formulas with ``known`` values of symbols; all other symbols stay."""
+        """Return formulas in which the symbols in ``known`` are replaced by their values."""
         space = self.domain.space
         values: Bindings = {n.payload: space.sym(n.payload) for n in walk(roots) if n.op == "sym"}
         return tuple(evaluate(roots, self.domain, values | known))
@@ -334,7 +335,8 @@ class _Change:
         return (*velocity, *force)
 
     def turned(self, leaf: _Leaf, roots: Sequence[Expr]) -> Vector[Expr]:
-        """Return the velocity of a factor in its body frame; without left translations, unchanged."""
+        """Return the velocity of a factor in its body frame; if the factor has no left translations, return
+        the velocity in space."""
         own = tuple(roots[leaf.at : leaf.at + leaf.group.dim])
         group = leaf.group.offers(LeftTranslation)
         if group is None:

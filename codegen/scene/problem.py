@@ -59,8 +59,8 @@ class Problem:
     not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same components
     with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code
     reads at run time. ``forced`` says that n is not a derivative of the Hamiltonian alone. If emitted code
-    reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution`` are the
-    coordinates that a Taylor step uses.
+    reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution`` contains the
+    coordinates in which a step of Taylor's method computes.
     """
 
     name: str

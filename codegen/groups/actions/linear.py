@@ -25,9 +25,10 @@ class Linear(Action):
         return matvec(group.exp(d, x), y) if rotations is None else rotations.rotate(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y with the length of ``start`` where the group keeps lengths; otherwise y.
+        """If the group preserves lengths, return y scaled to the length of ``start``; otherwise return y.
 
-        With e = 1 - (y.y)/(start.start), the factor 1 + e/2 + 3 e^2/8 leaves a defect O(e^3).
+        The factor is 1 + e/2 + 3 e^2/8 with e = 1 - (y.y)/(start.start), so the relative error of the length
+        is O(e^3).
         """
         if group.offers(Rotations) is None:
             return y
