@@ -110,7 +110,8 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # 512 rounding units: changes at rounding level grow with the number of terms in a sweep.
+    # 512 rounding units, not one: rounding alone changes the unknowns by more than one unit, and by more the
+    # more terms a sweep has.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None

@@ -106,7 +106,7 @@ class NormalForms:
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
-                    # The argument is in normal form, so a function of equal arguments is the same variable.
+                    # Arguments are in normal form, so calls with equal arguments become one variable.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value

@@ -54,7 +54,7 @@ class Family(ABC):
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """Whether the family divides by the weights b_i."""
+    """Whether formulas of the family divide by the weights b_i, which must then be non-zero."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` evaluates for a file without a claim. For a file with a claim,
     ``check`` evaluates at least one order beyond the claim."""
@@ -116,8 +116,8 @@ class Family(ABC):
     symplectic: ClassVar[bool] = False
     """Whether a search is restricted to tableaux with b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """Whether the conditions of order three force the different abscissae of each stage to be equal
-    (:mod:`orderconds.solve.abscissae`)."""
+    """Whether the conditions of order three force the three abscissae of each stage, c_i, chat_i and m_i, to
+    be equal (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed; None: no limit."""
 
@@ -416,6 +416,6 @@ def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> Non
             raise ZeroWeight(
                 f"b_{i} = {ring.text(weight)}" + (", which may be zero" if vanishes is None else ""),
                 where=f"family {label}",
-                expected="all weights b_i to be non-zero, because the family divides by them",
+                expected="all weights b_i to be non-zero, because formulas of the family divide by them",
                 hint="choose another family, or a tableau without zero weights",
             )

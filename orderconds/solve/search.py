@@ -70,8 +70,8 @@ BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
 class Batch:
     """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
 
-    The score is the principal error or, if the error costs too much, the largest coefficient. ``best`` is the
-    least residual norm of all starts.
+    The score is the principal error or, if the error costs too much to compute, the largest coefficient.
+    ``best`` is the least residual norm of all starts.
     """
 
     number: int

@@ -262,7 +262,7 @@ def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
             where=where,
             expected=f"an earlier stage, 1 to {before}"
             if before
-            else "no key named from, because there is no earlier stage",
+            else "no key 'from', because there is no earlier stage",
         )
 
 

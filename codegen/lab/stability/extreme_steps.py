@@ -173,7 +173,10 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
         exact, probed = _exact(compiled, runner, case)
     except (NotConverged, ArithmeticError, ValueError):
         return Answer(
-            case, UNSOLVED if compiled.kernel.loops else f"{WRONG}: a result, but the interpreter fails"
+            case,
+            UNSOLVED
+            if compiled.kernel.loops
+            else f"{WRONG}: the emitted code returns a result, the interpreter fails",
         )
     error, determined, explained = 0.0, math.inf, True
     for block in _blocks(compiled):

@@ -260,7 +260,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
-        # C has this loop, so no flag or break is needed.
+        # C has a do-while loop, so no flag or break is needed, unlike in Python.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)

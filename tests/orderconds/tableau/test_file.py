@@ -240,7 +240,7 @@ MALFORMED = {
     "stage from itself": (
         CF + '[[stage]]\nfrom = 1\n[update]\nexp = [["1"]]\n',
         "stage[1]: from = 1",
-        "no key named from",
+        "no key 'from'",
     ),
     "stage from a later one": (
         CF + '[[stage]]\n[[stage]]\nfrom = 2\n[update]\nexp = [["1"]]\n',
