@@ -51,6 +51,10 @@ class Family(ABC):
     """The description of the family in ``orderconds list families``, one line."""
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family reads, the preferred one first."""
+    has_tableau: ClassVar[bool] = True
+    """Whether a tableau determines a method; without one the label of the family does, as ``taylor(12)``."""
+    source: ClassVar[str] = ""
+    """The publication of a family without tableau."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
@@ -97,6 +101,8 @@ class Family(ABC):
     """Whether a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
     """Whether every method of the family preserves the energy exactly."""
+    controls_steps: ClassVar[bool] = False
+    """Whether step sizes follow from the coefficients of a step, without an embedded method."""
     takes_cutoff: ClassVar[bool] = False
     """Whether the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
     truncated."""
@@ -272,6 +278,17 @@ class Family(ABC):
         from orderconds.tableau.work import evaluations
 
         return evaluations(tableau)
+
+    def degree_of_step(self) -> int:
+        """Return the order of a family without tableau, which its label determines.
+
+        Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
+        """
+        raise InputError(f"the order of family {self.label()} depends on the tableau", expected="a tableau")
+
+    def stability_coefficients(self) -> tuple[Fraction, ...] | None:
+        """Return the ascending coefficients of the stability function of a family without tableau."""
+        return None
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the coefficients of the methods with ``stages`` stages, as unknowns of a search.

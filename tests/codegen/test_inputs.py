@@ -53,7 +53,8 @@ ELSEWHERE = {
 METHODS |= {
     family: cases[0].method
     for family, cases in CASES.items()
-    if family not in {*METHODS, *ELSEWHERE} and lowering(family).objection(gallery(SCENE)) is None
+    if family not in {*METHODS, *ELSEWHERE}
+    and lowering(family).objection(with_inputs(gallery(SCENE), TORQUES)) is None
 }
 
 

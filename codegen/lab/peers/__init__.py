@@ -71,7 +71,7 @@ PEERS = {
     "scipy-radau": ("solve_ivp", "scipy"),
     "scipy-radau-projected": ("solve_ivp", "scipy"),
     "scipy-lsoda": ("solve_ivp", "scipy"),
-    "heyoka": ("taylor", "heyoka"),
+    "heyoka": ("heyoka", "heyoka"),
     "diffrax": ("jax", "diffrax"),
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
