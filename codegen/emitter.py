@@ -36,6 +36,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
+from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
@@ -76,11 +77,13 @@ class Compiled(Optimised):
     """A method on a scene, ready to be printed: with the kernel.
 
     ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
+    ``form`` is the classical form whose equations ``scene`` contains, None for the equations as printed.
     """
 
     kernel: Kernel
     solvers: tuple[Choice, ...] = ()
     asked: str = AUTO
+    form: ClassicalForm | None = None
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
@@ -100,6 +103,7 @@ def compile_method(
     *,
     solver: str = AUTO,
     jacobian: bool = False,
+    form: str = PRINTED,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -107,8 +111,8 @@ def compile_method(
     parameters become constants with the scene's values. ``inputs`` are signals that become run-time inputs.
     ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
-    embedded method, ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName,
-    TableauError.
+    embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
+    scene (:mod:`codegen.scene.classical_forms`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -116,7 +120,8 @@ def compile_method(
         scene = with_runtime(scene, tuple(parameters))
     if inputs:
         scene = with_inputs(scene, tuple(inputs))
-    scene = with_frame(scene, frame)
+    chosen = find_form(scene, form) if form != PRINTED else None
+    scene = with_frame(scene if chosen is None else chosen.problem, frame)
     if isinstance(method, str):
         method = parse(method, families_for(scene))
     if adaptive:
@@ -128,7 +133,7 @@ def compile_method(
     for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
         looped = looped_kernel(program, problem, degree) if degree else None
         kernel = looped or fastest(program, problem)
-        candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel))
+        candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel, form=chosen))
     best = min(candidates, key=lambda c: work(c.kernel))
     if known_solver(solver) and best.kernel.loops:
         kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
@@ -167,6 +172,7 @@ def emit(
     adaptive: bool = False,
     solver: str = AUTO,
     jacobian: bool = False,
+    form: str = PRINTED,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -175,7 +181,8 @@ def emit(
     ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
     inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
     control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,
-    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. Errors: the errors of
+    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key
+    of a classical form of the scene, by default the equations as printed. Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -184,7 +191,7 @@ def emit(
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
     return emit_compiled(compiled, target, prefix, named, precision=precision)
 
@@ -204,7 +211,8 @@ def emit_compiled(
     of :func:`certified_order`, if the caller has computed it already.
     """
     scene, method = compiled.scene, compiled.method
-    named = named or {"scene": scene.name, "method": method.label}
+    own = scene if compiled.form is None else compiled.form.scene
+    named = named or {"scene": own.name, "method": method.label}
     body = scene.body_group is not None
     single = known_precision(precision) is not DOUBLE
     chosen = (
@@ -216,7 +224,8 @@ def emit_compiled(
     words += ["--target", target, *options, *options_of(compiled, precision), "-o", "."]
     recipe = recipe_of(compiled, order, " ".join(words), known_precision(precision))
     about = {
-        "scene": scene.name,
+        "scene": own.name,
+        **({} if compiled.form is None else {"form": compiled.form.key}),
         "method": method.label,
         "family": method.family_label,
         "tableau": method.name,
@@ -235,6 +244,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     """Return the options of the command that regenerates a module, except the prefix."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
+    options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
@@ -260,7 +270,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             ("source", method.source),
             ("order", order.text()),
             *digits,
-            ("scene", f"{scene.title}, group {scene.group.name}"),
+            *scene_facts(compiled),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
@@ -304,6 +314,18 @@ def emit_kernel(
         "version": recipe.version,
     }
     return Artifact(files, manifest)
+
+
+def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
+    """Return the lines of the header about the scene, and about the form of its equations."""
+    form = compiled.form
+    if form is None:
+        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"),)
+    return (
+        ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
+        ("form", f"{form.name}; {form.state}"),
+        *((("to scene", form.conversion),) if form.conversion else ()),
+    )
 
 
 def steps_of(kernel: Kernel) -> str:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
 @click.option("--target", help="A target (see orderconds list targets) or interpreter; by default c.")
+@click.option("--form", help="Form of the equations: printed (the default), body-matrix, quaternion.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
@@ -33,6 +34,7 @@ def command(
     scene: str | None,
     methods: tuple[str, ...],
     target: str | None,
+    form: str | None,
     steps: tuple[str, ...],
     digits: int | None,
     protocol: str | None,
@@ -46,14 +48,15 @@ def command(
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
-    if scene is None and (steps or target is not None or digits is not None):
+    chosen = (target, form, digits)
+    if scene is None and (steps or any(option is not None for option in chosen)):
         raise click.UsageError(
-            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits"
+            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits, --form"
         )
     results = (
         _by_protocol(methods, stated, as_json)
         if scene is None
-        else _on_scene(scene, methods, target, steps, digits or 16, stated, as_json)
+        else _on_scene(scene, methods, target, form, steps, digits or 16, stated, as_json)
     )
     if as_json:
         print_json([result.as_json() for result in results])
@@ -64,6 +67,7 @@ def _on_scene(
     scene: str,
     methods: tuple[str, ...],
     target: str | None,
+    form: str | None,
     steps: tuple[str, ...],
     digits: int,
     stated: int | None,
@@ -76,24 +80,27 @@ def _on_scene(
     from codegen.lower import families_for
     from codegen.method import parse
     from codegen.printers import DEFAULT
+    from codegen.scene.classical_forms import PRINTED, find_form
     from codegen.scenes import load
 
     prescribed = read_steps(steps)
     problem = load(scene)
-    chosen = [parse(name, families_for(problem)) for name in methods]
+    coordinates = find_form(problem, form) if form not in (None, PRINTED) else None
+    equations = problem if coordinates is None else coordinates.problem
+    chosen = [parse(name, families_for(equations)) for name in methods]
     with working("order conditions") as progress:
         held = None if stated is None else CertifiedOrder(stated, "stated")
-        pairs = [(method, held or certified_order(method, problem)) for method in chosen]
+        pairs = [(method, held or certified_order(method, equations)) for method in chosen]
         progress("compiling")
         runners = [
-            (runner(problem, method, target or DEFAULT, digits, order), order) for method, order in pairs
+            (runner(equations, method, target or DEFAULT, digits, order), order) for method, order in pairs
         ]
         progress("reference solution")
         exact = cached_reference(problem)
     results: list[Convergence] = []
     for run, order in runners:
         with working(f"running {run.compiled.method.label}"):
-            results.append(converge(run, order, exact, steps=prescribed))
+            results.append(converge(run, order, exact, steps=prescribed, form=coordinates))
         if not as_json:
             show(results[-1], first=len(results) == 1)
     return results

@@ -40,6 +40,11 @@ if TYPE_CHECKING:
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
 @click.option(
+    "--form",
+    default="printed",
+    help="Form of the equations: printed (the default), body-matrix, quaternion; see the header of the file.",
+)
+@click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
 @click.option(
@@ -70,6 +75,7 @@ def command(
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     frame: str,
+    form: str,
     jacobian: bool,
     adaptive: bool,
     precision: str,
@@ -93,7 +99,7 @@ def command(
         known_target(name)
     known_precision(precision)
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, object]] = []

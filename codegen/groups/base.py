@@ -46,6 +46,8 @@ class LieGroup(ABC):
     size: int
     abelian: bool = False
     layout: str = ""
+    coordinates: ClassVar[str] = "coordinates"
+    """A noun for the coordinates of an element; classical forms of a scene are named by it."""
     provides: ClassVar[str] = "group operations"
     """A noun for the operations that a capability adds; the message about a group without the capability
     contains it."""

@@ -98,10 +98,11 @@ class RightTrivialisation(LieGroup):
         """Return x in the algebra with v = x.g, for a tangent vector v at g: rate(velocity(x, g), g) = x."""
 
 
-class BodyFrame(Coadjoint):
-    """Left translations and the equations of the group; a Hamiltonian in the body frame needs both."""
+class LeftTranslation(Coadjoint):
+    """Left translations and the equations of the group; velocities and momenta in the body frame need
+    both."""
 
-    provides: ClassVar[str] = "body frame"
+    provides: ClassVar[str] = "left translation of velocities"
 
     @abstractmethod
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
@@ -112,12 +113,18 @@ class BodyFrame(Coadjoint):
         """Return g.x, the derivative of g exp(eps x) at eps = 0: velocity(Ad_g x, g)."""
 
     @abstractmethod
-    def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x), each row computed from the same row of g, so that unused rows can be left out."""
-
-    @abstractmethod
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return Ad_{g^-1} x, the inverse of Ad_g."""
+
+
+class BodyFrame(LeftTranslation):
+    """Steps in the body frame, q exp(x); the passes of the compiler that derive them need this capability."""
+
+    provides: ClassVar[str] = "body frame"
+
+    @abstractmethod
+    def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g exp(x), each row computed from the same row of g, so that unused rows can be left out."""
 
 
 class ClosedFormSeries(Coadjoint):
@@ -180,6 +187,7 @@ class MatrixElements(MatrixRepresentation):
     """
 
     provides: ClassVar[str] = "matrix elements"
+    coordinates: ClassVar[str] = "matrix"
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g."""
@@ -206,6 +214,50 @@ class MatrixElements(MatrixRepresentation):
         from sympy import Matrix
 
         return Matrix(self.order, self.order, self.symbols(name))
+
+
+class Covered(LieGroup):
+    """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
+
+    The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
+    cover. ``covering_formula`` states the covering map for the header of emitted code; q is an element of the
+    cover, g the element of the group.
+    """
+
+    provides: ClassVar[str] = "covering group"
+    covering_formula: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def cover(self) -> LeftTranslation:
+        """The covering group."""
+
+    @abstractmethod
+    def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the element of the group below q, by the shortest polynomials; q satisfies the laws of the
+        cover."""
+
+    @abstractmethod
+    def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the element of the group below the projection of q onto the cover; it satisfies the laws of
+        the group exactly."""
+
+    @abstractmethod
+    def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the element of the cover's algebra above x: the inverse of the derivative of the covering
+        map at e."""
+
+    @abstractmethod
+    def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return a number for each formula of :meth:`lift`: the formula is valid where its number is
+        positive.
+
+        Every g has a positive pivot, and the formula with the largest pivot has the smallest rounding error.
+        """
+
+    @abstractmethod
+    def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
+        """Return an element of the cover above g, by the formula with this number."""
 
 
 class Rotations(MatrixElements):

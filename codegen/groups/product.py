@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
-from codegen.groups.capabilities import Coadjoint, DirectProduct, Projection, RightTrivialisation
+from codegen.groups.capabilities import (
+    Coadjoint,
+    DirectProduct,
+    LeftTranslation,
+    Projection,
+    RightTrivialisation,
+)
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
+from codegen.ir.normal_form import Relation
 
 if TYPE_CHECKING:
     import sympy
 
 
-class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
+class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
@@ -91,6 +98,23 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{g^-1} mu of each factor."""
         return self._each(Coadjoint, lambda f, a, m: f.Adtinv(d, a, m), g, mu)
+
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return Ad_{g^-1} x of each factor."""
+        return self._each(LeftTranslation, lambda f, a, b: f.Adinv(d, a, b), g, x)
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g.x of each factor."""
+        return self._each(LeftTranslation, lambda f, a, b: f.left_velocity(d, a, b), g, x)
+
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return the relations of every factor."""
+        ends = accumulate(f.size for f in self.factors)
+        return tuple(
+            relation
+            for f, end in zip(self.factors, ends, strict=True)
+            for relation in f.require(LeftTranslation).relations(q[end - f.size : end])
+        )
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu of each factor."""

@@ -8,6 +8,7 @@ from codegen.groups.ad_polynomial import ad_polynomial
 from codegen.groups.capabilities import (
     BodyFrame,
     ClosedFormSeries,
+    Covered,
     DependentCoordinates,
     Projection,
     RightTrivialisation,
@@ -15,13 +16,22 @@ from codegen.groups.capabilities import (
     Term,
 )
 from codegen.groups.linear_algebra import S, Vector, cross, dot, matmul, matvec
+from codegen.groups.s3 import S3
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
 
 
-class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projection, DependentCoordinates):
+class SO3(
+    Rotations,
+    BodyFrame,
+    Covered,
+    ClosedFormSeries,
+    RightTrivialisation,
+    Projection,
+    DependentCoordinates,
+):
     """Rotations of R^3: a matrix row by row; the hat map and the dot product identify so(3) and so(3)* with
     R^3.
 
@@ -35,6 +45,7 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
 
     name, layout = "SO(3)", ", row by row"
     dim, size = 3, 9
+    covering_formula = "g x = q (0, x) q^c / |q|^2 for a quaternion q, real part first, and its conjugate q^c"
 
     def __init__(self, dependent: int | None = None) -> None:
         self.dependent = dependent
@@ -242,3 +253,51 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
         """Return the vector of a skew matrix."""
         return (matrix[7], matrix[2], matrix[3])
+
+    @property
+    def cover(self) -> S3:
+        """The unit quaternions."""
+        return S3()
+
+    def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the matrix of x -> q (0, x) q^c for a unit quaternion q."""
+        one, double = d.rational(1), tuple(d.rational(2) * a for a in q[1:])
+        squares = tuple(a * b for a, b in zip(double, q[1:], strict=True))
+        diagonal = (one - (squares[1] + squares[2]), one - (squares[0] + squares[2]))
+        return self._covering((*diagonal, one - (squares[0] + squares[1])), q, double)
+
+    def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the matrix of x -> q (0, x) q^c / |q|^2."""
+        (w, x, y, z), length = (a * a for a in q), dot(q, q)
+        diagonal = ((w + x) - (y + z), (w + y) - (x + z), (w + z) - (x + y))
+        return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
+
+    def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
+        """Return the matrix with this diagonal; ``double`` is twice the imaginary part of q."""
+        (w, x, y, _), (a, b, c) = q, double
+        xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c
+        return (diagonal[0], xy - wz, xz + wy, xy + wz, diagonal[1], yz - wx, xz - wy, yz + wx, diagonal[2])
+
+    def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return x/2: exp(x/2) is a quaternion of half the angle."""
+        return tuple(d.rational(1, 2) * a for a in x)
+
+    def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2 of the quaternions (w, x, y, z) above g."""
+        one = d.rational(1)
+        return (
+            one + (g[0] + g[4] + g[8]),
+            one + (g[0] - g[4] - g[8]),
+            one + (g[4] - g[0] - g[8]),
+            one + (g[8] - g[0] - g[4]),
+        )
+
+    def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
+        """Return the quaternion above g in which the component with the number ``formula`` is positive."""
+        root: S = d.call("sqrt", self.pivots(d, g)[formula])
+        half = d.rational(1, 2)
+        wx, wy, wz = g[7] - g[5], g[2] - g[6], g[3] - g[1]
+        xy, xz, yz = g[1] + g[3], g[2] + g[6], g[5] + g[7]
+        products: tuple[Vector[S], ...] = ((wx, wy, wz), (wx, xy, xz), (wy, xy, yz), (wz, xz, yz))
+        others = tuple(half * a / root for a in products[formula])
+        return (*others[:formula], half * root, *others[formula:])

@@ -124,7 +124,7 @@ class _Loop:
                 missing = [x for x in _operands(series) if id(x) not in self.known]
                 waiting += missing
                 if not missing:
-                    self.known[id(series)] = self.made(series)
+                    self.known[id(series)] = self.built(series)
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
@@ -160,7 +160,7 @@ class _Loop:
         """Return the sum of a_j b_{n-j} over 0 < j <= n, for a series b whose coefficient n is not known."""
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
-    def made(self, series: Series) -> Expr:
+    def built(self, series: Series) -> Expr:
         """Return coefficient n of a series from those of its operands."""
         space = self.space
         match series:

@@ -58,7 +58,7 @@ class _Builder:
                 waiting += missing
                 continue
             if node.id not in self.known:
-                self.known[node.id] = self.made(node)
+                self.known[node.id] = self.built(node)
             waiting.pop()
         return self.known[root.id]
 
@@ -112,7 +112,7 @@ class _Builder:
         # A positive integer is left to products, as their coefficients need no division by x.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
-    def made(self, node: Expr) -> Series:
+    def built(self, node: Expr) -> Series:
         """Return the series of a node whose operands have theirs."""
         domain = self.domain
         number, base, exponent = self.monomial(node)
@@ -126,8 +126,8 @@ class _Builder:
             case "const":
                 return Given(domain, domain.number(node.payload))
             case "sym":
-                found = self.series.get(node.payload)
-                return found if found is not None else Given(domain, self.values[node.payload])
+                known = self.series.get(node.payload)
+                return known if known is not None else Given(domain, self.values[node.payload])
             case "add" | "sub":
                 return Sum(domain, arg(0), arg(1), node.op == "sub")
             case "mul":

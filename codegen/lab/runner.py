@@ -53,6 +53,11 @@ class Interpreted:
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
+    def domain(self) -> Domain:
+        """The domain of the numbers of a state."""
+        return FloatDomain(0.0) if self.digits <= DOUBLE else PreciseDomain(0, self.digits)
+
+    @cached_property
     def problem(self) -> Problem:
         """The scene in the form that the family of the method integrates."""
         return problem_for(self.compiled.scene, self.compiled.method)
@@ -98,6 +103,7 @@ class Emitted:
     target: str = printers.DEFAULT
     order: CertifiedOrder | None = None
     epsilon = 2.0**-52
+    domain = FloatDomain(0.0)
 
     @property
     def most_steps(self) -> int:

@@ -17,6 +17,7 @@ class Ambient(Lowering):
 
     family = "ambient"
     repeats_substeps = True
+    in_coordinates = True
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state; it has no group."""

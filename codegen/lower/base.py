@@ -56,6 +56,10 @@ class Lowering(ABC):
     This is false for a family that expands dexp^{-1} over the whole step.
     """
 
+    in_coordinates: ClassVar[bool] = False
+    """Whether the methods integrate the coordinates of the state, so that every classical form of a scene
+    (:mod:`codegen.scene.classical_forms`) suits them."""
+
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         return None

@@ -31,6 +31,7 @@ class Taylor(Lowering):
     """
 
     family = "taylor"
+    in_coordinates = True
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return why scenes with run-time inputs are not taken."""

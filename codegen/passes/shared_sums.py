@@ -26,7 +26,7 @@ one."""
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
-        # Each round searches for combinations anew, because a value computed in this round may be a term of a
+        # Each round searches again for combinations, because a value of this round may be a term of a
         # further combination.
         wanted = _worthwhile(program)
         if not wanted:

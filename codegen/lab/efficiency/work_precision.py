@@ -31,6 +31,7 @@ NEAR_ROUNDING = 1e-9
 class Row:
     """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step size.
 
+    ``form`` is the name of the classical form of the equations, '' if the scene has one form only.
     ``seconds`` is the least CPU time of several batches. ``spread`` is the largest CPU time divided by the
     least, minus 1. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; None if they
     are not counted. ``failure`` is the reason if the run failed, else ''.
@@ -52,6 +53,7 @@ class Row:
     emit_seconds: float = 0.0
     compile_seconds: float = 0.0
     failure: str = ""
+    form: str = ""
 
     def as_json(self) -> dict[str, str | float | int | None]:
         """Return plain data."""
@@ -59,11 +61,15 @@ class Row:
 
 
 class Candidate(Protocol):
-    """A method or peer to measure: ``label`` and ``target`` name it; ``key`` identifies its code."""
+    """A method or peer to measure: ``label`` and ``target`` name it; ``key`` identifies its code.
+
+    ``form`` is the name of the form of the equations; '' if the scene has one form only.
+    """
 
     label: str
     target: str
     key: str
+    form: str
 
     def controls(self) -> Iterator[float]:
         """Yield numbers of steps or tolerances, from coarse to fine."""
@@ -100,7 +106,8 @@ def measure_rows(
                 if not ready:
                     candidate.prepare()
             except (InputError, ArithmeticError) as error:
-                row = Row(scene, candidate.label, candidate.target, control, failure=str(error))
+                names = (scene, candidate.label, candidate.target)
+                row = Row(*names, control, failure=str(error), form=candidate.form)
                 return (*rows, row)
             ready = True
             row = candidate.measure(control)
@@ -120,6 +127,7 @@ class Refused:
     target: str
     reason: str
     key: str = ""
+    form: str = ""
 
     def controls(self) -> Iterator[float]:
         """Yield one control, for the row with the reason."""

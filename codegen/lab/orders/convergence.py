@@ -18,6 +18,7 @@ from codegen.lab.distance import distance
 from codegen.lab.orders.step_sizes import CLEAR, Refinement, Run, refine, rounding
 from codegen.lab.reference import Reference
 from codegen.lab.runner import RunFailed, Runner
+from codegen.scene.classical_forms import ClassicalForm
 from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
@@ -90,31 +91,44 @@ def converge(
     *,
     steps: Sequence[int] = (),
     to_rounding: bool = False,
+    form: ClassicalForm | None = None,
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return its convergence.
 
     ``steps`` prescribes the numbers of steps. By default the first run has five steps, and each next run has
     twice the number. The last run is the one after which the slopes have settled (with ``to_rounding``: after
-    which rounding dominates), or the longest run that ``runner.most_steps`` permits.
+    which rounding dominates), or the longest run that ``runner.most_steps`` permits. ``form`` is the
+    classical form of the equations that ``runner`` integrates; errors are measured on the state of the scene.
     """
-    scene = runner.compiled.scene
+    scene = runner.compiled.scene if form is None else form.scene
+    label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"
     size = math.hypot(*(float(x) for x in exact.state))
 
     def run(n: int) -> Run:
-        return _rung(scene, runner, exact, n, size)
+        return _rung(scene, runner, exact, n, size, form)
 
     refinement = (
         Refinement(tuple(run(n) for n in sorted(steps)))
         if steps
         else refine(run, runner.most_steps, to_rounding)
     )
-    return Convergence(scene.name, runner.compiled.method.label, runner.target, stated, refinement)
+    return Convergence(scene.name, label, runner.target, stated, refinement)
 
 
-def _rung(scene: Problem, runner: Runner, exact: Reference, steps: int, size: float) -> Run:
+def _rung(
+    scene: Problem,
+    runner: Runner,
+    exact: Reference,
+    steps: int,
+    size: float,
+    form: ClassicalForm | None,
+) -> Run:
     h = float(Fraction(scene.span[1] - scene.span[0]) / steps)
     try:
-        error = distance(scene, runner.final(steps), exact.state)
+        state = runner.final(steps)
+        if form is not None:
+            state = form.scene_state(runner.domain, state)
+        error = distance(scene, state, exact.state)
     except RunFailed as failure:
         return Run(steps, h, math.inf, f"no run: {failure}")
     if not math.isfinite(error):
