@@ -17,6 +17,7 @@ from typing import Any
 from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
+from codegen.error_estimate import order_of_estimate
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
@@ -130,6 +131,7 @@ def compile_method(
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
+    estimated = order_of_estimate(method, scene) if method.adaptive and not degree else 0
     for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
         looped = looped_kernel(program, problem, degree) if degree else None
         kernel = looped or fastest(program, problem)
@@ -143,11 +145,10 @@ def compile_method(
         best = replace(best, kernel=replace(best.kernel, vary=vary))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
-    embedded, estimate = method.embedded(), best.kernel.estimate
-    if embedded is None or estimate is None:
+    estimate = best.kernel.estimate
+    if estimate is None:
         return best
-    order = 1 + min(certified_order(m, scene).order for m in (method, embedded))
-    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=order)))
+    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
 
 
 def work(kernel: Kernel) -> int:

@@ -18,6 +18,7 @@ from typing import Any
 
 from codegen.artifact import Artifact, read
 from codegen.build import build
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.printers import target as known_target
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
@@ -28,6 +29,10 @@ State = Any
 
 Signals = Callable[[float], Sequence[float]]
 """A function from the time to the run-time inputs."""
+
+
+SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
+"""The solvers of implicit blocks, the most robust first."""
 
 
 class Status(IntEnum):
@@ -82,9 +87,17 @@ class _Begun:
     values: list[float]
     inputs: Signals | None = None
     statistics: Statistics | None = None
+    solvers: tuple[str, ...] = ()
 
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
-        """Return the error of a failed step; its state has the type of the caller's state."""
+        """Return the error of a failed step; its state has the type of the caller's state.
+
+        If an implicit block did not converge, the message names the other solvers.
+        """
+        if status == Status.NOT_CONVERGED:
+            others = [s for s in SOLVERS if s not in self.solvers]
+            options = f", or emit with --solver {' or '.join(others)}" if others else ""
+            reason += f"; take shorter steps{options}"
         return StepFailed(Status(status), step, like(self.state, state), reason)
 
 
@@ -192,7 +205,7 @@ class Integrator(ABC):
         if bool(self.interface.inputs) != (inputs is not None):
             raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
         held = None if inputs is None else [float(x) for x in inputs]
-        begun = _Begun(state, self._numbers(state), self._values(parameters))
+        begun = _Begun(state, self._numbers(state), self._values(parameters), solvers=self.interface.solvers)
         return like(state, self._derive(begun, t, h, held))
 
     def _begin(
@@ -207,7 +220,14 @@ class Integrator(ABC):
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
-        return _Begun(state, self._numbers(state), self._values(parameters), inputs, statistics)
+        return _Begun(
+            state,
+            self._numbers(state),
+            self._values(parameters),
+            inputs,
+            statistics,
+            self.interface.solvers,
+        )
 
     def _checked_count(self, steps: int) -> int:
         count = operator.index(steps)

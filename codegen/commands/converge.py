@@ -11,7 +11,7 @@ from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
 if TYPE_CHECKING:
-    from codegen.lab.orders.convergence import Convergence
+    from codegen.lab.orders.convergence import Convergence, NotEmitted
 
 
 @click.command("converge", cls=Variadic)
@@ -43,6 +43,8 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
+    A method that cannot be emitted for the scene has a row with the reason.
+
     The exit status is 0 if every observed order equals the stated order, 1 if an order differs or is
     undecided.
     """
@@ -72,11 +74,11 @@ def _on_scene(
     digits: int,
     stated: int | None,
     as_json: bool,
-) -> list[Convergence]:
+) -> list[Convergence | NotEmitted]:
     from codegen.certify import CertifiedOrder, certified_order
-    from codegen.lab.orders.convergence import converge
+    from codegen.lab.orders.convergence import NotEmitted, converge
     from codegen.lab.reference import cached_reference
-    from codegen.lab.runner import runner
+    from codegen.lab.runner import check_target, runner
     from codegen.lower import families_for
     from codegen.method import parse
     from codegen.printers import DEFAULT
@@ -88,30 +90,33 @@ def _on_scene(
     coordinates = find_form(problem, form) if form not in (None, PRINTED) else None
     equations = problem if coordinates is None else coordinates.problem
     chosen = [parse(name, families_for(equations)) for name in methods]
-    with working("order conditions") as progress:
-        held = None if stated is None else CertifiedOrder(stated, "stated")
-        pairs = [(method, held or certified_order(method, equations)) for method in chosen]
-        progress("compiling")
-        runners = [
-            (runner(equations, method, target or DEFAULT, digits, order), order) for method, order in pairs
-        ]
-        progress("reference solution")
+    check_target(target or DEFAULT, digits)
+    with working("reference solution"):
         exact = cached_reference(problem)
-    results: list[Convergence] = []
-    for run, order in runners:
-        with working(f"running {run.compiled.method.label}"):
-            results.append(converge(run, order, exact, steps=prescribed, form=coordinates))
+    held = None if stated is None else CertifiedOrder(stated, "stated")
+    results: list[Convergence | NotEmitted] = []
+    for method in chosen:
+        with working(f"compiling {method.label}") as progress:
+            try:
+                order = held or certified_order(method, equations)
+                run = runner(equations, method, target or DEFAULT, digits, order)
+                progress(f"running {method.label}")
+                results.append(converge(run, order, exact, steps=prescribed, form=coordinates))
+            except (InputError, ArithmeticError) as error:
+                results.append(NotEmitted(problem.name, method.label, target or DEFAULT, str(error)))
         if not as_json:
             show(results[-1], first=len(results) == 1)
     return results
 
 
-def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) -> list[Convergence]:
+def _by_protocol(
+    methods: tuple[str, ...], stated: int | None, as_json: bool
+) -> list[Convergence | NotEmitted]:
     from codegen.lab.orders.strict_protocol import stated_order, strict
     from codegen.lower import names
     from codegen.method import parse
 
-    results: list[Convergence] = []
+    results: list[Convergence | NotEmitted] = []
     for method in [parse(name, names()) for name in methods]:
         with counting(f"{method.label}") as done:
             for result in strict(method, stated_order(method, stated), done):
@@ -135,11 +140,16 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
     return sorted({int(word) for word in words})
 
 
-def show(result: Convergence, first: bool) -> None:
+def show(result: Convergence | NotEmitted, first: bool) -> None:
     """Print the runs as a table with the verdict below it."""
+    from codegen.lab.orders.convergence import NotEmitted
+
     if not first:
         click.echo()
     click.echo(f"{result.method} on {result.scene}, {result.target}")
+    if isinstance(result, NotEmitted):
+        click.echo(f"  {result.sentence()}")
+        return
     runs, clean = result.refinement.runs, result.refinement.clean
     slopes = dict(zip((r.steps for r in clean[1:]), result.refinement.slopes, strict=True))
     rows = [

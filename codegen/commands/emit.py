@@ -85,6 +85,7 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
+    A warning is printed if no solver of an implicit method converges in the first steps of the example.
     Without -o no file is written; --explain or --json is then required and prints a description of the
     module.
     """
@@ -101,6 +102,9 @@ def command(
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
+    for choice in compiled.solvers:
+        if not choice.converges:
+            click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, object]] = []
     if explain and not as_json:

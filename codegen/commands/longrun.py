@@ -88,7 +88,7 @@ def show(run: LongRun) -> None:
             f"{kept.drift.largest:.2e}",
             f"{kept.drift.slope:+.1e} ± {kept.drift.half_width:.0e}",
             f"{kept.drift.exponent:.2f}",
-            kept.drift.law,
+            kept.drift.law + ("" if (t := kept.drift.until) is None else f", saturates at t = {t:.3g}"),
         ]
         for kept in run.kept
     ]
@@ -109,6 +109,8 @@ def show(run: LongRun) -> None:
         click.echo(f"  rounding over {run.rounding[0].steps[-1]} steps, in exactly conserved quantities")
         print_table(["quantity", "steps", "rms", "steps^p", "law"], rows, indent=4)
     if run.symplectic is not None:
-        click.echo(f"  symplectic defect of a step: {run.symplectic:.1e}")
+        click.echo(f"  largest symplectic defect of a step: {run.symplectic:.1e}")
+    if run.unmeasured:
+        click.echo(f"  symplectic defect: not measured: {run.unmeasured}")
     if run.failure:
         click.echo(f"  stopped: {run.failure}")

@@ -147,15 +147,8 @@ Runner = Interpreted | Emitted
 """An object that runs one compiled method; it has ``target``, ``final``, ``epsilon`` and ``most_steps``."""
 
 
-def runner(
-    scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
-) -> Runner:
-    """Return the runner for a target, or for ``interpreter``.
-
-    More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the
-    target has.
-    """
+def check_target(target: str, digits: int = DOUBLE) -> None:
+    """Raise :class:`codegen.errors.MethodError` for an unknown target, or more digits than the target has."""
     known = (*printers.names(), INTERPRETER)
     if target not in known:
         raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(known)}")
@@ -165,5 +158,16 @@ def runner(
             expected="double precision",
             hint="add --target interpreter",
         )
+
+
+def runner(
+    scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
+) -> Runner:
+    """Return the runner for a target, or for ``interpreter``.
+
+    More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
+    known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
+    """
+    check_target(target, digits)
     compiled = compile_method(scene, method)
     return Interpreted(compiled, digits) if target == INTERPRETER else Emitted(compiled, target, order)

@@ -8,8 +8,9 @@ produces a row with the reason. A candidate that cannot be prepared produces a r
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from typing import Protocol
 
 from codegen.lab.measurement_cache import MeasurementCache
@@ -22,6 +23,9 @@ BUDGET = 1.0
 MOST_STEPS = 5 * 2**21
 COUNTED = 1e-3
 """The overhead of a call from Python is subtracted from times below this number of CPU seconds."""
+
+AGAIN = 3
+"""How often runs whose times are in the wrong order are measured again."""
 
 NEAR_ROUNDING = 1e-9
 """Below this error, relative to the size of the state, rounding errors may prevent further convergence."""
@@ -98,6 +102,7 @@ def measure_rows(
     """
     rows: list[Row] = []
     ready = False
+    fresh: set[float] = set()
     for control in candidate.controls():
         key = ("bench", candidate.label, candidate.target, candidate.key, control, exact.digits())
         row = cache.find(key, Row)
@@ -111,12 +116,45 @@ def measure_rows(
                 return (*rows, row)
             ready = True
             row = candidate.measure(control)
+            fresh.add(control)
             cache.store(key, row)
         rows.append(row)
         done(row)
         if candidate.enough(rows):
             break
+    if fresh:
+        rows = monotone(rows, candidate.measure, fresh)
+        for row in rows:
+            key = ("bench", candidate.label, candidate.target, candidate.key, row.control, exact.digits())
+            cache.store(key, row)
     return tuple(rows)
+
+
+def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
+    """Return the rows with times that increase with the number of steps, as far as measurements permit.
+
+    If a run took longer than a run with more steps, both are measured again, at most :data:`AGAIN` times; the
+    smaller time counts. Only runs whose controls are in ``fresh`` are measured again.
+    """
+    kept = list(rows)
+    for _ in range(AGAIN):
+        wrong = [k for k, (a, b) in enumerate(pairwise(kept)) if _inverted(a, b)]
+        for k in sorted({*wrong, *(i + 1 for i in wrong)}):
+            if kept[k].control not in fresh:
+                continue
+            again, old = measure(kept[k].control), kept[k].seconds
+            if again.seconds is not None and old is not None and again.seconds < old:
+                kept[k] = again
+        if not wrong:
+            break
+    return kept
+
+
+def _inverted(a: Row, b: Row) -> bool:
+    """Whether the first of two rows has fewer steps and took longer."""
+    if None in (a.seconds, b.seconds, a.steps, b.steps):
+        return False
+    return (a.steps or 0) < (b.steps or 0) and (a.seconds or 0.0) > (b.seconds or 0.0)
 
 
 @dataclass
