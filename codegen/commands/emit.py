@@ -102,9 +102,7 @@ def command(
     compiled = compile_method(
         scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
-    for choice in compiled.solvers:
-        if not choice.converges:
-            click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
+    _warn(compiled, scene, method)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, object]] = []
     if explain and not as_json:
@@ -127,6 +125,13 @@ def command(
                 record["compared"] = [list(choice.compared) for choice in compiled.solvers]
         screen.print_json(records)
     return 0
+
+
+def _warn(compiled: Compiled, scene: str, method: str) -> None:
+    """Print a warning for each implicit block that no solver solves in the first steps of the example."""
+    for choice in compiled.solvers:
+        if not choice.converges:
+            click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
 
 
 def explanation(compiled: Compiled) -> str:
