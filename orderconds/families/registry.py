@@ -161,6 +161,10 @@ def family_class(name: str) -> type[Family]:
     """
     if name not in _registered and name in BUILT_IN:
         import_module(BUILT_IN[name])  # importing the module registers the family
+        # Without this line the message would be "unknown family", followed by a list that contains the name.
+        assert name in _registered, (
+            f"{BUILT_IN[name]} has no class with this name and the decorator @register"
+        )
     kind = _registered.get(name) or _installed(name)
     if kind is None:
         import difflib

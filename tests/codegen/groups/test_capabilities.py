@@ -40,7 +40,7 @@ PROJECTED = sorted(set(BASE_GROUPS) - {"GL(2)", "Heisenberg"})
 """The groups with a projection; their cotangent bundles have one, too."""
 
 DECLARED = {
-    Coadjoint: set(BASE_GROUPS),
+    Coadjoint: {"SO(3)", "R^3", "GL(2)", "Heisenberg", "S^3", "SE(2)", "SL(2)", "SO(3) x R^2"},
     RightTrivialisation: {"SO(3)", "R^3", "S^3", "SO(3) x R^2"},
     LeftTranslation: {"SO(3)", "R^3", "S^3", "SO(3) x R^2"},
     BodyFrame: {"SO(3)"},
@@ -55,16 +55,24 @@ DECLARED = {
     DirectProduct: {"SO(3) x R^2"},
     CotangentBundle: {f"T*{name}" for name in BASE_GROUPS},
 }
-"""The groups of each capability, among those that tests draw from."""
+"""The groups of each capability, among the groups and bundles of :data:`PINNED`."""
+
+PINNED = {"SO(3)", "R^3", "GL(2)", "Heisenberg", "S^3", "SE(2)", "SL(2)", "SO(3) x R^2"}
+PINNED |= {f"T*{name}" for name in PINNED}
 
 IDS = [capability.__name__ for capability in DECLARED]
+
+
+def offering(capability):
+    """The names of all groups that offer a capability."""
+    return {name for name, group in ALL_GROUPS.items() if group.offers(capability) is not None}
 
 
 def with_capability(capability, samples=(EXACT, SHARP)):
     """Samplers of all groups that declare a capability."""
     return [
         pytest.param(sampler(ALL_GROUPS[name], sample), id=f"{name}-{sample}")
-        for name in sorted(DECLARED[capability])
+        for name in sorted(offering(capability))
         for sample in samples
     ]
 
@@ -85,8 +93,7 @@ def test_every_capability_is_tested_here():
 
 @pytest.mark.parametrize("capability", DECLARED, ids=IDS)
 def test_a_group_offers_what_it_declares(capability):
-    offering = {name for name, group in ALL_GROUPS.items() if group.offers(capability) is not None}
-    assert offering == DECLARED[capability]
+    assert offering(capability) & PINNED == DECLARED[capability] & PINNED
 
 
 @pytest.mark.parametrize("capability", DECLARED, ids=IDS)
