@@ -114,5 +114,5 @@ def test_compiled_steps_keep_their_depth_and_emitted_bound(scene, method, depth,
     compiled = compile_method(scene, method)
     assert chain(compiled.kernel) == depth
     text = "".join(emit_compiled(compiled, target).files.values())
-    bounds = [float(x) for x in re.findall(r"z <= ([0-9.]+) (?:\? z : NAN|else float)", text)]
+    bounds = [float(x) for x in re.findall(r"z <= ([0-9.]+) (?:\? z : \(double\)NAN|else float)", text)]
     assert set(bounds) == {bound}

@@ -38,6 +38,8 @@ from codegen.ir.scene_operations import (
     HamiltonianDerivatives,
     Legendre,
     Secant,
+    TaylorStep,
+    ToOrbit,
 )
 from codegen.ir.values import MINUS_ONE, ONE, Coefficient, Kind
 from tests.strategies import hamiltonian_scene
@@ -61,6 +63,7 @@ ALL = [
     *(Bracket(dual) for dual in BOTH),
     *(InverseDexp(2, dual) for dual in BOTH),
     *(AdSeries(WORD, dual) for dual in BOTH),
+    *(ToOrbit(), *(TaylorStep(3, timed) for timed in BOTH)),
     *(make(timed) for make in (Field, HamiltonianDerivatives, BodyVelocity, BodyForce) for timed in BOTH),
 ]
 VALUES = {
