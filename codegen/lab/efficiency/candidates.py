@@ -1,0 +1,125 @@
+"""The recipes of a scene: every method of the library that can integrate it, with equal or controlled steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from codegen.emitter import quoted
+from codegen.lower import families_for
+from codegen.method import with_estimate
+from codegen.scene.problem import Problem
+from orderconds.families import Family, family_class
+from orderconds.tableau import RungeKutta, Tableau, available, find
+
+PRINTED = "printed"
+"""The equations of the scene as printed."""
+
+SEARCHED = 5
+"""The search for the fewest brackets takes seconds from order six on, so such methods have a cut-off only."""
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A way to integrate a scene: the name of a method, the form of the equations, the choice of step sizes.
+
+    ``order`` is the order that the file of the tableau claims, 0 if it claims none. ``stages`` is the number
+    of stages or factors of the tableau; recipes of one ``tableau`` share it.
+    """
+
+    method: str
+    order: int
+    stages: int
+    tableau: str
+    adaptive: bool = False
+    form: str = PRINTED
+
+    @property
+    def label(self) -> str:
+        """The name of the recipe in tables."""
+        form = "" if self.form == PRINTED else f" ({self.form})"
+        return f"{'adaptive ' * self.adaptive}{self.method}{form}"
+
+    @property
+    def family(self) -> str:
+        """The family of the method."""
+        return self.method.partition(":")[0].partition("(")[0]
+
+    def command(self, scene: str) -> str:
+        """Return the command that emits the integrator.
+
+        >>> Recipe("rkmk(2):rk4", 4, 4, "rk4").command("dipole")
+        "orderconds emit dipole --method 'rkmk(2):rk4' -o ."
+        """
+        words = ["orderconds emit", quoted(scene), "--method", quoted(self.method)]
+        words += ["--form", self.form] if self.form != PRINTED else []
+        words += ["--adaptive"] if self.adaptive else []
+        return " ".join([*words, "-o ."])
+
+
+def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
+    """Yield the recipes for a scene, from the named tableaux or from the whole library.
+
+    On an abelian group, families that reduce to one classical family give the same methods; only the first
+    of them is used. A recipe may still be refused when its method is compiled.
+    """
+    families = families_for(problem)
+    for name in tableaux or available():
+        tableau = Tableau.load(find(name))
+        seen: set[str] = set()
+        for family in families:
+            kind = family_class(family)
+            if not readable(tableau, kind):
+                continue
+            classical = kind.abelian or family if problem.group.abelian else family
+            if classical in seen:
+                continue
+            seen.add(classical)
+            yield from recipes(tableau, kind, family)
+
+
+def readable(tableau: Tableau, kind: type[Family]) -> bool:
+    """Whether a family reads a tableau, and a step does not divide by a zero weight."""
+    if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
+        return False
+    method = tableau.read_as(("rk",))
+    if kind.needs_nonzero_weights and isinstance(method, RungeKutta):
+        return all(tableau.ring.is_zero(b) is False for b in method.b)
+    return True
+
+
+def recipes(tableau: Tableau, kind: type[Family], family: str) -> Iterator[Recipe]:
+    """Yield the recipes of one tableau in one family, without and with step-size control.
+
+    For each order only the smallest cut-off is used. An order below half the classical order wastes stages:
+    other tableaux have this order with fewer stages.
+    """
+    stages, name = size(tableau), tableau.name
+    controlled = tableau.lower() is not None and family in with_estimate()
+    stated = {claim.label: claim.order for claim in tableau.claims.orders}
+    own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
+    least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
+    if not kind.takes_cutoff:
+        order = max(own.values(), default=0) or kind().implied_order(stated)
+        if order >= least:
+            yield from _both(f"{family}:{name}", order, stages, name, controlled)
+        return
+    cheapest = {order: cutoff for cutoff, order in sorted(own.items(), key=lambda c: -(c[0] or 0))}
+    for order, cutoff in sorted(cheapest.items()):
+        if order >= least:
+            method = family if cutoff is None else f"{family}({cutoff})"
+            yield from _both(f"{method}:{name}", order, stages, name, controlled)
+    best = max(cheapest, default=0)
+    if best and None not in own and best <= min(kind.minimal_brackets, SEARCHED):
+        yield Recipe(f"{family}:{name}", best, stages, name)
+
+
+def size(tableau: Tableau) -> int:
+    """Return the number of stages, or of factors of a splitting or composition."""
+    return getattr(tableau.read_as(("rk",)) or tableau.method, "s", 1)
+
+
+def _both(method: str, order: int, stages: int, tableau: str, controlled: bool) -> Iterator[Recipe]:
+    yield Recipe(method, order, stages, tableau)
+    if controlled:
+        yield Recipe(method, order, stages, tableau, adaptive=True)

@@ -1,0 +1,244 @@
+"""The predicted time of a recipe for an error, without emission: a few interpreted steps and counted operations.
+
+The step program is interpreted with a small number of steps; its error and the order of the method give the
+number of steps for another error. The cost of a step is the sum of the costs of its operations, each counted
+once for the scene in expressions. The prediction does not know what the compiler shares between operations,
+so it is used to choose what is compiled and measured first, and to leave out what cannot win.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.domain import ExprDomain, FloatDomain
+from codegen.ir.expr import Expr, walk
+from codegen.ir.interpret import flatten, interpret
+from codegen.ir.program import Assign, Program, Solve
+from codegen.ir.values import Kind, Var
+from codegen.lab.distance import distance
+from codegen.lab.number_types import Scalar, Vector
+from codegen.lab.runner import split_state
+from codegen.lower import lower, lower_composed, problem_for
+from codegen.method import Method
+from codegen.passes import plain_passes
+from codegen.run.step_cost import WEIGHTS, Amounts
+from codegen.scene.problem import TIME, Problem
+
+FEW_STEPS, MANY_STEPS = 8, 1024
+"""The number of steps is doubled from FEW_STEPS to MANY_STEPS until the error is small."""
+
+SMALL = 1e-2
+"""An error below SMALL, relative to the size of the state, follows the order of the method approximately."""
+
+PATIENCE = 1.0
+"""CPU seconds after which the interpreted steps of one recipe end."""
+
+MOST_SWEEPS = 40
+FEWEST_SWEEPS = 3
+UNLIKELY = 0.1
+"""A method rarely has an error below UNLIKELY times the least error of methods of higher order."""
+
+CALL = 8.0
+"""Nanoseconds of the loop around a step, and of the state that it reads and writes."""
+
+DIGITS = 16
+"""Decimal digits of a solved block."""
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """The error of a recipe with ``steps`` steps, and the cost of a step.
+
+    ``once`` are nanoseconds of a step outside of blocks of equations, ``sweep`` nanoseconds of one sweep of
+    all blocks, ``sweeps`` the average number of sweeps. ``explicit`` says that no equation is solved. If the
+    interpreted runs failed, ``error`` is infinite. ``failure`` is the reason why the scene or the family
+    refuses the method.
+    """
+
+    method: str
+    order: int
+    explicit: bool = True
+    once: float = 0.0
+    sweep: float = 0.0
+    sweeps: float = 0.0
+    steps: int = FEW_STEPS
+    error: float = math.inf
+    failure: str = ""
+
+    def count(self, error: float) -> float:
+        """Return the predicted number of steps for an error; infinite if the interpreted runs failed."""
+        if not math.isfinite(self.error):
+            return math.inf
+        return max(1.0, self.steps * (self.error / error) ** (1 / max(self.order, 1)))
+
+    def seconds(self, error: float) -> float:
+        """Return the predicted CPU seconds of a run that reaches an error."""
+        count = self.count(error)
+        if not math.isfinite(count):
+            return math.inf
+        sweeps = self.sweeps
+        if sweeps:
+            # The rate of a fixed-point iteration is proportional to h: shorter steps gain more digits a sweep.
+            sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
+        return 1e-9 * count * (CALL + self.once + max(sweeps, FEWEST_SWEEPS) * self.sweep)
+
+    def error_of(self, steps: int) -> float:
+        """Return the predicted error with another number of steps."""
+        return self.error * (self.steps / steps) ** self.order
+
+
+class _Counted(FloatDomain):
+    """Double precision with a count of the sweeps over blocks."""
+
+    def __init__(self, h: float) -> None:
+        super().__init__(h)
+        # Substeps copy the domain; the list is shared by all copies.
+        self.swept = [0]
+
+    def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
+        """Return as :class:`FloatDomain`, and count the sweep."""
+        self.swept[0] += 1
+        return super().settled(old, new, previous)
+
+
+@dataclass(frozen=True)
+class Bar:
+    """What a recipe must reach: ``seconds`` for an ``error``.
+
+    ``plausible`` is the least error with FEW_STEPS steps that methods of higher order had on this scene. A
+    method that needs an error far below it is not interpreted.
+    """
+
+    error: float
+    seconds: float = math.inf
+    plausible: float = 0.0
+
+    def too_high(self, order: int, step_seconds: float) -> bool:
+        """Whether a method of an order, whose step takes at least ``step_seconds``, cannot reach the bar."""
+        if not math.isfinite(self.seconds):
+            return False
+        most = self.seconds / step_seconds
+        return most < 1 or self.error * (most / FEW_STEPS) ** order < UNLIKELY * self.plausible
+
+
+@dataclass
+class Predictor:
+    """Predicts recipes on one scene; the costs of its operations are computed once."""
+
+    scene: Problem
+    exact: Vector
+    costs: dict[str, tuple[float, tuple[int, ...]]] = field(default_factory=dict)
+
+    def predict(self, method: Method, order: int, bar: Bar) -> Prediction:
+        """Return the prediction for a method of an order; InputError if it does not suit the scene.
+
+        If the method cannot reach the bar, no step is interpreted and the error is infinite.
+        """
+        problem = problem_for(self.scene, method)
+        program = lower_composed(self.scene, method) or lower(self.scene, method)
+        for each in plain_passes(problem):
+            program = each.run(program)
+        once, sweep = self.cost(program, problem)
+        explicit = not any(isinstance(s, Solve) for s in program.body)
+        if bar.too_high(order, 1e-9 * (once + FEWEST_SWEEPS * sweep)):
+            return Prediction(method.label, order, explicit, once, sweep)
+        steps, error, sweeps = self._reached(program, problem)
+        return Prediction(method.label, order, explicit, once, sweep, sweeps, steps, error)
+
+    def _reached(self, program: Program, problem: Problem) -> tuple[int, float, float]:
+        """Return a number of steps with a small error, the error, and the sweeps of a step."""
+        size = max(1.0, math.hypot(*map(float, self.exact)))
+        steps, start, best = FEW_STEPS, time.process_time(), (FEW_STEPS, math.inf, 0.0)
+        while steps <= MANY_STEPS and time.process_time() - start < PATIENCE:
+            try:
+                state, sweeps = run(program, problem, steps)
+                error = distance(self.scene, state, self.exact)
+            except (ArithmeticError, ValueError):
+                error, sweeps = math.inf, 0.0
+            if error < best[1]:
+                best = steps, error, sweeps
+            if error <= SMALL * size:
+                break
+            steps *= 2
+        return best
+
+    def cost(self, program: Program, problem: Problem) -> tuple[float, float]:
+        """Return the nanoseconds of a step outside of blocks, and of one sweep of all blocks."""
+        widths: dict[Var, int] = {}
+        fields = {block.name: len(block.symbols) for block in problem.state}
+        for var in program.inputs:
+            widths[var] = fields.get(var.name, 1)
+        once = sweep = 0.0
+        for statement in program.body:
+            if isinstance(statement, Assign):
+                once += self._operation(statement, problem, widths)
+                continue
+            widths.update((u, widths[s]) for u, s in zip(statement.unknowns, statement.starts, strict=True))
+            sweep += sum(self._operation(assign, problem, widths) for assign in statement.body)
+            sweep += WEIGHTS.swept * sum(widths[u] for u in statement.unknowns)
+        parts = max(1, len(program.substeps))
+        return parts * once, parts * sweep
+
+    def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
+        """Return the nanoseconds of one assignment; record the widths of its targets."""
+        shape = [(a.kind.value, widths[a]) for a in assign.args]
+        # Problems of one scene differ by the group in which the state is represented.
+        key = f"{problem.group.name} {len(problem.roots)} {assign.operation!r} {shape}"
+        if key not in self.costs:
+            self.costs[key] = _counted(assign, problem, shape)
+        cost, results = self.costs[key]
+        widths.update(zip(assign.targets, results, strict=True))
+        return cost
+
+
+def _counted(
+    assign: Assign, problem: Problem, shape: Sequence[tuple[str, int]]
+) -> tuple[float, tuple[int, ...]]:
+    """Return the nanoseconds of an operation on symbols, and the widths of its results."""
+    domain = ExprDomain(problem.roots[0].space)
+    values: list[object] = []
+    for k, (kind, width) in enumerate(shape):
+        symbols = tuple(domain.space.sym(f"{k}.{i}") for i in range(width))
+        values.append(symbols[0] if kind == Kind.REAL else symbols)
+    results = assign.operation.evaluate(problem, domain, tuple(values))
+    flat = [flatten(v.kind, x) for v, x in zip(assign.targets, results, strict=True)]
+    return amounts([x for part in flat for x in part]).cost(WEIGHTS), tuple(map(len, flat))
+
+
+def amounts(roots: Sequence[Expr]) -> Amounts:
+    """Return the amounts of work of expressions.
+
+    >>> from codegen.ir.expr import Space
+    >>> x, y = map(Space().sym, "xy")
+    >>> amounts([x * y + x / y]) == Amounts(arithmetic=2, divisions=1)
+    True
+    """
+    arithmetic = divisions = calls = 0
+    for node in walk(roots):
+        if node.op in ("add", "sub", "mul", "pow"):
+            arithmetic += 1
+        divisions += node.op == "div"
+        calls += node.op == "call"
+    return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
+
+
+def run(program: Program, problem: Problem, steps: int) -> tuple[Vector, float]:
+    """Return the state at the end of the span after equal steps, and the average sweeps of a step.
+
+    Blocks are solved by fixed-point iteration only, because difference quotients would take too long.
+    """
+    first, last = problem.span
+    domain = _Counted(float((last - first) / steps))
+    state = problem.initial(domain)
+    for k in range(steps):
+        values: dict[str, Scalar] = {TIME: float(first) + k * domain.h, **split_state(problem, state)}
+        inputs = {v.name: values[v.name] for v in program.inputs}
+        ends = interpret(program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False)
+        state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
+        if not all(map(math.isfinite, state)):
+            raise ArithmeticError("a number is not finite")
+    blocks = sum(isinstance(s, Solve) for s in program.body) * max(1, len(program.substeps))
+    return state, domain.swept[0] / steps / max(1, blocks)
