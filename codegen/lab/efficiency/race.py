@@ -35,6 +35,12 @@ FINEST = 15.0
 LONGEST = 0.2
 """CPU seconds of the longest run, if no other recipe has reached the error."""
 
+LEAST_STEPS = 200
+"""Runs with fewer steps are continued beyond the span while they are timed."""
+
+BRIEF = 0.01
+"""Runs shorter than BRIEF CPU seconds never end the race of a recipe: the first run of a module is slow."""
+
 PATIENT = 8.0
 """A recipe leaves the race if one of its runs takes PATIENT times as long as the best time so far."""
 
@@ -102,17 +108,18 @@ class Racer:
         self.initial = list(self.scene.initial(FloatDomain(0.0)))
         self.first, self.last = map(float, self.scene.span)
 
-    def run(self, control: float) -> tuple[Vector, int]:
-        """Return the final state of a run and its number of steps."""
+    def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
+        """Return the state and the number of steps of a run over a multiple of the span."""
+        length = self.last - self.first
         if self.entry.recipe.adaptive:
-            tolerance = 10.0**-control
+            tolerance, last = (10.0**-control, self.first + spans * length)
             end = self.integrator.adaptive(
-                self.initial, self.first, self.last, rtol=tolerance, atol=tolerance, limit=MOST_STEPS
+                self.initial, self.first, last, rtol=tolerance, atol=tolerance, limit=MOST_STEPS
             )
             return tuple(end.state), end.accepted
         steps = round(control)
-        h = (self.last - self.first) / max(steps, 1)
-        return tuple(self.integrator.run(self.initial, h, steps, self.first)), steps
+        h = length / max(steps, 1)
+        return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
 
     def error(self, control: float) -> float:
         """Return the error of a run; infinity if the run fails."""
@@ -125,16 +132,20 @@ class Racer:
         return self.errors[control]
 
     def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
-        """Return the CPU seconds of a run without the overhead of a call."""
-        overhead = samples(self._nothing, batch / 2, 3)[0]
-        spent = samples(lambda: self.run(control), batch, batches)[0]
-        return max(spent - overhead, 0.1 * spent)
+        """Return the CPU seconds of a run without the overhead of a call.
 
-    def _nothing(self) -> None:
-        if self.entry.recipe.adaptive:
-            self.integrator.adaptive(self.initial, self.first, self.first, rtol=1.0, atol=1.0)
-        else:
-            self.integrator.run(self.initial, self.last - self.first, 0, self.first)
+        A short run is continued beyond the span, because the overhead of a call from Python would hide its
+        time.
+        """
+        steps = self.counts[control]
+        times = max(1, LEAST_STEPS // max(steps, 1))
+        try:
+            made = self.run(control, times)[1]
+        except ArithmeticError:
+            times, made = 1, steps
+        overhead = samples(lambda: self.run(control, 0), batch / 2, 3)[0]
+        spent = samples(lambda: self.run(control, times), batch, batches)[0]
+        return max(spent - overhead, 0.1 * spent) * steps / max(made, 1)
 
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the cheapest run that reaches an error.
@@ -142,7 +153,7 @@ class Racer:
         ``best`` are the CPU seconds of the best recipe so far. The result is not ``reached`` if the runs take
         much longer.
         """
-        longest = min(LONGEST, PATIENT * best + 1e-3)
+        longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
         if not fine:
             known = {c: e for c, e in self.errors.items() if math.isfinite(e)}
