@@ -336,7 +336,8 @@ emitted code that the state and the step size are finite.
   CasADi is faster than the hand-written code.
 - *instructions*, *by hand*: instructions of a step, counted by callgrind; they are equal in every run.
 - *sweeps*, *by hand*: evaluations of the equations of an implicit step.
-- *exponentials*: functions of a rotation angle in an emitted step, + those in each sweep.
+- *exponentials*: evaluations of functions of a rotation angle in an emitted step, + the evaluations in each
+  sweep.
 """
 
 

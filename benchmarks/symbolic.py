@@ -218,7 +218,8 @@ def _texts(family: str, order: int) -> Prepared:
 class Task:
     """One row: the task in this project and in the peer, and the requirement.
 
-    Required is to be ``ratio`` times faster than the peer, or to finish within ``limit`` seconds.
+    The requirement: this project is ``ratio`` times faster than the peer, or finishes within ``limit``
+    seconds.
     """
 
     name: str
@@ -347,8 +348,8 @@ HEAD = """# Benchmarks
 `make bench` runs the scripts of this folder and writes this page. `check.py` times `orderconds check` on the
 library. `symbolic.py` times the symbolic engine and its peers and writes the table below. Times are medians
 over fresh processes, without imports. MiB is the largest resident memory. *Required* is a factor by which the
-engine is faster than the peer, or a number of seconds. The memory must always be below 2 GiB. A peer is
-stopped after 150 s.
+engine must be faster than the peer, or the largest permitted number of seconds. The memory must always be
+below 2 GiB. A peer is stopped after 150 s.
 
 This project and the peer compute the same number of results (for polynomials: the same number of terms).
 Commutator-free methods are an exception: kauri has one exponential per stage instead of five, and computes

@@ -42,6 +42,7 @@ class CertifiedOrder:
     def text(self) -> str:
         """Return the order and its certificate for a header."""
         how = {
+            "construction": "a step is the Taylor polynomial of this degree",
             "exact": "every order condition up to it is zero in exact arithmetic",
             "ball": "interval arithmetic proves that such a method exists within the last printed digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
@@ -112,6 +113,6 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    radius = uncertainty(method.tableau, DOUBLE_BITS)
+    radius = "" if method.coefficients is None else uncertainty(method.coefficients, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate
     return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

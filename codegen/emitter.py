@@ -23,11 +23,11 @@ from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
 from codegen.kernel.column_choice import fastest
-from codegen.kernel.operations import STEP, operations
-from codegen.kernel.schedule import arrange
+from codegen.kernel.operations import STEP, step_operations
+from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
-from codegen.lower import families_for, lower, lower_composed, problem_for
+from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
 from codegen.method import Method, parse
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
@@ -124,9 +124,10 @@ def compile_method(
     problem = problem_for(scene, method)
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
-    candidates = []
+    candidates, degree = [], lowering(method.family).degree(method)
     for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
-        kernel = fastest(program, problem)
+        looped = looped_kernel(program, problem, degree) if degree else None
+        kernel = looped or fastest(program, problem)
         candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel))
     best = min(candidates, key=lambda c: work(c.kernel))
     if known_solver(solver) and best.kernel.loops:
@@ -135,6 +136,8 @@ def compile_method(
     if jacobian:
         vary = to_kernel(best.program, problem, variations=Variations.of(problem))
         best = replace(best, kernel=replace(best.kernel, vary=vary))
+    if degree and method.adaptive:
+        return replace(best, kernel=with_step_control(best.kernel, problem, degree))
     embedded, estimate = method.embedded(), best.kernel.estimate
     if embedded is None or estimate is None:
         return best
@@ -145,7 +148,7 @@ def compile_method(
 def work(kernel: Kernel) -> int:
     """Estimate the cost of a step in additions: SWEEPS sweeps of each block, and the rest once."""
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
-    for key, counts in operations(arrange(kernel)).items():
+    for key, counts in step_operations(kernel).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
         total += cost * (1 if key == STEP else sweeps)
     return total
@@ -216,8 +219,8 @@ def emit_compiled(
         "scene": scene.name,
         "method": method.label,
         "family": method.family_label,
-        "tableau": method.tableau.name,
-        "source": method.tableau.source,
+        "tableau": method.name,
+        "source": method.source,
         "order": order.order,
         "certificate": order.certificate,
         "initial": list(recipe.initial),
@@ -247,13 +250,16 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
+    # Without a tableau there are no coefficients that could be rounded.
+    tableau = method.coefficients is not None
+    digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
     return Recipe(
         title=f"{scene.title}: one step by {method.label}",
         facts=(
-            ("method", f"family {method.family_label}, tableau {method.tableau.name}"),
-            ("source", method.tableau.source),
+            ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
+            ("source", method.source),
             ("order", order.text()),
-            ("digits", rounding_of_digits(method, order, target, scene)),
+            *digits,
             ("scene", f"{scene.title}, group {scene.group.name}"),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
@@ -292,7 +298,7 @@ def emit_kernel(
         "interface": interface.as_json(),
         "defaults": {p: float(recipe.defaults[p]) for p in interface.parameters if p in recipe.defaults},
         "files": {name: digest(text) for name, text in files.items()},
-        "operations": operations(arrange(kernel)),
+        "operations": step_operations(kernel),
         "state": [{"name": f.name, "symbols": list(f.symbols), "meaning": f.meaning} for f in kernel.state],
         "command": recipe.command,
         "version": recipe.version,
@@ -302,6 +308,9 @@ def emit_kernel(
 
 def steps_of(kernel: Kernel) -> str:
     """Describe the step control of a run."""
+    if kernel.expansion is not None:
+        last = kernel.expansion.degree
+        return f"constant, or chosen from the Taylor coefficients {last - 1} and {last} of each step"
     assert kernel.estimate is not None
     return (
         f"constant, or chosen by a proportional-integral controller with an error estimate "
@@ -372,9 +381,10 @@ def default_prefix(scene: Problem, method: Method) -> str:
     A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
     """
     family = method.family + ("" if method.cutoff is None else str(method.cutoff))
-    tableau = method.tableau.name
-    parts = [scene.name, *([] if tableau.startswith(method.family) else [family]), tableau]
-    name = re.sub(r"\W", "_", "_".join(parts), flags=re.ASCII)
+    tableau = method.name
+    named = bool(tableau) and tableau.startswith(method.family)
+    parts = [scene.name, *([] if named else [family]), tableau]
+    name = re.sub(r"\W", "_", "_".join(filter(None, parts)), flags=re.ASCII)
     return prefix_of(name, "this name is the scene's file name: rename the file, or use --prefix NAME")
 
 

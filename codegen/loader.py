@@ -415,7 +415,7 @@ def reason(status: int, block: str, h: float) -> str:
         case Status.BAD_STEP:
             return f"the step size h = {h} is not finite"
         case Status.LIMIT:
-            return "the end is not reached within the tolerance"
+            return "the end is not reached: too many steps, or a step too small to change t"
         case Status.NOT_CONVERGED:
             return f"{block} did not converge"
         case _:

@@ -1,5 +1,8 @@
 """A method: a family with a tableau, such as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or
-``cf4``."""
+``cf4``.
+
+A family without tableau is a method itself, as ``taylor(12)``.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +14,16 @@ from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
-from orderconds.families import Family, family_class, names
+from orderconds.families import Family, family_class, get, names
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
+"""The label of a family, perhaps with a number, that may be a method without tableau."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
@@ -26,11 +32,12 @@ PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<
 class Method:
     """A family, its ``cutoff`` (the number of brackets of dexp^{-1}) if it has one, and the tableau.
 
+    ``coefficients`` is None for a family without tableau; ``cutoff`` is then the number in its label.
     ``adaptive`` adds the result of the embedded method to each step, for an error estimate.
     """
 
     family: str
-    tableau: Tableau
+    coefficients: Tableau | None
     cutoff: int | None = None
     adaptive: bool = False
 
@@ -40,9 +47,26 @@ class Method:
         return family_class(self.family)
 
     @property
+    def tableau(self) -> Tableau:
+        """The tableau; :class:`MethodError` for a family without tableau."""
+        if self.coefficients is None:
+            raise MethodError(f"{self.family_label} has no tableau", expected="a method with a tableau")
+        return self.coefficients
+
+    @property
     def label(self) -> str:
         """Family and tableau: ``rkmk(2):rk4``."""
-        return f"{self.family_label}:{self.tableau.name}"
+        return f"{self.family_label}:{self.name}" if self.name else self.family_label
+
+    @property
+    def name(self) -> str:
+        """The name of the tableau, '' without one."""
+        return "" if self.coefficients is None else self.coefficients.name
+
+    @property
+    def source(self) -> str:
+        """The publication of the tableau, or of a family without tableau."""
+        return self.kind.source if self.coefficients is None else self.coefficients.source
 
     @property
     def family_label(self) -> str:
@@ -51,8 +75,8 @@ class Method:
 
     @property
     def ring(self) -> Ring:
-        """The ring of the coefficients."""
-        return self.tableau.ring
+        """The ring of the coefficients; those of a family without tableau are rational."""
+        return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
         """Return a coefficient as a number; a rational coefficient becomes an element of QQ, also from a
@@ -97,7 +121,7 @@ class Method:
         The embedded method shares the stages, so the stages of the family must not depend on the weights. The
         fewest brackets depend on the weights, so a family that searches for them needs a cut-off.
         """
-        if not self.adaptive:
+        if not self.adaptive or self.kind.controls_steps:
             return None
         lower = self.tableau.lower()
         if not self.kind.fixed_stages:
@@ -117,7 +141,7 @@ class Method:
                 expected="a tableau with an embedded row",
                 hint="use for example dormand_prince5 or cf43",
             )
-        return replace(self, tableau=lower, adaptive=False)
+        return replace(self, coefficients=lower, adaptive=False)
 
     def abscissae(self) -> tuple[Element, ...]:
         """Return c_i, the sum of the coefficients of stage i, where the method is read as commutator-free."""
@@ -154,6 +178,21 @@ def with_estimate() -> tuple[str, ...]:
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
+def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
+    """Return the method of a label such as ``taylor(12)``, None if a text is no label of such a family."""
+    match = ALONE.fullmatch(text.strip())
+    if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
+        return None
+    if match["family"] not in families:
+        raise MethodError(
+            f"family {match['family']} on this scene", where=text, expected=f"one of {', '.join(families)}"
+        )
+    number = None if match["number"] is None else int(match["number"])
+    # The family checks its number: InputError for a number that is missing or out of range.
+    get(text.strip()).degree_of_step()
+    return Method(match["family"], None, number)
+
+
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 
@@ -163,6 +202,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
     highest claimed order. :class:`MethodError` is raised for a text that cannot be read, and if no claim
     determines the choice.
     """
+    alone = _without_tableau(text, families)
+    if alone is not None:
+        return alone
     match = PATTERN.fullmatch(text.strip())
     if match is None:
         raise MethodError(
@@ -175,6 +217,10 @@ def parse(text: str, families: Sequence[str]) -> Method:
     if family is not None and family not in families:
         raise MethodError(
             f"family {family} on this scene", where=text, expected=f"one of {', '.join(families)}"
+        )
+    if family is not None and not family_class(family).has_tableau:
+        raise MethodError(
+            f"a tableau for family {family}", where=text, expected=f"the label alone, as {family}(12)"
         )
     if cutoff is not None and family is not None and not family_class(family).takes_cutoff:
         cutting = [f for f in families if family_class(f).takes_cutoff]

@@ -2,8 +2,8 @@
 
 A method is a tableau plus a family. The family determines the series of the method, and a comparison of this
 series with the exact flow gives the order conditions. ``orderconds`` is the symbolic side. ``codegen``
-compiles a method and a scene, the description of one mechanical system, into code; it is never imported from
-here.
+compiles a method and a scene, the description of one mechanical system, into code. ``orderconds`` never
+imports ``codegen``.
 
 Conventions
 -----------

@@ -1,4 +1,4 @@
-"""Modified equations: a method follows the flow of its modified field, a truncated series in h, exactly.
+"""Modified equations: the vector field whose exact flow a method follows, as a truncated series in h.
 
 A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
 terms of f~ describe how the numerical solution differs from the exact solution over long times. For a
@@ -101,8 +101,8 @@ def modified_equation(
 
     ``family`` is a family of B-series (``rk``) or of Lie-Butcher series (``cg``, ``cf``, ``rkmk(1)``). The
     default is the first of :func:`default_families` that can read the tableau. With ``modifying`` the result
-    is the modifying equation: applied to this equation, the method follows the exact flow of f. It exists for
-    families of B-series only.
+    is the modifying equation: the method, applied to the modifying equation, follows the exact flow of f. A
+    modifying equation exists only for families of B-series.
 
     Raises :class:`~orderconds.errors.InputError` for a family without such a series, for a tableau that is
     not a method of the family, for an order below 1, and for a modifying equation of a Lie-Butcher series.
@@ -164,8 +164,8 @@ def _rooted(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _ordered(field: VectorField, order: int) -> Iterator[Term]:
-    """Yield the terms of ``field``, an element of a free Lie algebra; its forests are in the order of
-    action."""
+    """Yield the terms of ``field``, an element of a free Lie algebra. The trees of each forest are in the
+    order of action."""
 
     def product(word: Word) -> Element:
         return field(b"".join(reversed(word)))

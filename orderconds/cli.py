@@ -134,7 +134,8 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line; --help prints during parsing."""
+        """Parse the command line. Closed pipes are handled here too, because click prints --help during
+        parsing."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -175,7 +176,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # click sets no context if an option lacks its value
+        error.ctx = error.ctx or ctx  # click sets no context if the value of an option is missing
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()
@@ -203,7 +204,7 @@ def _ask_for_traceback(ctx: click.Context, parameter: click.Parameter, asked: bo
     expose_value=False,
     callback=_ask_for_traceback,
     envvar="ORDERCONDS_TRACEBACK",
-    help="Show the traceback of an internal error (or set the variable ORDERCONDS_TRACEBACK=1).",
+    help="Show the traceback of an internal error. The variable ORDERCONDS_TRACEBACK=1 has the same effect.",
 )
 def program() -> None:
     """Derive, prove and compile Lie group integrators."""
@@ -218,7 +219,8 @@ def main() -> NoReturn:
     gc.set_threshold(100_000, 20, 20)
     catch_signals()
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # a character that the terminal lacks is no error
+        # A character that the terminal cannot display must not raise an error.
+        if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     try:
         program.main()

@@ -177,7 +177,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # A signal that the caller ignores, as nohup does, stays ignored.
+        # If the caller has set a signal to be ignored, as nohup does, the signal stays ignored.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

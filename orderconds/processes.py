@@ -44,8 +44,10 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            with suppress(ConnectionError):  # if the worker died after its last result
-                connection.send(())  # only a message ends it: others hold the connection open
+            # A worker ends only when it receives an empty tuple. To close the connection is not enough,
+            # because later workers have inherited it. A worker that has already died raises ConnectionError.
+            with suppress(ConnectionError):
+                connection.send(())
     except BaseException:
         for worker in workers.values():
             worker.terminate()

@@ -21,7 +21,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the flags."""
     group = parser.getgroup("orderconds", "order conditions of tableaux")
     group.addoption(
-        "--orderconds", action="store_true", help="collect *.toml as tableaux and check their claims"
+        "--orderconds", action="store_true", help="collect *.toml files as tableaux and check their claims"
     )
     group.addoption(
         "--orderconds-complete",

@@ -224,6 +224,12 @@ def identifiers(source: str) -> Iterator[tuple[int, str]]:
                 yield node.lineno, name
 
 
+@cache
+def defined(source: str) -> list[tuple[int, str]]:
+    """Return the sorted identifiers of a source; two tests read those of all modules."""
+    return sorted(set(identifiers(source)))
+
+
 def words(identifier: str) -> str:
     """Return an identifier in snake case, between underscores: ``_put_off_`` for PutOff."""
     return "_" + re.sub(r"(?<=[a-z0-9])(?=[A-Z])", "_", identifier).lower().strip("_") + "_"
@@ -240,7 +246,7 @@ def replaced(identifier: str, names: Iterable[str]) -> str | None:
 def replaced_names(path: str, source: str, names: Mapping[str, str]) -> list[str]:
     return [
         f"{path}:{line}: {name}; better: {names[old]}"
-        for line, name in sorted(set(identifiers(source)))
+        for line, name in defined(source)
         if (old := replaced(name, names)) is not None and (path, old) not in CONTRACT
     ]
 

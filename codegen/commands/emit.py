@@ -122,8 +122,7 @@ def command(
 def explanation(compiled: Compiled) -> str:
     """Return the program as lowered and after each pass, with operation counts, and the simplifications."""
     from codegen.emitter import left_out
-    from codegen.kernel.operations import operations, sentences
-    from codegen.kernel.schedule import arrange
+    from codegen.kernel.operations import sentences, step_operations
 
     parts = [f"# lowered: {counted(compiled.lowered.counts())}\n{compiled.lowered.text()}"]
     for report in compiled.trace:
@@ -132,7 +131,7 @@ def explanation(compiled: Compiled) -> str:
         added = f", added {came}" if came else ""
         parts.append(f"# {report.name}: removed {gone}{added}; remaining: {counted(report.after)}")
         parts.append(report.program.text())
-    costs = sentences(operations(arrange(compiled.kernel)))
+    costs = sentences(step_operations(compiled.kernel))
     parts.append("# kernel\n" + "".join(f"  {line}\n" for line in costs))
     functions = functions_of(compiled)
     if functions:

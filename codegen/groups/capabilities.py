@@ -267,7 +267,23 @@ class Projection(LieGroup):
     @abstractmethod
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g moved towards the group: an element stays fixed, and a defect of size eps becomes
-        O(eps^2)."""
+        O(eps^2).
+        """
+
+
+class DependentCoordinates(LieGroup):
+    """Some coordinates of an element are functions of the others."""
+
+    provides: ClassVar[str] = "coordinates that the others determine"
+
+    @abstractmethod
+    def determined(self) -> tuple[tuple[int, ...], ...]:
+        """Return sets of coordinates, each of which all other coordinates determine."""
+
+    @abstractmethod
+    def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
+        """Return g with the coordinates of one set computed from the others; their old values are not
+        read."""
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:

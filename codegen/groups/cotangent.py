@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import Coadjoint, CotangentBundle
+from codegen.groups.base import C, LieGroup
+from codegen.groups.capabilities import Coadjoint, CotangentBundle, Projection
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
 
-class Cotangent(CotangentBundle):
+class Cotangent(CotangentBundle, Projection):
     """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu), where momenta follow the elements of G.
 
     With f(q, mu) = (xi, n) the flow is q' = xi.q, mu' = n - ad*_xi mu, that is z' = f(z).z (Arnold and Khesin
@@ -74,6 +74,16 @@ class Cotangent(CotangentBundle):
         a, b = tuple(covector[: self.base.dim]), tuple(covector[self.base.dim :])
         pairs = zip(self.base.adt(d, b, mu), a, strict=True)
         return b + tuple(x - y for x, y in pairs)
+
+    def offers(self, capability: type[C]) -> C | None:
+        """Return this group as a group with a capability; a projection needs one of the base."""
+        own = super().offers(capability)
+        return None if capability is Projection and self.base.offers(Projection) is None else own
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g with its first part projected onto the base."""
+        q, mu = self._split(g)
+        return self.base.require(Projection).project(d, q) + mu
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the laws of the base; the momentum may be any covector."""

@@ -47,6 +47,13 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
     return total
 
 
+def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
+    """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3)."""
+    excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
+    # Numbers below 1 are twice as dense as above, so rounding 1 + excess would shrink v in each step.
+    return tuple(a + excess * a for a in v)
+
+
 def cross(a: Vector[S], b: Vector[S]) -> Vector[S]:
     """Return the cross product of two 3-vectors."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
-from codegen.groups.capabilities import Coadjoint, DirectProduct, RightTrivialisation
+from codegen.groups.capabilities import Coadjoint, DirectProduct, Projection, RightTrivialisation
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import sympy
 
 
-class Product(DirectProduct, Coadjoint, RightTrivialisation):
+class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
@@ -95,6 +95,10 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation):
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu of each factor."""
         return self._each(Coadjoint, lambda f, a, m: f.dexpt(d, a, m), x, mu)
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the projection of each factor."""
+        return self._each(Projection, lambda f, a: f.project(d, a), g)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x with v = x.g, of each factor."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from codegen.groups.capabilities import Coadjoint, MatrixRepresentation, RightTrivialisation
+from codegen.groups.capabilities import Coadjoint, MatrixRepresentation, Projection, RightTrivialisation
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
 
-class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation):
+class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation, Projection):
     """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
 
     On R^n, RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic
@@ -63,6 +63,10 @@ class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation):
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return v."""
         return v
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g: every tuple of numbers is an element."""
+        return g
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return the (n + 1) x (n + 1) matrix of the translation by g in affine space."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from codegen.groups.capabilities import Coadjoint, RightTrivialisation
-from codegen.groups.linear_algebra import S, Vector, cross, dot
+from codegen.groups.capabilities import Coadjoint, Projection, RightTrivialisation
+from codegen.groups.linear_algebra import S, Vector, cross, dot, rescaled
 from codegen.ir.domain import Domain
 
 
-class S3(Coadjoint, RightTrivialisation):
+class S3(Coadjoint, RightTrivialisation, Projection):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
     The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x = 2 x
@@ -78,6 +78,10 @@ class S3(Coadjoint, RightTrivialisation):
         """Return x where v = x.g: the imaginary part of v times the conjugate of g."""
         turned = cross(v[1:], g[1:])
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g times 1 + e/2 + 3 e^2/8 with e = 1 - |g|^2, which leaves a defect O(e^3)."""
+        return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return q.q = 1."""

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from codegen.groups.capabilities import Coadjoint, PointMotions
-from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.capabilities import Coadjoint, PointMotions, Projection
+from codegen.groups.linear_algebra import S, Vector, rescaled
 from codegen.ir.domain import Domain
 
 if TYPE_CHECKING:
     import sympy
 
 
-class SE2(Coadjoint, PointMotions):
+class SE2(Coadjoint, PointMotions, Projection):
     """Motions z -> R z + a of the plane as (c, s, a0, a1): R rotates by the angle with cosine c and sine s.
 
     An element of the algebra is (w, u0, u1): the angular velocity w and the velocity u at the origin. With
@@ -90,6 +90,10 @@ class SE2(Coadjoint, PointMotions):
         """Return x.g: w J applied to the rotation, and the velocity of the translation a under x."""
         w = x[0]
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g with (c, s) times 1 + e/2 + 3 e^2/8, e = 1 - c^2 - s^2, which leaves a defect O(e^3)."""
+        return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return c^2 + s^2 = 1."""

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from codegen.groups.linear_algebra import S, Vector, dot, units
+from codegen.groups.capabilities import Projection
+from codegen.groups.linear_algebra import S, Vector, dot, rescaled, units
 from codegen.groups.matrix import MatrixGroup
 from codegen.ir.domain import Domain
 
 
-class SL2(MatrixGroup):
+class SL2(MatrixGroup, Projection):
     """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H.
 
     The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
@@ -38,6 +39,10 @@ class SL2(MatrixGroup):
     def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_{g^-1} mu."""
         return self.Adt(d, _adjugate(g), mu)
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return g times 1 + e/2 + 3 e^2/8 with e = 1 - det g, which leaves a defect O(e^3)."""
+        return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return det g = 1."""

@@ -8,6 +8,7 @@ from codegen.groups.ad_polynomial import ad_polynomial
 from codegen.groups.capabilities import (
     BodyFrame,
     ClosedFormSeries,
+    DependentCoordinates,
     Projection,
     RightTrivialisation,
     Rotations,
@@ -20,7 +21,7 @@ from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
 
 
-class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projection):
+class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projection, DependentCoordinates):
     """Rotations of R^3: a matrix row by row; the hat map and the dot product identify so(3) and so(3)* with
     R^3.
 
@@ -217,6 +218,21 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         gram = matmul(transposed, g, 3)
         defect: Vector[S] = tuple(half * ((three - x) if i % 4 == 0 else -x) for i, x in enumerate(gram))
         return matmul(g, defect, 3)
+
+    def determined(self) -> tuple[tuple[int, ...], ...]:
+        """Return the rows and the columns: each is the cross product of the next two."""
+        rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
+        return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
+
+    def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
+        """Return g with one row or column computed as a cross product."""
+        sets = self.determined()
+        place = sets.index(missing)
+        first = place - place % 3
+        others = (sets[first + (place + k) % 3] for k in (1, 2))
+        a, b = (tuple(g[i] for i in indices) for indices in others)
+        values = dict(zip(missing, cross(a, b), strict=True))
+        return tuple(values.get(i, x) for i, x in enumerate(g))
 
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return the skew matrix of x, row by row."""

@@ -183,7 +183,7 @@ class _Gathering:
         """Return (1/sqrt x)^n as 1/x^m for n = 2 m, or as 1/(x^m sqrt x) for n = 2 m + 1."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
-        # The numeric factors inside y^n are collected, so that the power itself contains no numbers.
+        # With y = 1/sqrt x: c collects the numeric factors of y^n, so the power that remains has none.
         c = Number.rational(1)
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()

@@ -110,7 +110,8 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # 512 rounding units: changes at rounding level grow with the number of terms in a sweep.
+    # 512 rounding units, not one: rounding alone changes the unknowns by more than one unit, and by more the
+    # more terms a sweep has.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -239,6 +240,30 @@ class Estimate:
 
 
 @dataclass(frozen=True)
+class Expansion:
+    """The Taylor polynomial of the solution at a state: a step evaluates it, and a run may choose h from it.
+
+    The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
+    other. It is that of other coordinates than the state where ``enter`` computes them from the state;
+    ``leave`` computes the new state from the old one, followed by the new coordinates. Both are None where
+    there is nothing to compute.
+
+    With ``following`` the coefficients are computed in a loop over their order n
+    (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values for
+    all orders, and the coefficients 1. The outputs of ``following`` are the left and the right operands of
+    ``sums`` inner sums, and the coefficients n + 1. ``controlled`` asks for a run that chooses its steps.
+    """
+
+    degree: int
+    coefficients: Kernel
+    enter: Kernel | None
+    leave: Kernel | None
+    following: Kernel | None = None
+    sums: int = 0
+    controlled: bool = True
+
+
+@dataclass(frozen=True)
 class Function:
     """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
     from ``inputs`` alone.
@@ -263,7 +288,8 @@ class Kernel:
     by a variation, and its outputs are the variation of the new state. With ``substeps`` a step repeats this
     kernel for each of its parts, and h and t are the length and the start of the part. ``outlined`` are
     functions that the expressions of the kernel call. With ``carried`` the kernel reads and returns the
-    momentum m of :class:`Carried` in place of mu.
+    momentum m of :class:`Carried` in place of mu. With ``expansion`` or ``estimate`` there is a run with step
+    control. A kernel without ``outputs`` evaluates the polynomial of its ``expansion``.
     """
 
     name: str
@@ -279,6 +305,12 @@ class Kernel:
     substeps: tuple[Substep, ...] = ()
     outlined: tuple[Function, ...] = ()
     carried: Carried | None = None
+    expansion: Expansion | None = None
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether there is a run that chooses its step sizes."""
+        return self.estimate is not None or (self.expansion is not None and self.expansion.controlled)
 
     @property
     def loops(self) -> tuple[Loop, ...]:
@@ -331,4 +363,6 @@ class Kernel:
         if self.deferred is not None:
             # A parameter that only a deferred flow reads is still an argument of the step.
             read |= {s for kernel in self.deferred.kernels for s in kernel.used_scalars()}
+        if self.expansion is not None:
+            read |= set(self.expansion.coefficients.used_scalars())
         return tuple(s for s in self.scalars if s in read)

@@ -106,7 +106,7 @@ class NormalForms:
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
-                    # The argument is in normal form, so a function of equal arguments is the same variable.
+                    # Arguments are in normal form, so calls with equal arguments become one variable.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value
@@ -165,10 +165,7 @@ class NormalForms:
         total: Polynomial = {}
         for m, x in a.items():
             for n, y in b.items():
-                powers = dict(m)
-                for atom, k in n:
-                    powers[atom] = powers.get(atom, 0) + k
-                total = _add(total, tuple(sorted(powers.items())), x * y)
+                total = _add(total, _product(m, n), x * y)
         # This stops an expansion before it fills the memory: the length of nested products of sums grows
         # exponentially.
         if len(total) > MOST_TERMS:
@@ -199,6 +196,21 @@ class NormalForms:
             if len(done) + len(waiting) > MOST_TERMS:
                 raise TooLong
         return done
+
+
+def _product(m: Monomial, n: Monomial) -> Monomial:
+    """Return the product of two monomials."""
+    if not m or not n:
+        return m or n
+    # All nodes of one monomial may precede those of the other, then the product is sorted already.
+    if m[-1][0] < n[0][0]:
+        return m + n
+    if n[-1][0] < m[0][0]:
+        return n + m
+    powers = dict(m)
+    for atom, k in n:
+        powers[atom] = powers.get(atom, 0) + k
+    return tuple(sorted(powers.items()))
 
 
 def _add(polynomial: Polynomial, monomial: Monomial, c: Number) -> Polynomial:

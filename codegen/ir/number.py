@@ -114,6 +114,9 @@ class Number:
         raise TypeError(f"numbers of two different fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
+        # Rational numbers cancel exactly. Most numbers are rational, and keys take time.
+        if self.ring is other.ring is QQ:
+            return Number(QQ, self.element + other.element)
         # For balls the sum would be a ball around 0, which no simplification recognises.
         if self == -other:
             return Number.rational(0)
@@ -121,12 +124,16 @@ class Number:
         return Number(ring, x + y)
 
     def __sub__(self, other: Number) -> Number:
+        if self.ring is other.ring is QQ:
+            return Number(QQ, self.element - other.element)
         if self == other:
             return Number.rational(0)
         ring, x, y = self._join(other)
         return Number(ring, x - y)
 
     def __mul__(self, other: Number) -> Number:
+        if self.ring is other.ring is QQ:
+            return Number(QQ, self.element * other.element)
         # A product by 1 would widen a ball and change its key without need.
         if self.is_one or other.is_one:
             return other if self.is_one else self

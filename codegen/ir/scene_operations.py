@@ -131,6 +131,38 @@ class Bivector(OfGroup):
 
 
 @dataclass(frozen=True)
+class TaylorStep(Operation):
+    """The Taylor polynomial of a degree at y, evaluated after the time h; where ``timed``, at (y, t)."""
+
+    degree: int
+    timed: bool = False
+    evaluates_scene = True
+    name = "taylor_polynomial"
+    noun = "Taylor polynomial{s}"
+
+    def text(self) -> str:
+        """Return the name with the degree."""
+        return f"{self.name}({self.degree})"
+
+    def signature(self) -> tuple[Kinds, Kinds]:
+        """Return the kinds of the arguments and of the results."""
+        return P + R if self.timed else P, P
+
+    def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
+        """Return the results for arguments of a domain."""
+        return problem.apply(domain, self.name, self.degree, args)
+
+
+@dataclass(frozen=True)
+class ToOrbit(OfGroup):
+    """y moved back to the manifold that contains the second argument."""
+
+    name = "to_orbit"
+    takes, gives = P + P, P
+    noun = "projection{s} onto the manifold"
+
+
+@dataclass(frozen=True)
 class FlowOf(Operation):
     """The exact flow of a part of the Hamiltonian for a fixed duration.
 

@@ -68,6 +68,8 @@ def ordered(lets: Sequence[Let]) -> tuple[Let, ...]:
 
 
 def _measured(root: Expr, ready: dict[int, int]) -> int:
+    if root.id in ready:
+        return ready[root.id]
     for node in walk([root], lambda n: n.id in ready):
         if node.id not in ready:
             ready[node.id] = max((ready[a.id] for a in node.args), default=0) + TIMES[node.op]
@@ -235,6 +237,8 @@ class _Chains:
 
     def _known(self, node: Expr) -> Expr:
         """Measure a new node and its new arguments, and return it."""
+        if node.id in self.ready:
+            return node
         for part in walk([node], lambda n: n.id in self.ready):
             if part.id not in self.ready:
                 self._measure(part)

@@ -60,6 +60,29 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     return total
 
 
+def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
+    """Return the number of each operation of a kernel, as :func:`operations` counts them.
+
+    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates it.
+    """
+    expansion = kernel.expansion
+    if kernel.outputs or expansion is None:
+        return operations(arrange(kernel))
+    total = operations(arrange(expansion.coefficients))[STEP]
+    # Horner's rule takes an addition and a product for each coefficient.
+    number = expansion.degree * sum(len(f.symbols) for f in expansion.coefficients.state)
+    if expansion.following is not None:
+        last = expansion.degree - 1
+        each = operations(arrange(expansion.following))[STEP]
+        total = _plus(total, {name: n * last for name, n in each.items()})
+        # The inner sum of order n has n - 1 terms.
+        number += expansion.sums * (last * (last - 1) // 2)
+    total = _plus(total, {"add": number, "mul": number})
+    for part in (expansion.enter, expansion.leave):
+        total = total if part is None else _plus(total, operations(arrange(part))[STEP])
+    return {STEP: total}
+
+
 def matrix_of(label: str) -> str:
     """Return the key under which the operations of a block's matrix are counted."""
     return f"matrix of {label}"
@@ -87,7 +110,7 @@ def sentences(counts: dict[str, dict[str, int]]) -> list[str]:
 
 def costs(kernel: Kernel) -> list[str]:
     """Format the costs of a step, of each block's sweep, and of the beginning and end of a run."""
-    lines = sentences(operations(arrange(kernel)))
+    lines = sentences(step_operations(kernel))
     if kernel.carried is not None:
         turned = (kernel.carried.inward, kernel.carried.outward)
         there, back = (operations(arrange(each_kernel))[STEP] for each_kernel in turned)

@@ -143,7 +143,7 @@ class _Translation:
         # An outlined function accepts numbers only, so an operation that samples run-time inputs cannot be
         # part of it.
         reads = bool(scene.inputs) and any(v.kind is Kind.REAL for v in assign.args)
-        # A block is appended after its body, so the number of blocks so far is the number of this block.
+        # A block is appended after its body, so the count of earlier blocks is the index of this block.
         place = len(self.blocks) if self.inside else -1
         self.outline.trees.note(assign, args, results, place, joined=nested is None and not reads)
         for target, value in zip(assign.targets, results, strict=True):

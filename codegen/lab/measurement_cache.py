@@ -27,7 +27,7 @@ FORMAT = 1
 """Version of the file format. It is part of every key, so a new version ignores old entries."""
 
 FOLDER = ".measured"
-"""Name of the folder, beside the results of an unfinished report or bench, that contains the entries."""
+"""Name of the folder that contains the entries. It is next to the results of an unfinished report."""
 
 DIGEST = 32
 """Bytes of SHA-256 at the start of an entry."""
@@ -68,7 +68,7 @@ class MeasurementCache:
             if hashlib.sha256(body).digest() != digest:
                 return None
             return msgspec.msgpack.decode(body, type=kind)
-        except (OSError, msgspec.DecodeError):  # msgspec.ValidationError is a DecodeError
+        except (OSError, msgspec.DecodeError):  # includes msgspec.ValidationError
             return None
 
     def store(self, key: Sequence[object], result: object) -> None:

@@ -102,8 +102,8 @@ def _key(scene: Problem) -> tuple[object, ...]:
 def reference(scene: Problem) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
-    :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if the two
-    runs do not agree to 28 digits.
+    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
+    the two runs do not agree to 28 digits.
     """
     checked, answer = (_end(scene, columns, exponent) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
@@ -166,7 +166,7 @@ def _extrapolate(field: Evaluate, y: Vector, t: Scalar, step: Scalar, columns: i
     """Return the extrapolated state after one step, and an estimate of its error.
 
     The state is the last entry of the extrapolation table, the estimate its distance from the previous entry
-    of the same row. ArithmeticError if the field cannot be evaluated at some stage.
+    of the same row. Raises ArithmeticError if the field cannot be evaluated at some stage.
     """
     slope = field(y, t)
     row: list[Vector] = []

@@ -38,7 +38,7 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
     """Add a measurement at the end of the list, and return its class; usable as a class decorator.
 
-    InputError if another measurement has this name.
+    Raises InputError if another measurement has this name.
     """
     known = {m.name: type(m) for m in measurements()}
     if known.get(kind.name, kind) is not kind:
@@ -70,7 +70,7 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
     """Return the named measurements and those that are ``part_of`` them; without names, all measurements.
 
-    :class:`UnknownName` for an unknown name.
+    Raises :class:`UnknownName` for an unknown name.
     """
     every = measurements()
     known = [m.name for m in every]

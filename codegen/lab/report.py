@@ -33,7 +33,8 @@ class Request:
     adaptive: tuple[str, ...] = ()
 
     def subjects(self) -> tuple[Subject, ...]:
-        """Return the subject of each page; InputError for unknown names, before anything is measured."""
+        """Return the subject of each page; raises InputError for an unknown name, before anything is
+        measured."""
         chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or REPORT_SCENES)]
         selected(self.parts)
         effort = EFFORTS[self.effort]

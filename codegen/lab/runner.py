@@ -58,7 +58,7 @@ class Interpreted:
         return problem_for(self.compiled.scene, self.compiled.method)
 
     def final(self, steps: int) -> Vector:
-        """Return the state at the end of the span after ``steps`` equal steps; :class:`RunFailed`."""
+        """Return the final state after ``steps`` equal steps over the span; may raise :class:`RunFailed`."""
         start, end = self.problem.span
         h = (end - start) / steps if steps else end - start
         double = self.digits <= DOUBLE
@@ -101,7 +101,7 @@ class Emitted:
 
     @property
     def most_steps(self) -> int:
-        """The largest number of steps in a convergence test, about one second."""
+        """The largest number of steps in a convergence test; a run with it takes about one second."""
         return printers.target(self.target).most_steps
 
     @cached_property
@@ -125,7 +125,7 @@ class Emitted:
         return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
     def final(self, steps: int, statistics: Statistics | None = None) -> tuple[float, ...]:
-        """Return the state at the end of the span after ``steps`` equal steps; :class:`RunFailed`.
+        """Return the final state after ``steps`` equal steps over the span; may raise :class:`RunFailed`.
 
         ``statistics`` receives the numbers of iterations of implicit blocks.
         """
@@ -147,7 +147,8 @@ def runner(
     """Return the runner for a target, or for ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
+    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the
+    target has.
     """
     known = (*printers.names(), INTERPRETER)
     if target not in known:

@@ -85,7 +85,7 @@ class SceneResults:
 
 def measure_scene(subject: Subject, chosen: Sequence[AnyMeasurement]) -> SceneResults:
     """Run the chosen measurements; one that fails does not affect the others."""
-    _ = subject.exact  # a scene without a reference solution cannot be measured: SceneError
+    _ = subject.exact  # raises SceneError if there is no reference solution
     return SceneResults(subject, tuple(_measure(m, subject) for m in chosen))
 
 

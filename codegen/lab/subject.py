@@ -174,7 +174,7 @@ def subject(
     chosen = tuple(parse(m, families) for m in methods)
     controlled = tuple(replace(parse(m, families), adaptive=True) for m in adaptive)
     for method in controlled:
-        method.embedded()  # MethodError without an embedded row
+        method.embedded()  # raises MethodError if the tableau has no embedded row
     if not methods and not adaptive:
         chosen, controlled = report_methods(scene)
     others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))

@@ -89,6 +89,13 @@ class Lowering(ABC):
         # symplectic.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
+    def degree(self, method: Method) -> int:
+        """Return the degree of the Taylor polynomial that a step evaluates, 0 for other steps.
+
+        :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
+        """
+        return 0
+
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
         """Return the family whose order conditions apply to the program; the conditions may depend on the
         scene."""

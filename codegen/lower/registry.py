@@ -22,6 +22,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
     from codegen.lower.rkmk import MuntheKaas
     from codegen.lower.slgi import SymplecticIntegrator
     from codegen.lower.splitting import SplittingLowering
+    from codegen.lower.taylor import Taylor
     from codegen.lower.vcf import VariationalCommutatorFree
     from codegen.lower.vcg import VariationalCrouchGrossman
     from codegen.lower.vrkmk import VariationalMuntheKaas
@@ -41,6 +42,7 @@ def _built_in() -> tuple[type[Lowering], ...]:
         SplittingLowering,
         CompositionLowering,
         Ambient,
+        Taylor,
     )
 
 

@@ -59,7 +59,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
     tableau_of_one = replace(
         tableau, family="rk", method=repetition[0], embedded=None, proof=None, file=None, path=None
     )
-    return replace(method, tableau=tableau_of_one), tuple(_timed(repetition[1]))
+    return replace(method, coefficients=tableau_of_one), tuple(_timed(repetition[1]))
 
 
 def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:

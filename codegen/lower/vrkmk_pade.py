@@ -90,9 +90,9 @@ class _Step(ExpandedStep):
     def _slope(self, name: str, brackets: list[Var], momenta: list[Var]) -> Var:
         """Append R*_(r) M, the sum over i < r of ad*_z (ad*_x)^i M, z = -sum_k ad_x^{k-1-i} v/(k+1)!."""
         terms: Terms = []
-        # By the product rule the derivative of ad_x^k v along z is the sum of
-        # ad_x^i [z, ad_x^{k-1-i} v] = -ad_x^i ad_w z, with w = ad_x^{k-1-i} v. Its
-        # dual is ad*_{-w} (ad*_x)^i M; terms with one i share the outer bracket.
+        # By the product rule, the derivative of ad_x^k v with respect to x in a direction d is the sum over
+        # i < k of ad_x^i [d, w] = -ad_x^i ad_w d, with w = ad_x^{k-1-i} v. The dual map sends M to
+        # ad*_{-w} (ad*_x)^i M. Terms with the same i are summed first: z is the sum of -w/(k+1)! over k.
         for i in range(self.r):
             inner = [(_over_factorial(-1, k), brackets[k - 1 - i]) for k in range(i + 1, self.r + 1)]
             # The sum over k is formed in the algebra, before the bracket, which takes r brackets and not r (r

@@ -32,7 +32,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # The import is here, because only programs with blocks need networkx.
     import networkx
 
-    # After a block each of its unknowns is replaced by the image, also in the starts of later blocks.
+    # In the statements after a block, and in the starts of later blocks, its image replaces each unknown.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
     # Graph nodes are positions in the body: integers have an order, so the result does not depend on hashes.

@@ -26,8 +26,8 @@ one."""
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
-        # The combinations are found again in each round, because a factored map may complete another
-        # combination.
+        # Each round searches for combinations anew, because a value computed in this round may be a term of a
+        # further combination.
         wanted = _worthwhile(program)
         if not wanted:
             return program

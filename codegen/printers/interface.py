@@ -53,7 +53,7 @@ class Interface:
             blocks=tuple(loop.label for loop in kernel.loops),
             precision=precision,
             inputs=kernel.inputs,
-            adaptive=kernel.estimate is not None,
+            adaptive=kernel.adaptive,
             variations=0 if kernel.vary is None else len(kernel.vary.outputs),
             solvers=tuple(loop.solver for loop in kernel.loops),
         )

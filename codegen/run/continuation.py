@@ -133,7 +133,7 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # Attempts need no error estimate: step control rejects a failed step instead of continuing it.
+        # Only step-size control reads the error estimate, and it uses no continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state, because h is the parameter of the

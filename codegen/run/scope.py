@@ -8,6 +8,7 @@ first statement that contains it. A variable that is assigned once is constant.
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 
 from codegen.run.identifiers import Identifiers
@@ -72,7 +73,11 @@ class _Scopes:
 
     def __init__(self, identifiers: Identifiers, result: Declarations) -> None:
         self.identifiers, self.result = identifiers, result
-        self.cached: dict[int, frozenset[str]] = {}
+        # The keys are identities: equal statements at different places have separate scopes. Every statement
+        # is read for many variables, so it is analysed once.
+        self.known: dict[int, frozenset[str]] = {}
+        self.known_own: dict[int, frozenset[str]] = {}
+        self.counts: dict[int, Counter[str]] = {}
 
     def place(self, body: Body, variables: dict[str, Term]) -> None:
         """Declare variables that no statement outside the body mentions."""
@@ -140,25 +145,33 @@ class _Scopes:
         first = body[places[0]]
         # Assignments are counted in the whole block, because a variable that an inner block assigns again is
         # not constant.
-        times = sum(self.assignments(body[k], name) for k in places)
+        times = sum(self.assignments(body[k])[name] for k in places)
         # `x = x + 1` cannot be a declaration, because it reads x.
-        direct_first = isinstance(first, Assign) and self.assignments(first, name) > 0
-        called = isinstance(first, Call) and len(first.results) == 1 and self.assignments(first, name) > 0
+        direct_first = isinstance(first, Assign) and self.assignments(first)[name] > 0
+        called = isinstance(first, Call) and len(first.results) == 1 and self.assignments(first)[name] > 0
         if (direct_first or called) and name not in {self.identifiers.variable(x) for x in reads(first)}:
             self.result.by.setdefault(id(first), {})[name] = times == 1
         else:
             self.result.before.setdefault(id(first), []).append((name, variable))
 
-    def assignments(self, statement: Statement, name: str) -> int:
-        """Return the number of assignments to a variable in a statement."""
-        # The declaration of an array is no assignment to a scalar.
-        targets = [] if isinstance(statement, Array) else assigned(statement)
-        own = sum(t.op == "name" and self.identifiers.variable(t) == name for t in targets)
-        return own + sum(self.assignments(x, name) for block in blocks(statement) for x in block)
+    def assignments(self, statement: Statement) -> Counter[str]:
+        """Return the number of assignments to each variable in a statement and its inner blocks."""
+        if id(statement) not in self.counts:
+            # The declaration of an array is no assignment to a scalar.
+            targets = () if isinstance(statement, Array) else assigned(statement)
+            count = Counter(self.identifiers.variable(t) for t in targets if t.op == "name")
+            for block in blocks(statement):
+                for inner in block:
+                    count.update(self.assignments(inner))
+            self.counts[id(statement)] = count
+        return self.counts[id(statement)]
 
     def own(self, statement: Statement) -> frozenset[str]:
         """Return the variables that a statement itself mentions."""
-        return frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
+        if id(statement) not in self.known_own:
+            read = frozenset(self.identifiers.variable(x) for x in names(direct(statement)))
+            self.known_own[id(statement)] = read
+        return self.known_own[id(statement)]
 
     def within(self, body: Body, name: str) -> bool:
         """Whether a body mentions a variable."""
@@ -166,11 +179,10 @@ class _Scopes:
 
     def mentioned(self, statement: Statement) -> frozenset[str]:
         """Return the variables that a statement and its inner blocks mention."""
-        # The key is the identity: equal statements at different places have separate scopes.
-        if id(statement) not in self.cached:
+        if id(statement) not in self.known:
             result = set(self.own(statement))
             for block in blocks(statement):
                 for inner in block:
                     result |= self.mentioned(inner)
-            self.cached[id(statement)] = frozenset(result)
-        return self.cached[id(statement)]
+            self.known[id(statement)] = frozenset(result)
+        return self.known[id(statement)]

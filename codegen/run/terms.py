@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from functools import reduce
+from functools import lru_cache, reduce
 
 from codegen.ir.expr import Expr
 
@@ -339,8 +339,14 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
         if term.op == "name":
             yield term
         elif term.value is not None:
-            yield from map(own, symbols(term.value))
+            yield from map(_read, symbols(term.value))
         waiting += term.args[::-1]
+
+
+@lru_cache(maxsize=4096)
+def _read(name: str) -> Term:
+    """Return the name of a symbol that an expression reads; one object serves all its readers."""
+    return own(name)
 
 
 def symbols(root: Expr) -> Iterator[str]:

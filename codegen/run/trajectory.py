@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from codegen.ir.expr import walk
+from codegen.ir.kernel import Kernel
 from codegen.run.arithmetic import computed, outputs
 from codegen.run.continuation import retried
 from codegen.run.language import Array, Assign, Call, Function, If, Return, Statement, While
@@ -37,6 +39,9 @@ from codegen.run.terms import (
     whole,
 )
 
+RAISING = frozenset({"sqrt", "log", "exp"})
+"""Functions that raise an exception in Python for some arguments."""
+
 REGISTERS = 6
 """The largest state that stays in registers next to the intermediate values of a step."""
 
@@ -51,7 +56,14 @@ def is_looped(plan: Plan) -> bool:
     kernel = plan.kernel
     # A function call in each step would force the state to memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
-    return alone and not (plan.counting or plan.time or kernel.estimate is not None)
+    plain = bool(kernel.outputs) and kernel.estimate is None
+    return alone and plain and not (plan.counting or plan.time or _may_raise(kernel))
+
+
+def _may_raise(kernel: Kernel) -> bool:
+    """Whether a target may raise an exception where C computes an infinity or a NaN."""
+    # Only a function that contains the kernel alone can turn an exception into a status.
+    return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from codegen.run import deferred_flows, jacobian, step_control
+from codegen.run import deferred_flows, jacobian, step_control, taylor_control
 from codegen.run.arithmetic import outlined
 from codegen.run.continuation import continued
 from codegen.run.language import Function, Record, Table, Unit
@@ -22,7 +22,7 @@ def unit_of(plan: Plan) -> Unit:
         functions += deferred_flows.functions(plan)
     else:
         functions += _steps(plan)
-    functions += (*step_control.functions(plan), *jacobian.functions(plan))
+    functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
     # t and h are included even if no expression reads them: no other name may get these identifiers.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     return Unit(scalars, _records(plan), _tables(plan), tuple(functions))
@@ -39,6 +39,8 @@ def _steps(plan: Plan) -> list[Function]:
     # call the function that contains the kernel.
     if is_looped(plan):
         return [*listed, *turning(plan), run(plan), step(plan)]
+    if not plan.kernel.outputs:
+        return [*listed, *taylor_control.polynomial_step(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
         # The continuation comes after the kernel, which it calls, and before the composition and the run,

@@ -215,14 +215,14 @@ class WarmStart:
         )
         # The size is a sum and not a maximum, because a sum needs no comparison. Both are suitable, because
         # only ratios of sizes are compared.
-        about = "The sum of the absolute values of a backward difference."
+        about = "The sum of the absolute values of the components of a backward difference."
         return Function("difference_size", about, (self.memory, order), body, Kind.REAL)
 
     def remember(self) -> Function:
         """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three solutions, the guess copies the last one; its error is not tested"),
+            Note("with fewer than three stored solutions, the guess is the last one, and is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from codegen.groups.actions import Action, LeftMultiplication
 from codegen.groups.base import LieGroup
@@ -27,6 +28,9 @@ from codegen.scene.body_frame import BodyField, body_field
 from codegen.scene.flow import Flow
 from codegen.scene.operations import BY_ACTION, ON_GROUP, TRUNCATED
 from codegen.scene.values import Bindings
+
+if TYPE_CHECKING:
+    from codegen.scene.evolution import Evolution
 
 TIME = "t"
 """The symbol of the time in formulas."""
@@ -55,7 +59,7 @@ class Problem:
     not the default. ``roots`` contain the formulas of signals, ``open_roots`` are the roots with the symbols
     of ``signals`` instead. ``inputs`` are the signals that emitted code reads at run time. ``forced`` says
     that n is not a derivative of the Hamiltonian alone. If emitted code reads and returns momenta in the body
-    frame, ``body_group`` is the group.
+    frame, ``body_group`` is the group. ``evolution`` are the coordinates that a Taylor step uses.
     """
 
     name: str
@@ -76,6 +80,7 @@ class Problem:
     inputs: tuple[str, ...] = ()
     forced: bool = False
     body_group: Coadjoint | None = None
+    evolution: Evolution | None = None
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
@@ -133,6 +138,10 @@ class Problem:
         if name in energy.OPERATIONS:
             return (energy.apply(self, domain, name, args),)
         match name:
+            case "taylor_polynomial":
+                return (self._evolution().step(domain, order or 0, *args),)
+            case "to_orbit":
+                return (self._evolution().leave(domain, *args),)
             case "legendre":
                 return (self._require_body().momentum(domain, *args),)
             case "velocity" | "velocityt":
@@ -141,6 +150,10 @@ class Problem:
                 return (self._in_body(domain, self._require_body().force, args),)
             case _:
                 return self._field(domain, args)
+
+    def _evolution(self) -> Evolution:
+        assert self.evolution is not None
+        return self.evolution
 
     def flow(self, domain: Domain, part: str, tau: S, args: Values) -> Values:
         """Return (q, mu) after the exact flow of a part for the time tau; ``args`` are q, mu, and t if the

@@ -73,7 +73,7 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         # The branch near zero is small enough to be inlined at each call; the other branch is called rarely.
         far, small = f"{name}_far", float(stumpff.SMALL)
         listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-        # Three functions in two forms would be too long for a C compiler to inline.
+        # Three functions, each in a tiny and in a small form, would be too long for a C compiler to inline.
         sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
         calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
         tiny = float(stumpff.TINY) if "tiny" in sizes else ""

@@ -103,7 +103,7 @@ static inline double dipole_vcg_triple_jump_stumpff_small_1(double z)
         + w * w * (2.755729894303353e-06 + z * -2.5022519568470477e-08);
 }
 
-/* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
+/* c_3(z) = sum_j (-z)^j/(2j+3)!, truncated, for 0 <= z <= 4 */
 static inline double dipole_vcg_triple_jump_stumpff_series_3(double z)
 {
     const double w = z * z;
@@ -117,7 +117,7 @@ static inline double dipole_vcg_triple_jump_stumpff_series_3(double z)
     return 0.16666666666666666 + z * (even + z * odd);
 }
 
-/* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
+/* c_2(z) = sum_j (-z)^j/(2j+2)!, truncated, for 0 <= z <= 1 */
 static inline double dipole_vcg_triple_jump_stumpff_series_2(double z)
 {
     const double w = z * z;
@@ -129,7 +129,7 @@ static inline double dipole_vcg_triple_jump_stumpff_series_2(double z)
     return 0.5 + z * (even + z * odd);
 }
 
-/* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
+/* c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for 0 <= z <= 1 */
 static inline double dipole_vcg_triple_jump_stumpff_series_1(double z)
 {
     const double w = z * z;
@@ -312,7 +312,7 @@ static inline void dipole_vcg_triple_jump_difference(const struct dipole_vcg_tri
     sum[2] = sum_2;
 }
 
-/* The sum of the absolute values of a backward difference. */
+/* The sum of the absolute values of the components of a backward difference. */
 static double dipole_vcg_triple_jump_difference_size(const struct dipole_vcg_triple_jump_memory *memory,
     size_t order)
 {
@@ -332,7 +332,7 @@ static double dipole_vcg_triple_jump_difference_size(const struct dipole_vcg_tri
 static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
+    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

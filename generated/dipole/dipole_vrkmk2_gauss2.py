@@ -405,7 +405,7 @@ def _difference(memory, order, first, sign, sum):
 
 
 def _difference_size(memory, order):
-    """The sum of the absolute values of a backward difference."""
+    """The sum of the absolute values of the components of a backward difference."""
     row = [0.0] * 6
     _difference(memory, order, 0, 1.0, row)
     size = 0.0
@@ -418,8 +418,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three solutions, the guess copies the last one; its error is
-    # not tested
+    # with fewer than three stored solutions, the guess is the last one, and is not
+    # tested
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

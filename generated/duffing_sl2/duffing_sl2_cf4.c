@@ -80,7 +80,7 @@ static inline double duffing_sl2_cf4_stumpff_small_0(double z)
         + w * w * (2.480156093634923e-05 + z * -2.7518853761923276e-07);
 }
 
-/* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
+/* c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for 0 <= z <= 1 */
 static inline double duffing_sl2_cf4_stumpff_series_1(double z)
 {
     const double w = z * z;
@@ -92,7 +92,7 @@ static inline double duffing_sl2_cf4_stumpff_series_1(double z)
     return 1.0 + z * (even + z * odd);
 }
 
-/* c_0(z) = sum (-z)^j/(2j+0)! up to z = 1 */
+/* c_0(z) = sum_j (-z)^j/(2j+0)!, truncated, for 0 <= z <= 1 */
 static inline double duffing_sl2_cf4_stumpff_series_0(double z)
 {
     const double w = z * z;

@@ -79,7 +79,7 @@ static inline double free_rigid_body_cg3_stumpff_small_1(double z)
         + w * w * (2.755729894303353e-06 + z * -2.5022519568470477e-08);
 }
 
-/* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
+/* c_2(z) = sum_j (-z)^j/(2j+2)!, truncated, for 0 <= z <= 1 */
 static inline double free_rigid_body_cg3_stumpff_series_2(double z)
 {
     const double w = z * z;
@@ -91,7 +91,7 @@ static inline double free_rigid_body_cg3_stumpff_series_2(double z)
     return 0.5 + z * (even + z * odd);
 }
 
-/* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
+/* c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for 0 <= z <= 1 */
 static inline double free_rigid_body_cg3_stumpff_series_1(double z)
 {
     const double w = z * z;

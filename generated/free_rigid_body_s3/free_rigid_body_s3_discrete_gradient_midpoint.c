@@ -119,7 +119,7 @@ static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_small
         + w * w * (2.480156093634923e-05 + z * -2.7518853761923276e-07);
 }
 
-/* c_3(z) = sum (-z)^j/(2j+3)! up to z = 4 */
+/* c_3(z) = sum_j (-z)^j/(2j+3)!, truncated, for 0 <= z <= 4 */
 static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_3(double z)
 {
     const double w = z * z;
@@ -133,7 +133,7 @@ static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_serie
     return 0.16666666666666666 + z * (even + z * odd);
 }
 
-/* c_2(z) = sum (-z)^j/(2j+2)! up to z = 1 */
+/* c_2(z) = sum_j (-z)^j/(2j+2)!, truncated, for 0 <= z <= 1 */
 static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_2(double z)
 {
     const double w = z * z;
@@ -145,7 +145,7 @@ static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_serie
     return 0.5 + z * (even + z * odd);
 }
 
-/* c_1(z) = sum (-z)^j/(2j+1)! up to z = 1 */
+/* c_1(z) = sum_j (-z)^j/(2j+1)!, truncated, for 0 <= z <= 1 */
 static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_1(double z)
 {
     const double w = z * z;
@@ -157,7 +157,7 @@ static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_serie
     return 1.0 + z * (even + z * odd);
 }
 
-/* c_0(z) = sum (-z)^j/(2j+0)! up to z = 1 */
+/* c_0(z) = sum_j (-z)^j/(2j+0)!, truncated, for 0 <= z <= 1 */
 static inline double free_rigid_body_s3_discrete_gradient_midpoint_stumpff_series_0(double z)
 {
     const double w = z * z;
@@ -346,7 +346,7 @@ static inline void free_rigid_body_s3_discrete_gradient_midpoint_difference(cons
     sum[2] = sum_2;
 }
 
-/* The sum of the absolute values of a backward difference. */
+/* The sum of the absolute values of the components of a backward difference. */
 static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(const struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     size_t order)
 {
@@ -366,7 +366,7 @@ static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(cons
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three solutions, the guess copies the last one; its error is not tested */
+    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

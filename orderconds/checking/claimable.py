@@ -19,8 +19,8 @@ def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
     They are sorted: first families on vector spaces, then families on Lie groups, last families that divide
-    by weights. Of these three classes, each begins with the families whose first format is the format of the
-    tableau.
+    by weights. Within each of these three classes, the families whose preferred format is the format of the
+    tableau come first.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

@@ -38,11 +38,11 @@ class Meter:
     started: float = field(default_factory=time.monotonic)
 
     def next_order(self) -> None:
-        """Start the count of conditions of another order."""
+        """Reset the number of conditions of the current order to zero."""
         self.of_order = 0
 
     def count(self, conditions: int) -> None:
-        """Count conditions that have been evaluated."""
+        """Add to the numbers of evaluated conditions, in total and of the current order."""
         self.total += conditions
         self.of_order += conditions
 

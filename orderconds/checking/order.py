@@ -73,7 +73,7 @@ class FamilyOrder:
             "verdict": self.verdict,
             "certificate": self.certificate,
             "failing": [failure.as_json() for failure in self.failing],
-            # JSON has no infinity
+            # an infinite norm becomes null, because JSON has no infinity
             "error_norm": None if self.error_norm == math.inf else self.error_norm,
         }
         if self.limit is not None:
@@ -96,10 +96,10 @@ def family_order(
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
     ``bound`` is the order in another family, whose conditions are a subset of those of ``family``. It is
-    therefore an upper bound. ``search_limit`` is the order up to which ``family`` searches without a claim.
-    If the order of ``bound`` is at least this limit, or with ``brief`` in any case, the search stops when it
-    reaches this bound. It then reports the failing conditions of ``bound``. Conditions that follow from
-    others, and from the orders ``proved`` in other families, are not evaluated
+    therefore an upper bound. ``search_limit`` is the highest order that is evaluated for a file without a
+    claim in ``family``. If the order of ``bound`` is at least this limit, or with ``brief`` in any case, the
+    search stops when it reaches this bound. It then reports the failing conditions of ``bound``. Conditions
+    that follow from others, and from the orders ``proved`` in other families, are not evaluated
     (:mod:`orderconds.families.reductions`). The search also ends when ``meter`` reports that a limit is
     reached.
 
@@ -178,7 +178,8 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # For balls, a theorem proves only that the digits support an order.
+        # Over balls, a theorem about a condition proves only that the digits support the condition. Such a
+        # condition is skipped only if the certificate is already ``decimal``.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):
@@ -197,7 +198,8 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield (conditions, True) with all conditions that decide order n, or (batch, False) repeatedly.
+    """Yield the conditions that decide order n: all of them at once, as (conditions, True), or in batches,
+    each as (batch, False).
 
     The conditions are an independent set or, if such a set costs more, the conditions of all trees. The size
     of the batches doubles.
@@ -217,7 +219,7 @@ def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
 
 
 def _norm(sizes: list[Decimal]) -> float:
-    """Return the 2-norm, to 15 digits."""
+    """Return the 2-norm of residuals with these absolute values, to 15 digits."""
     context = Context(prec=30)
     total = Decimal(0)
     for x in sizes:

@@ -46,7 +46,7 @@ class Report:
     properties: dict[str, bool | None]
     broken_claims: tuple[str, ...] = ()
     undecided: dict[str, str] = field(default_factory=dict)
-    """The reason why a property is undecided, by property."""
+    """For each undecided property, the reason why it is undecided."""
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None

@@ -170,8 +170,8 @@ def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
 
 
 class _OnDemand:
-    """Exact residuals on demand: the first one needed is computed alone; at the second, all others are
-    computed."""
+    """Exact residuals on demand. The first residual requested is computed alone; the second request computes
+    all remaining residuals."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
@@ -206,6 +206,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    assert isinstance(ring, Balls)  # exact rings decide is_zero
+    assert isinstance(ring, Balls)  # in an exact ring is_zero is never None
     radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

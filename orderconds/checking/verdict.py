@@ -84,7 +84,7 @@ def check(
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
     """Return the orders of the embedded row in families whose stages do not depend on the weights.
 
-    These families are the wanted ones, the classical one, and the family of the tableau format.
+    These are the families in ``wanted``, the classical family ``rk``, and the family of the tableau format.
     """
     lower = tableau.lower()
     if lower is None or tableau.embedded is None:
@@ -195,7 +195,8 @@ def _beyond(
 
 
 def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | None:
-    """Return the lowest order in a family whose conditions are a subset of those of ``family``."""
+    """Return the best upper bound of the order in ``family``: the lowest computed order in a family whose
+    conditions are a subset of the conditions of ``family``."""
     if not computed:
         return None
     from orderconds.proof.implications import consequences

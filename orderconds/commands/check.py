@@ -36,7 +36,7 @@ WIDTH = 200
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
 @click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
-@click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), claimed or not.")
+@click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), even without a claim.")
 @click.option(
     "--order", "-p", type=click.IntRange(1, 20), help="Ignore the claims; require at least this order."
 )
@@ -48,7 +48,7 @@ WIDTH = 200
 @click.option(
     "--certified",
     is_flag=True,
-    help="Require an exact or ball certificate for every file not listed in DIR/DECIMAL.",
+    help="Require a proof of each order (certificate exact or ball), except for the names in DIR/DECIMAL.",
 )
 @click.option(
     "--max-conditions",
@@ -84,7 +84,7 @@ def command(
     from orderconds.families import get
 
     if family is not None:
-        get(family)  # an unknown family is one error for the command, not one for each file
+        get(family)  # report an unknown family once, not for each file
     excused = _excused(tableaux)
     limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
     paths = list(_files(tableaux))
@@ -126,8 +126,8 @@ def command(
 
 @contextmanager
 def _without_collection(paths: Sequence[str]) -> Iterator[None]:
-    """Switch garbage collection off for one file, because a check creates many small objects that live to its
-    end."""
+    """Switch garbage collection off for one file, because a check creates many small objects that are used
+    until the check ends."""
     collects = gc.isenabled()
     if len(paths) == 1:
         gc.disable()
@@ -179,7 +179,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # only the main process knows the terminal
+    if not job.one_of_many:  # only the main process writes to the terminal
         _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
     with redirect_stdout(io.StringIO()) as printed:

@@ -20,16 +20,18 @@ NAMES = click.Choice(list(FORMATS))
 
 @click.command(name="convert", short_help="Convert a tableau to or from another file format.")
 @click.argument("source", metavar="FILE|NAME")
-@click.option("--from", "of", type=NAMES, help="The format of FILE. Default: by its suffix.")
-@click.option("--to", type=NAMES, help="The format to write. Default: by the suffix of --output, else toml.")
-@click.option("--name", help="The name of the tableau if FILE contains none.")
+@click.option("--from", "of", type=NAMES, help="The format of FILE. Default: from its suffix.")
+@click.option(
+    "--to", type=NAMES, help="The format to write. Default: from the suffix of --output, else toml."
+)
+@click.option("--name", help="The name of the tableau, if FILE contains no name.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(
     source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
 ) -> int:
-    """Convert a tableau: a file, or one of the library by name. Input is never executed as code. Reading the
-    output back gives the same method.
+    """Convert a tableau, given as a file or by its name in the library. Input is never executed as code. If
+    the output is read again, the method is the same.
     """
     bare = of is None and not os.path.exists(source) and "." not in os.path.basename(source)
     path = find(source) if bare else Path(source)
@@ -39,7 +41,7 @@ def command(
     data = read_data(content, of, str(path), name or name_of(path))
     if name is not None:
         data["name"] = name
-    from_data(data, str(path))  # to raise an error if the tableau is invalid
+    from_data(data, str(path))  # raises an error if the tableau is invalid
     lost = list(left_out(data, to))
     if not as_json:
         for key in lost:

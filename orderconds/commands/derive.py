@@ -18,13 +18,13 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.argument("family")
 @click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="The highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
-@click.option("--explicit", is_flag=True, help="With --stages: explicit methods, a_ij = 0 for j >= i.")
+@click.option("--explicit", is_flag=True, help="With --stages: for explicit methods (a_ij = 0 for j >= i).")
 @click.option("--format", "form", type=click.Choice(FORMATS), help="The output format. Default: text.")
 @click.option(
     "--all",
     "every",
     is_flag=True,
-    help="Print the conditions of all trees, and how dependent ones follow from others.",
+    help="Print the conditions of all trees, and how dependent conditions follow from independent ones.",
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")

@@ -18,16 +18,17 @@ if TYPE_CHECKING:
     "--order", "-p", type=click.IntRange(1, 10), required=True, help="Print the terms up to h^(ORDER - 1)."
 )
 @click.option(
-    "--family", help="Treat the tableau as a method of this family. Default: rk or cf, by its format."
+    "--family",
+    help="Treat the tableau as a method of this family. Default: rk or cf, from its format.",
 )
 @click.option(
     "--modifying",
     is_flag=True,
-    help="Print the modifying field: the method, applied to it, follows the exact flow of f.",
+    help="Print the modifying field. The method, applied to this field, follows the exact flow of f.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:
-    """Print the modified equation of a tableau: a file, or one of the library by name.
+    """Print the modified equation of a tableau, given as a file or by its name in the library.
 
     \b
     A step of the method is the exact flow, over the time h, of the field

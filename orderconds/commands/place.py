@@ -44,7 +44,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        target = Path(os.path.realpath(path))  # write to the target of a link, and keep the link
+        target = Path(os.path.realpath(path))  # write to the target of a symbolic link
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
         if target.exists() and not target.is_file():

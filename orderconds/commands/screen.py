@@ -83,7 +83,7 @@ def counting(message: str) -> Iterator[Callable[[str], object]]:
 
 
 def print_json(value: object) -> None:
-    """Print one JSON document: indented, in the order given, ASCII only.
+    """Print one JSON document: indented, with keys in their given order, ASCII only.
 
     >>> print_json({"order": 4})
     {

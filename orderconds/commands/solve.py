@@ -67,18 +67,18 @@ if TYPE_CHECKING:
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
-    help="Use all starts and write the method with the least principal error.",
+    help="Use all starts, and write the method with the least norm of the residuals of the next order.",
 )
 @click.option(
     "--starts",
     type=click.IntRange(1, 10**7),
-    help="The number of random starts.  [4096; 1024 with --minimise]",
+    help="The number of random starts.  [default: 4096, with --minimise 1024]",
 )
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
 @click.option(
     "--processes",
     type=click.IntRange(1, 256),
-    help="The number of local processes.  [one for each processor]",
+    help="The number of local processes.  [default: one for each processor]",
 )
 @click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
 @click.option("--name", default="found", show_default=True, help="The name of the tableau.")
@@ -87,7 +87,7 @@ if TYPE_CHECKING:
     "--checkpoint",
     type=FILE,
     metavar="FILE",
-    help="Save finished batches of starts to this file.  [FILE.search with -o FILE]",
+    help="Save finished batches of starts to this file.  [default with -o FILE: FILE.search]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
@@ -140,6 +140,10 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
             )
+    if output and path and Path(output).absolute().resolve() == Path(path).absolute().resolve():
+        raise InputError(
+            "the file of --output", where=f"--checkpoint {path}", expected="another file than --output"
+        )
     return Order(
         family,
         options["order"],
@@ -157,11 +161,11 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 def _size(text: str | None) -> Fraction | None:
     if text is None:
         return None
-    # Long exponents would give numbers that fill the memory.
+    # A number with a long exponent could fill the memory.
     number = r"\d{1,20}(/\d{1,20}|\.\d{0,20})?([eE][+-]?\d{1,2})?"
     try:
         size = Fraction(text) if re.fullmatch(number, text, re.ASCII) else Fraction(0)
-    except (ValueError, ZeroDivisionError):  # such as 1/0 or 1/2e3
+    except (ValueError, ZeroDivisionError):  # for example 1/0 or 1/2e3
         size = Fraction(0)
     if size <= 0:
         raise InputError(repr(text), where="--size", expected="a positive number such as 2 or 3/2")

@@ -28,7 +28,8 @@ Arrays = Data
 """Texts (name, family, ...), rows, and matrices, by name."""
 
 TABLES = ("numbers", "claims")
-"""Tables of a tableau file that are stored as JSON text; ``numbers`` only if coefficients refer to names."""
+"""Tables of a tableau file that are stored as JSON text. The table ``numbers`` is stored only if coefficients
+refer to its names."""
 TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")

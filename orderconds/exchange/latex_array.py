@@ -71,7 +71,7 @@ def write(data: Data) -> bytes:
 
 
 def _node(tableau: Tableau, x: Element) -> str:
-    """Return an abscissa as text; a ball has few digits, since the reader does not use them."""
+    """Return an abscissa as text. A ball is written with few digits, because the reader ignores abscissae."""
     return SHORT.text(SHORT.enclose(x.value) + 0) if isinstance(x, Ball) else tableau.ring.text(x)
 
 

@@ -59,7 +59,8 @@ def write(data: Data) -> bytes:
 
 
 def _defined(entries: Arrays) -> Iterator[tuple[str, str | tuple[list[str], int]]]:
-    """Yield the named numbers, each after those to which it refers: the text of a number, or a root.
+    """Yield the named numbers, as the text of a number or as a root. A number comes after all numbers to
+    which it refers.
 
     A root has descending coefficients and its index among the real roots, as in ``CRootOf``.
     """

@@ -137,7 +137,8 @@ class UnevaluatedNumbers:
         text = spell(x.expression, MAX_TEXT)
         if len(text) > MAX_TEXT:
             raise CoefficientTooLong(
-                "a coefficient too long without names", expected="format json, which keeps names"
+                "a coefficient that is too long without named numbers",
+                expected="format json, which keeps names",
             )
         return text
 

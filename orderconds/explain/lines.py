@@ -43,7 +43,7 @@ UNICODE = Style(
 
 
 def draw(diagram: Diagram, style: Style) -> list[str]:
-    r"""Return the lines of a drawing; the trees of a word come below each other, its first letter on top.
+    r"""Return the lines of a drawing; the trees of a word are drawn below each other, the first tree on top.
 
     >>> from orderconds.explain.diagram import plain, with_directions
     >>> print("\n".join(draw(plain(b"\0\1\2\1"), ASCII)))

@@ -118,7 +118,8 @@ class _Block:
         self.under = 1.4 * SIZE * len(caption)
 
     def drawn(self, x: float, ground: float) -> Iterator[str]:
-        """Draw at x, the roots half a step above the ground and the caption under it."""
+        """Draw the diagram at the horizontal position x, with the roots half a step above the base line and
+        the caption below it."""
         at = x + (self.width - self.drawing) / 2
         for tree, (left, right) in zip(self.trees, self.spans, strict=True):
             yield from _drawn(tree, at + (0.5 - left) * STEP, ground - STEP / 2)

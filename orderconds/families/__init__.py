@@ -20,6 +20,7 @@ from orderconds.families.registry import names as names
 from orderconds.families.registry import position as position
 from orderconds.families.registry import register as register
 from orderconds.families.registry import unregister as unregister
+from orderconds.families.registry import with_conditions as with_conditions
 
 __all__ = [
     "Family",
@@ -32,4 +33,5 @@ __all__ = [
     "register",
     "require_nonzero_weights",
     "unregister",
+    "with_conditions",
 ]

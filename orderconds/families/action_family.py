@@ -1,4 +1,4 @@
-"""The base class of the variational families. Their order conditions belong to action trees, see
+"""The base class of the variational families. Their order conditions are indexed by action trees, see
 :mod:`orderconds.series.action_trees`."""
 
 from __future__ import annotations

@@ -2,11 +2,11 @@
 numbers.
 
 A word's coefficient in a product of exponentials is a sum over indices ``j_1 <= ... <= j_k`` with a factor
-1/r! for each run of r equal indices. This module writes the coefficient as one sum with strict inequalities
-for each division of the word into runs. A word that repeats one letter k times does not need such sums: its
-coefficient is a power of one sum, divided by k!. Both sides of a condition are multiplied by k!
-(:func:`multiplier`). For example, the printed condition is then ``sum_i b_i c_i^2 = 1/3`` and not ``1/2 sum_i
-b_i c_i^2 = 1/6``.
+1/r! for each run of r equal indices. This module writes the coefficient as several sums with strict
+inequalities, one sum for each division of the word into runs. A word that repeats one letter k times does not
+need such sums: its coefficient is a power of one sum, divided by k!. Both sides of a condition are multiplied
+by k! (:func:`multiplier`). For example, the printed condition is then ``sum_i b_i c_i^2 = 1/3`` and not ``1/2
+sum_i b_i c_i^2 = 1/6``.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ class AmbientFamily(RungeKuttaFamily):
     """
 
     name = "ambient"
-    description = "Runge-Kutta methods in coordinates of the ambient space; a step leaves the manifold."
+    description = "Runge-Kutta methods in coordinates of the ambient space; a step may leave the manifold."
     illustrates = ()
     implies: ClassVar[Mapping[str, str]] = {"rk": "the ambient space of a vector space is the space itself"}
     bounds_others = False

@@ -51,10 +51,14 @@ class Family(ABC):
     """The description of the family in ``orderconds list families``, one line."""
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family reads, the preferred one first."""
+    has_tableau: ClassVar[bool] = True
+    """Whether a tableau determines a method; without one the label of the family does, as ``taylor(12)``."""
+    source: ClassVar[str] = ""
+    """The publication of a family without tableau."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """Whether the family divides by the weights b_i."""
+    """Whether formulas of the family divide by the weights b_i, which must then be non-zero."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` evaluates for a file without a claim. For a file with a claim,
     ``check`` evaluates at least one order beyond the claim."""
@@ -97,6 +101,8 @@ class Family(ABC):
     """Whether a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
     """Whether every method of the family preserves the energy exactly."""
+    controls_steps: ClassVar[bool] = False
+    """Whether step sizes follow from the coefficients of a step, without an embedded method."""
     takes_cutoff: ClassVar[bool] = False
     """Whether the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
     truncated."""
@@ -113,9 +119,11 @@ class Family(ABC):
     unknowns: ClassVar[str | None] = None
     """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
     search."""
+    symplectic: ClassVar[bool] = False
+    """Whether a search is restricted to tableaux with b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """Whether the conditions of order three force abscissae of one stage to be equal
-    (:mod:`orderconds.solve.abscissae`)."""
+    """Whether the conditions of order three force the three abscissae of each stage, c_i, chat_i and m_i, to
+    be equal (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed; None: no limit."""
 
@@ -271,6 +279,17 @@ class Family(ABC):
 
         return evaluations(tableau)
 
+    def degree_of_step(self) -> int:
+        """Return the order of a family without tableau, which its label determines.
+
+        Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
+        """
+        raise InputError(f"the order of family {self.label()} depends on the tableau", expected="a tableau")
+
+    def stability_coefficients(self) -> tuple[Fraction, ...] | None:
+        """Return the ascending coefficients of the stability function of a family without tableau."""
+        return None
+
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
         """Return the coefficients of the methods with ``stages`` stages, as unknowns of a search.
 
@@ -414,6 +433,6 @@ def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> Non
             raise ZeroWeight(
                 f"b_{i} = {ring.text(weight)}" + (", which may be zero" if vanishes is None else ""),
                 where=f"family {label}",
-                expected="all weights b_i to be non-zero, because the family divides by them",
+                expected="all weights b_i to be non-zero, because formulas of the family divide by them",
                 hint="choose another family, or a tableau without zero weights",
             )

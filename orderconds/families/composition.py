@@ -1,4 +1,4 @@
-"""Compositions of a method Phi and its adjoint, or of symmetric methods. Conditions belong to words.
+"""Compositions of a method Phi and its adjoint, or of symmetric methods. Words index the conditions.
 
 Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k denotes X_k and has
 weight k. The value of letter k is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint Phi*_{beta h}. The

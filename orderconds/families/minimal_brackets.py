@@ -39,7 +39,7 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of the program. ``method``, the tableau of the program, is not
         used."""
-        # Residuals over balls are evaluated with flint's own balls, without the wrapper.
+        # The elements of Enclosures are flint's own balls. Therefore the coefficients are converted.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 

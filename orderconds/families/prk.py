@@ -54,7 +54,7 @@ class PartitionedFamily(Family):
     illustrates: ClassVar[tuple[str, ...]] = ("bicoloured",)
     search_limit = 7
     over_rationals = True
-    implies: ClassVar[Mapping[str, str]] = {"rk": "a system of one part is a partitioned system"}
+    implies: ClassVar[Mapping[str, str]] = {"rk": "an ordinary system is a partitioned system with one part"}
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order. All of them are independent (HLW III.2, Theorem 2.5)."""
@@ -74,8 +74,8 @@ class PartitionedFamily(Family):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a pair of tableaux that is not symplectic, else None. For symplectic pairs,
-        other families have the same order and fewer conditions."""
+        """Return this family for a pair of tableaux that is not symplectic, else None. For a symplectic pair,
+        other families determine the same order with fewer conditions."""
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None

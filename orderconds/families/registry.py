@@ -35,6 +35,7 @@ BUILT_IN = {
     "cf_magnus": "orderconds.families.cf_magnus",
     "fer": "orderconds.families.fer",
     "cayley": "orderconds.families.cayley",
+    "taylor": "orderconds.families.taylor",
 }
 """The modules of the built-in families, by the name of the family, in the order of ``orderconds list
 families``."""
@@ -74,7 +75,7 @@ def register(family: FamilyClass) -> FamilyClass:
     for attribute, value in (
         ("name", family.name),
         ("description", family.description),
-        ("formats", family.formats),
+        ("formats", family.formats or not family.has_tableau),
     ):
         if not value:
             raise InputError(f"no {attribute}", where=f"family {family.__name__}", expected=f"a {attribute}")
@@ -118,6 +119,15 @@ def names() -> tuple[str, ...]:
     return (*BUILT_IN, *(name for name in _registered if name not in BUILT_IN))
 
 
+def with_conditions() -> tuple[str, ...]:
+    """Return those of :func:`names` whose methods are given by a tableau that satisfies order conditions.
+
+    >>> set(names()) - set(with_conditions())
+    {'taylor'}
+    """
+    return tuple(name for name in names() if family_class(name).has_tableau)
+
+
 def installed_names() -> tuple[str, ...]:
     """Return :func:`names`, followed by the names of families in installed packages.
 
@@ -150,7 +160,7 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        import_module(BUILT_IN[name])  # the import registers the family
+        import_module(BUILT_IN[name])  # importing the module registers the family
     kind = _registered.get(name) or _installed(name)
     if kind is None:
         import difflib

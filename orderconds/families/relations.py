@@ -96,7 +96,7 @@ class RootSwitching:
         goals = frozenset(self._independent(len(tree)))
         waiting: list[tuple[bytes, int, Polynomial]] = [(tree, 1, {})]
         seen = {tree}
-        for root, sign, so_far in waiting:  # the loop appends to this list
+        for root, sign, so_far in waiting:  # the list grows during the loop
             if root in goals:
                 return add(so_far, {(root,): Fraction(1)}, sign)
             for u, v, moved in self._moves(root):

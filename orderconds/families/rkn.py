@@ -3,10 +3,10 @@ vanish.
 
 The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone, which have degree
 0, therefore commute. V and [V,[T,V]] are functions of q alone, as are all iterates of the product x o y =
-[x,[T,y]] on V. The resulting relation of lowest weight is [V,[V,[V,T]]] = 0. Conditions belong to the linear
-combinations of words over T and V that vanish on the ideal of these commutators. The numbers of conditions at
-order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151;
-McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+[x,[T,y]] on V. The resulting relation of lowest weight is [V,[V,[V,T]]] = 0. The conditions are indexed by
+the linear combinations of words over T and V that vanish on the ideal of these commutators. The numbers of
+conditions at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995)
+151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings T + V of files in which the key ``rkn`` names V. A condition belongs to a combination of
-    words over T and V.
+    """Splittings T + V of files in which the key ``rkn`` names V. Each condition corresponds to a combination
+    of words over T and V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]

@@ -1,8 +1,8 @@
 """Splittings: products of the flows of fields A, B, ... whose sum is the field of the problem.
 
-Conditions belong to words over A, B, .... One step is ... exp(b_1 h B) exp(a_1 h A), where A acts first in
-each stage. The exact flow exp(h (A + B + ...)) has the value 1/n! on every word of n letters (HLW III.5;
-McLachlan and Quispel, Acta Numerica 11 (2002) 341).
+The conditions are indexed by words over A, B, .... One step is ... exp(b_1 h B) exp(a_1 h A), where A acts
+first in each stage. The exact flow exp(h (A + B + ...)) has the value 1/n! on every word of n letters (HLW
+III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class SplittingFamily(WordFamily):
 
     name = "splitting"
     description = (
-        "Splittings: products of the flows of A, B, ... whose sum is the field; conditions belong to "
-        "words over A, B, ..."
+        "Splittings: products of the flows of A, B, ... whose sum is the field; the conditions are "
+        "indexed by words over A, B, ..."
     )
     formats = ("splitting",)
     trees = "letters"

@@ -1,8 +1,8 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
 Suppose that the root of a tree moves across an edge. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
-weights of both trees add up to a product of weights of smaller trees. Conditions therefore belong to free
-trees with directed edges (Abia and Sanz-Serna 1993; HLW VI.7).
+weights of both trees add up to a product of weights of smaller trees. The conditions are therefore indexed by
+free trees with directed edges (Abia and Sanz-Serna 1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -97,10 +97,11 @@ class SymplecticPartitionedFamily(Family):
         """Return a lower bound of the order, derived from simplifying assumptions and from the order p in
         ``rk``.
 
-        If ahat = a, the order is p. Otherwise suppose B(2m), and C(m), D(m) for a. By the definition of ahat,
-        C(m) and D(m) then hold for ahat, and c = chat. Butcher's theorem uses these assumptions to reduce
-        trees with one kind of edges. The same proof applies to both kinds of edges. Hence the order is at
-        least min(p, 2m + 1) (Jay 1996, for Lobatto pairs).
+        If ahat = a, the order is p. Otherwise suppose that Butcher's simplifying assumptions B(2m), C(m) and
+        D(m) hold for a. By the definition of ahat, C(m) and D(m) then hold for ahat, and c = chat. Butcher's
+        theorem on the order uses these assumptions to reduce trees with one kind of edges. The same proof
+        applies to both kinds of edges. Hence the order is at least min(p, 2m + 1) (Jay 1996, for Lobatto
+        pairs).
 
         >>> from orderconds.tableau.collocation import construct
         >>> radau = construct("radau2a", 3)

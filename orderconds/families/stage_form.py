@@ -19,7 +19,7 @@ Name = tuple[str, tuple[str, ...]]
 class StageForm(Struct, frozen=True):
     """The names of coefficients, and a function that builds the method from their values in a ring.
 
-    ``divides`` is true if the family divides by the weights b_i.
+    ``divides`` is true if formulas of the family divide by the weights b_i.
     """
 
     names: tuple[Name, ...]

@@ -1,8 +1,8 @@
 """Symmetric compositions of a symmetric method of order two.
 
-A step is equal to its adjoint. The logarithm of the step therefore has only terms of odd weight. Hence
-conditions belong to words over the letters 1, 3, 5, ..., and conditions of even order follow from conditions
-of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
+A step is equal to its adjoint. The logarithm of the step therefore has only terms of odd weight. Hence there
+are conditions only for words over the letters 1, 3, 5, ..., and conditions of even order follow from
+conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ class SymmetricCompositionFamily(CompositionFamily):
 
     name = "symmetric_composition"
     description = (
-        "Symmetric compositions of a symmetric method of order two; conditions belong to words of odd weight."
+        "Symmetric compositions of a symmetric method of order two; words of odd weight index the conditions."
     )
     illustrates = ()
     implies: ClassVar[Mapping[str, str]] = {"composition": "every symmetric composition is a composition"}
@@ -134,8 +134,8 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # At even weight the logarithm vanishes. It is the sum over all divisions of the word into m parts of
-    # (-1)^(m+1)/m times the product of the values of the parts.
+    # The logarithm vanishes on words of even weight. Its value on a word is the sum, over all divisions of
+    # the word into m parts, of (-1)^(m+1)/m times the product of the values on the parts.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

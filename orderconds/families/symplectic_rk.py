@@ -1,4 +1,4 @@
-"""Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Conditions belong to free trees.
+"""Symplectic Runge-Kutta methods: b_i a_ij + b_j a_ji = b_i b_j. Free trees index the conditions.
 
 If an edge divides a free tree into two equal halves, the condition of the tree is superfluous (Sanz-Serna and
 Abia 1991; HLW VI.7.1, Theorem 7.3).
@@ -37,7 +37,7 @@ class SymplecticFamily(Family):
 
     name = "symplectic_rk"
     description = (
-        "Symplectic Runge-Kutta methods, b_i a_ij + b_j a_ji = b_i b_j: conditions belong to free trees."
+        "Symplectic Runge-Kutta methods, b_i a_ij + b_j a_ji = b_i b_j: free trees index the conditions."
     )
     formats = ("rk",)
     trees = "free"
@@ -45,6 +45,7 @@ class SymplecticFamily(Family):
     search_limit = 12
     low_order = "rk"
     unknowns = "rk"
+    symplectic = True
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the independent conditions of this order, one for each free tree that no edge divides into

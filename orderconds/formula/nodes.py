@@ -124,7 +124,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Only sums can differ in the names of bound indices alone, so a single sum needs no comparison.
+    # Two different factors can be equal up to the names of bound indices only if both contain sums. A single
+    # such factor therefore needs no comparison.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:

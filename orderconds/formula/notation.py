@@ -64,7 +64,7 @@ def subscript(written: str, notation: Notation) -> str:
 
 
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
-    """Return the text below a summation sign. Relations are joined in chains if possible: ``i<j<k,l``.
+    """Return the text below a summation sign. Relations are joined to chains if possible, as in ``i<j<k,l``.
 
     If the largest index of a chain is not bound by this sum, the chain is written in decreasing order,
     ``k>j>i``, so that the first index is always bound by the sum.

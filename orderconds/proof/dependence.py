@@ -36,7 +36,8 @@ PRIME_BITS = 61
 fractions."""
 
 MAX_PRIMES = 24
-"""The largest number of primes. Combinations with larger coefficients would need more primes."""
+"""The largest number of primes. A combination whose coefficients are too large for this number of primes is
+not found."""
 
 Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 """A dependent condition as a combination of monomials; each coefficient is x + y sqrt(d)."""
@@ -208,7 +209,7 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """Samples in which radicals are random numbers, except for a lone square root, which is
+    """Samples in which radicals are random numbers. If the only radical is a square root, it has the value
     ``square_root``."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:

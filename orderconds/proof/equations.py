@@ -12,11 +12,12 @@ from its decimals:
                  that interpolates A(t) at the nodes. The interpolation error is orthogonal to lower degrees
                  and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to order 2s, the letters 1, ..., s
                  therefore suffice (Iserles and Norsett 1999).
-``low-storage``  a 2N scheme. Its order on a group is equal to its order on a vector space (see below).
+``low-storage``  a 2N scheme (two registers). Its order on a group is equal to its order on a vector
+                 space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
                  Wanner, Theorem II.7.4).
-``spelling``     coefficients given by formulas in others define a sub-family, in which some of the
-                 conditions follow from the others (:mod:`orderconds.proof.subfamily`).
+``spelling``     coefficients that are formulas in other coefficients define a sub-family, in which some of
+                 the conditions follow from the others (:mod:`orderconds.proof.subfamily`).
 
 2N schemes. Let y_j, k_j, f_j be the values of Y_j, K_j, F(Y_j) on a word or tree. On single trees, k_j = A_j
 k_{j-1} + f_j and y_{j+1} = y_j + B_j k_j. Let D_j = y_j(t) k_j(u) - y_j(u) k_j(t). Replacing y_j by y_{j+1}
@@ -107,11 +108,13 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # Ranks modulo primes choose the independent conditions of some families, so a rank that is too small
-    # would leave out an equation. The certificate rests on relations that hold over Q.
+    # Some families choose their independent conditions by ranks modulo primes. A rank that is too small would
+    # leave out an equation. Therefore the relations of the conditions left out are verified over Q.
     for n in orders:
         if not family.dependence_holds(n):
-            raise NotProved(f"conditions of order {n} of {label} that were left out do not follow over Q")
+            raise NotProved(
+                f"some conditions of order {n} of {label} depend on others modulo primes, but not over Q"
+            )
     conditions = [c for n in orders for c in family.conditions(n)]
     return tuple(c for c in conditions if letters is None or max(c.key) <= letters)
 
@@ -209,7 +212,9 @@ def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
 
 def _reached(proof: Proof, order: int) -> int:
     if proof.order > order:
-        raise NotProved(f"reduction: it implies order {order}, but [proof] has order = {proof.order}")
+        raise NotProved(
+            f"reduction: the assumptions imply order {order}, but [proof] has order = {proof.order}"
+        )
     return proof.order
 
 

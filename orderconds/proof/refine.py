@@ -61,7 +61,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # Equations without unknowns are recognised over a box, not at a point.
+        # An equation that depends on the unknowns may look constant at a single point, but not over a box.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -195,7 +195,7 @@ def _figures(value: Fraction, places: int) -> str:
 def _printed(proof: Proof, name: str) -> str:
     """Return the value of the number ``name`` for the decimals of the file, as text."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
-    value = at.number(name, cast("RootedRing", QQ), {})  # a decimal has no radicals
+    value = at.number(name, cast("RootedRing", QQ), {})  # decimals contain no radicals
     return _decimal_text(Fraction(int(value.p), int(value.q)))
 
 

@@ -201,9 +201,8 @@ def _magnitude(x: arb) -> int:
 def _supported_places(radius: fmpq) -> int:
     """Return the largest number d of decimal places with radius + half a unit <= one unit, that is, 10^-d >=
     2 radius."""
-    places = len(str(radius.q)) - len(
-        str(radius.p)
-    )  # flint converts integers of any length; Python converts at most 4300 digits
+    # flint converts integers of any length to text; Python converts at most 4300 digits
+    places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
     return places

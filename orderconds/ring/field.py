@@ -128,7 +128,7 @@ class NumberField:
         for basis, c in zip(self._parent_powers, below.coeffs(), strict=False):
             image = image + basis * c
         lifted = Algebraic(self, image)
-        # While a file is read, the same few numbers are lifted many times.
+        # The results are cached, because the same few numbers are lifted many times while a file is read.
         if len(self._lifts) >= REMEMBERED:
             self._lifts.clear()
         self._lifts[id(x)] = (x, lifted)
@@ -277,7 +277,7 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        if type(other) is Algebraic and other.field is self.field:  # This case occurs in almost every sum.
+        if type(other) is Algebraic and other.field is self.field:  # the most frequent case
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
             return NotImplemented

@@ -131,9 +131,10 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _add_products(self, totals: list[Varied], update: int, n: int, before: Word, after: Word) -> None:
-        """Add the coefficients of u x v in X_i X_i^(n-1). The first part of the word comes from X_i."""
+        """Add to ``totals`` the coefficients of u x v in X_i X_i^(n-1). The first part of the word comes from
+        X_i."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # If the first part of the word contains x, it also contains this number of letters of v.
+            # number of letters of v in the first part of the word; negative if this part ends before x
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])

@@ -38,7 +38,7 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
     ``independent`` contains the independent trees of each order 1, 2, ..., from
     :func:`orderconds.series.action_rank.independent_trees`. The result is wrong with a probability of about
-    10^-8. :func:`hold_over_rationals` verifies them over Q.
+    10^-8. :func:`hold_over_rationals` verifies the relations over Q.
 
     >>> from functools import partial
     >>> from orderconds.families import get
@@ -71,7 +71,7 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
 
 SEED = 61
-"""The seed of the random method over Q; any number serves."""
+"""The seed of the random method over Q; its value is arbitrary."""
 
 
 class _Drawn(Rationals):
@@ -89,9 +89,9 @@ def hold_over_rationals(
 ) -> bool:
     """Whether relations hold exactly at a random method over Q, and for the exact flow.
 
-    ``series`` returns the series of a random method with coefficients in a ring. It should have more stages
-    than the methods from which the relations were computed. A relation of degree d that is not an identity
-    holds at a random method with a probability below d/2^60.
+    ``series`` returns the series of a random method with coefficients in a ring. The random method should
+    have more stages than the methods from which the relations were computed. A relation of degree d that is
+    not an identity holds at a random method with a probability below d/2^60.
 
     >>> from functools import partial
     >>> from orderconds.families import get

@@ -70,7 +70,7 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
         if tree not in seen:
             members = [tree]
             seen.add(tree)
-            for member in members:  # the loop appends to this list
+            for member in members:  # the list grows during the loop
                 for other in switched(member):
                     if other not in seen:
                         seen.add(other)

@@ -1,5 +1,5 @@
-"""Products of graded generators: conditions of lower order imply that these products have their exact
-values."""
+"""Products of graded generators. If all conditions of lower order hold, the method and the exact flow have
+equal values of these products."""
 
 from __future__ import annotations
 

@@ -51,7 +51,8 @@ STEPS = (
 remains."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The units after the principal error was minimised. Near a minimum, rounding hardly changes the error."""
+"""The units that are used instead if the principal error was minimised. Near a minimum, rounding hardly
+changes the error."""
 
 DIGITS = 50
 """Decimal places of a coefficient in the file."""
@@ -102,7 +103,8 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Return a nearby solution, the short values of its free coefficients, and the indices of the others."""
+    """Return a nearby solution, the short values of its free coefficients, and the indices of the other
+    coefficients."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]

@@ -42,7 +42,7 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
             except (OSError, CancelledError, TimeoutError, KilledWorker) as problem:
                 killed = isinstance(problem, KilledWorker)
                 raise InputError(
-                    "workers of the cluster die" if killed else "the scheduler no longer answers",
+                    "workers of the cluster died" if killed else "the scheduler no longer answers",
                     where=f"--dask {address}",
                     expected="a cluster that runs until the end",
                     hint="restart the cluster and repeat the command; a checkpoint keeps finished batches",

@@ -84,7 +84,10 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    ring = LaurentPolynomials(names) if problem.family.needs_nonzero_weights else Polynomials(names)
+    # A symplectic method with a zero weight has as many conditions as one with nonzero weights: the stage of
+    # weight zero can be replaced by a copy of another stage, with half of the weight of that stage for each.
+    divides = problem.family.needs_nonzero_weights or problem.family.symplectic
+    ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
     except (AttributeError, ArithmeticError, TypeError, ValueError):  # no Laurent polynomials

@@ -64,7 +64,7 @@ def _squares(values: Floats) -> Floats:
 def _solved(normal: Floats, right: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
-    except np.linalg.LinAlgError:  # some matrix is singular: increase the damping of all
+    except np.linalg.LinAlgError:  # a matrix is singular: add damping at all points
         eye = np.eye(normal.shape[1]) * 1e-9 * (1 + np.trace(normal, axis1=1, axis2=2))[:, None, None]
         return np.asarray(np.linalg.solve(normal + eye, right), dtype=np.float64)
 

@@ -102,6 +102,9 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     if spec.fsal:
         constraints += [equal("--fsal", (1, A[s - 1][j]), (-1, b[j])) for j in range(s)]
         constraints += [zero(A[0][j], "--fsal") for j in range(s)]
+    if family.symplectic:
+        refuse(family.label(), spec, ("explicit", "fsal"))
+        constraints += [equal("symplecticity", (2, A[i][i]), (-1, b[i])) for i in range(s)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
     elimination = _eliminated(names, spec, constraints)
@@ -109,6 +112,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     if structure == "abscissae":
         weights = [_Cells(elimination).written(x) for x in b]
         extra = {**crouch_grossman_times(weights), **transport(A, weights, _fixed(A, elimination))}
+    if family.symplectic:
+        extra = _symplectic(A, b, elimination, spec.symmetric)
     cells = _Cells(elimination, extra)
     free = tuple(x for x in elimination.free if x not in extra)
     rows = [_row(cells, line) for line in A]
@@ -120,6 +125,50 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     )
     label = family.solved_as(spec.rkn)
     return Ansatz(label, name, structure, body, free, cells.numbers(names), cells.unknown(names))
+
+
+def _symplectic(
+    A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
+) -> dict[str, str]:
+    """Return the formula of one entry of each pair a_ij, a_ji such that b_i a_ij + b_j a_ji = b_i b_j.
+
+    If the method is ``symmetric``, the relation of a pair implies the relation of the mirrored pair, and a
+    pair that is its own mirror image satisfies the relation already.
+    """
+    cells, last = _Cells(elimination), len(b) - 1
+    formulas: dict[str, str] = {}
+    for j in range(len(b)):
+        for i in range(j):
+            mirrored = (last - j, last - i)
+            if symmetric and (mirrored == (i, j) or mirrored < (i, j)):
+                continue
+            choices = [(j, i), (i, j)]
+            chosen = next((k for k in choices if A[k[0]][k[1]] in elimination.free), None)
+            if chosen is None and _is_symplectic(elimination, (A[i][j], A[j][i]), (b[i], b[j])):
+                continue
+            if chosen is None:
+                raise InputError(
+                    f"the constraints determine both {A[i][j]} and {A[j][i]}",
+                    where="constraints",
+                    expected="at most one of them, because a symplectic method determines the other",
+                )
+            row, column = chosen
+            weight, other = cells.written(b[column]), cells.written(A[column][row])
+            product = f" - {weight}*{other}/{cells.written(b[row])}" if other != "0" else ""
+            formulas[A[row][column]] = f"{weight}{product}"
+    return formulas
+
+
+def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: tuple[str, str]) -> bool:
+    """Whether b_i a_ij + b_j a_ji = b_i b_j is an identity in the free coefficients."""
+    (a, mirrored), (b, c) = map(elimination.cell, entries), map(elimination.cell, weights)
+    total: dict[tuple[str, ...], Fraction] = {}
+    for sign, left, right in ((1, b, a), (1, c, mirrored), (-1, b, c)):
+        for x, p in left.items():
+            for y, q in right.items():
+                key = tuple(sorted((x, y)))
+                total[key] = total.get(key, Fraction(0)) + sign * p * q
+    return not any(total.values())
 
 
 def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
@@ -289,7 +338,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The sum determines the middle step; therefore the outer steps come before it.
+    # The middle step comes last in this order, so that the constraint on the sum of the steps determines it.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

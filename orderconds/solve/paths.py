@@ -60,7 +60,9 @@ def symmetric_paths(spec: Spec) -> Paths:
     ([['b1_1', 'b1_2'], ['a1_2_1', 'a1_2_2']], [['b1_1', 'b1_2'], ['b2_1', 'b2_2']])
     """
     if spec.explicit:
-        raise InputError("--explicit with --symmetric", where="constraints", expected="at most one of them")
+        raise InputError(
+            "--explicit with --symmetric", where="constraints", expected="only one of the two options"
+        )
     s, m, inner = spec.stages, spec.exponentials, spec.inner
     every = range(1, s + 1)
     update = [[f"b{J}_{j}" for j in every] for J in range(1, m + 1)]

@@ -70,8 +70,8 @@ BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
 class Batch:
     """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
 
-    The score is the principal error or, if the error costs too much, the largest coefficient. ``best`` is the
-    least residual norm of all starts.
+    The score is the principal error or, if the error costs too much to compute, the largest coefficient.
+    ``best`` is the least residual norm of all starts.
     """
 
     number: int
@@ -106,7 +106,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # If every solution is singular, a closed form may still give a proof.
+    # If every solution is singular, singular solutions are kept, because a closed form may still give a
+    # proof.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:

@@ -40,5 +40,5 @@ def refuse(family: str, spec: Spec, options: Sequence[str]) -> None:
     for option in options:
         if getattr(spec, option) != getattr(plain, option):
             raise InputError(
-                f"family {family} has no methods with --{option}", where="solve", expected="other options"
+                f"family {family} has no methods with --{option}", where="solve", expected=f"no --{option}"
             )

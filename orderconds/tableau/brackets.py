@@ -104,7 +104,8 @@ def has_product(term: Term) -> bool:
 
 
 def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, int]]:
-    """Return a function: a term -> the least and the greatest number of nodes in the products it expands to.
+    """Return a function that maps a term to the least and the greatest number of nodes in the products of its
+    expansion.
 
     >>> extents({"f": ((0, 1), (Bracket(0, 1), 1))})(Bracket("f", "f"))
     (2, 4)

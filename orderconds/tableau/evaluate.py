@@ -69,7 +69,7 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            evaluation.check_unused()  # evaluated last: unused numbers must not enlarge the ring
+            evaluation.check_unused()  # evaluated last, because unused numbers must not enlarge the ring
             return ring, _shared(values, lift)
         except DegreeError:
             pass
@@ -97,7 +97,8 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Lift every element once, so equal expressions still share one element."""
+    """Return the lifted values. Each element is lifted once, so that equal expressions still share one
+    element."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 

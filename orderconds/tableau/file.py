@@ -89,7 +89,8 @@ def bytes_of(path: str | Path) -> bytes:
     b'name'
     """
     content = read_bytes(path, "a tableau file", error=TableauError)
-    return content.removeprefix(BOM_UTF8)  # the byte order mark, which some editors and spreadsheets write
+    # Some editors and spreadsheets write a byte order mark at the start of a file.
+    return content.removeprefix(BOM_UTF8)
 
 
 def meant_as_tableau(path: str | Path) -> bool:
@@ -118,7 +119,9 @@ def parsed(text: str, where: str) -> Data:
             str(problem), where=where, expected="a TOML file in which each key occurs once"
         ) from None
     except RecursionError:
-        raise TableauError("TOML nested too deep", where=where, expected="shallow tables and lists") from None
+        raise TableauError(
+            "TOML nested too deep", where=where, expected="tables and lists with few levels"
+        ) from None
     # Python raises ValueError for an integer with thousands of digits and for a date outside the calendar.
     except ValueError:
         raise TableauError(

@@ -52,7 +52,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
     distinctive_key: ClassVar[str] = "A"
 
     def verify(self, where: str) -> None:
-        """Check len(A) = len(b) and that no row is longer."""
+        """Check that A has as many rows as b has entries, and that no row of A is longer than b."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
@@ -119,7 +119,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
         yield "A_hat", self.A_hat, "b_hat", self.b_hat
 
     def verify(self, where: str) -> None:
-        """Check that both parts have the same number of stages and that no row is longer."""
+        """Check that both parts have the same number of stages, and that all rows fit this number."""
         s = counted(len(self.b), f"{where}: b")
         if len(self.b_hat) != s:
             raise TableauError(
@@ -138,7 +138,7 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
                 verify_length(row, s, f"{where}: {name}[{i + 1}]")
 
     def coefficients(self) -> Places:
-        """Yield A by rows, then b, then A_hat and b_hat alike."""
+        """Yield A by rows, then b, then A_hat by rows, then b_hat."""
         for name, rows, weights, b in self._parts():
             for i, row in enumerate(rows):
                 yield from row_places(row, f"{name}[{i + 1}]")
@@ -262,7 +262,7 @@ def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
             where=where,
             expected=f"an earlier stage, 1 to {before}"
             if before
-            else "no key from, because there is no earlier stage",
+            else "no key 'from', because there is no earlier stage",
         )
 
 

@@ -14,8 +14,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def root() -> Path:
     """Return the folder of tableau files.
 
-    In a source tree, where a ``pyproject.toml`` named orderconds is next to the package, it is ``tableaux/``.
-    Otherwise it is the copy in the installed package.
+    If the ``pyproject.toml`` of this project is next to the package, the folder is ``tableaux/`` of the
+    source tree. Otherwise it is the copy in the installed package.
 
     >>> root().is_dir()
     True

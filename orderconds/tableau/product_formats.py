@@ -41,7 +41,7 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return the base that the names of the steps determine."""
+        """Return the kind of the basic method, which follows from the names of the given steps."""
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
@@ -206,7 +206,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # Brackets lie in every Lie algebra; products need not, so they are verified.
+        # A bracket of elements lies in their Lie algebra. A product may not, so products are verified.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

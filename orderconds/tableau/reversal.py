@@ -1,8 +1,8 @@
 """Whether a Magnus method is symmetric: a step of length -h undoes one of length h.
 
 The reverse step has -A_{s+1-i} at node i. If the nodes are symmetric about 1/2, the reverse step undoes the
-step under this condition: substituting -A_{s+1-i} for A_i in exponent k gives the negative of exponent k
-counted from the end. A combination of nodes may be odd or even under this substitution. The parity of a
+step under this condition: substituting -A_{s+1-i} for A_i in the k-th exponent gives the negative of the k-th
+exponent from the end. A combination of nodes may be odd or even under this substitution. The parity of a
 bracket or product follows from the parities of its factors. Thus a single odd exponent is recognised without
 expanding nested brackets; other exponents are compared as combinations of products of nodes.
 """

@@ -71,7 +71,7 @@ class Proof:
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
-        """Return the number of that name, or at that place, with ``values`` for the unknowns."""
+        """Return the number with this name, or at this place, with ``values`` for the unknowns."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
@@ -132,4 +132,4 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        return 0 if size is None else int(size(x))  # a ring without sizes: jets, residues
+        return 0 if size is None else int(size(x))  # elements of this ring have no size (jets, residues)

@@ -126,7 +126,7 @@ def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def representative(tree: DirectedTree) -> DirectedTree:
-    """Return the tree with the root for which its condition is simplest to read.
+    """Return the tree with its root moved to the vertex that makes the condition simplest to read.
 
     The criteria, in this order, are: fewest edges of the rarer kind, least height, fewest edges of kind 1.
 
@@ -182,7 +182,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # The height above a vertex: beyond its parent, or in the other branches of its parent.
+        # The longest path from a vertex through its parent continues to the next ancestor or into another
+        # branch of the parent.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])

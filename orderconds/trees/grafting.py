@@ -73,8 +73,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Attach one subword to the root of a tree, left of its branches, and the other subword to the
-    branches."""
+    """Return the trees in which one subword is attached to the root, left of its branches, and the other
+    subword to the branches."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]

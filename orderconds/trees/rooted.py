@@ -24,8 +24,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # The last vertex that is not a child of the root moves up; the vertices after it repeat its left
-        # neighbour.
+        # Let p be the last vertex that is not a child of the root, and q its parent. The levels from p on are
+        # replaced by copies of the levels from q to p - 1.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

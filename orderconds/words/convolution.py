@@ -45,7 +45,7 @@ def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Eleme
     # powers[end] is the value of f^m on the first ``end`` letters.
     powers = [zero, *(f(word[:end]) for end in range(1, n + 1))]
     result = powers[n] * scales[0]
-    # Most values of most series are exactly zero.
+    # Skip zeros, because most values of most series are exactly zero.
     tails = [
         [(start, x) for start in range(1, end) if (x := f(word[start:end])) is not zero]
         for end in range(n + 1)

@@ -7,7 +7,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from codegen.emitter import bare, compile_method, default_prefix, emit, emit_compiled, prefix_of
+from codegen.emitter import bare, default_prefix, emit, emit_compiled, prefix_of
 from codegen.errors import MethodError, SceneError
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
@@ -17,13 +17,9 @@ from codegen.lower.flow_words import FlowLowering
 from codegen.regenerate import entries
 from codegen.scenes import load as load_scene
 from orderconds.errors import InputError, UnknownName, ZeroWeight
+from tests.compilations import compiled
 
 KEPT = [(e.scene, e.method) for e in entries()]
-
-
-@cache
-def compiled(scene, method):
-    return compile_method(scene, method)
 
 
 def interpreted(made):

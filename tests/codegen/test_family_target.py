@@ -134,6 +134,11 @@ CASES = {
         Case("ambient:rk4", 4, place("S^2"), "driven_spin"),
         Case("ambient:gauss2", 4, cotangent(), "dipole"),
     ),
+    "taylor": (
+        Case("taylor(3)", 3, place("S^2"), "driven_spin"),
+        Case("taylor(4)", 4, cotangent(), "dipole"),
+        Case("taylor(5)", 5, place("R^3"), "linear_oscillator"),
+    ),
     "composition": (
         Case("composition:triple_jump", 4, top("asymmetric"), "linear_oscillator"),
         Case("composition:mclachlan4", 4, top("symmetric"), "dipole"),

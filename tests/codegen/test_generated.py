@@ -16,10 +16,10 @@ from pathlib import Path
 
 import pytest
 
-from codegen.emitter import compile_method
 from codegen.lab.runner import Interpreted
 from codegen.regenerate import entries
 from codegen.run.trial import PARTS
+from tests.compilations import compiled
 from tests.promises import ulps, usage_lines, usage_program
 
 GENERATED = Path(__file__).parents[2] / "generated"
@@ -37,7 +37,7 @@ ROUNDING_ULPS = 2048
 @cache
 def expected(scene: str, method: str) -> tuple[float, ...]:
     """Where the interpreter is at the end of the span, by the steps of the examples."""
-    return Interpreted(compile_method(scene, method)).final(PARTS)
+    return Interpreted(compiled(scene, method)).final(PARTS)
 
 
 def copied(folder: Path, entry: dict[str, object], place: Path) -> str:

@@ -22,6 +22,7 @@ from codegen.passes import optimise
 from codegen.scene import FieldScene, HamiltonianScene, param, signal
 from codegen.scene.run_time import with_inputs
 from codegen.scenes import load as gallery
+from tests.compilations import compiled
 from tests.promises import clean_c, clean_python
 from tests.strategies import hamiltonian_scene, quadratic, shipped
 
@@ -38,6 +39,9 @@ METHODS = {
     "slgi": "slgi:midpoint",
     "ambient": "ambient:rk4",
 }
+ALIKE = ("cg", "vrkmk", "vcf", "vrkmk_pade")
+"""Families that read inputs as another of their kind, explicit or variational; for the slow run."""
+
 ELSEWHERE = {
     "rk": "R^n only",
     "splitting": "no parts",
@@ -52,13 +56,8 @@ def torques(t):
 
 
 @cache
-def compiled(method, inputs):
-    return compile_method(SCENE, method, (), inputs)
-
-
-@cache
 def emitted(method, target, inputs=TORQUES):
-    return emit_compiled(compiled(method, inputs), target, prefix="driven_")
+    return emit_compiled(compiled(SCENE, method, inputs=inputs), target, prefix="driven_")
 
 
 def start_of(scene):
@@ -70,7 +69,9 @@ def test_every_family_is_tried():
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
-@pytest.mark.parametrize("method", METHODS.values())
+@pytest.mark.parametrize(
+    "method", [pytest.param(m, marks=pytest.mark.slow if f in ALIKE else ()) for f, m in METHODS.items()]
+)
 def test_an_input_is_the_formula_that_it_stands_for(method, target):
     """Read at the stage times: with a formula folded in, or put in by the caller, the steps are the same."""
     folded, driven = (load(emitted(method, target, names)) for names in ((), TORQUES))
@@ -237,7 +238,7 @@ def tried(**changes):
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: tried(f=Matrix([signal("u", Symbol("y0", real=True)), 1, 2])), "signal u holds y0"),
+        (lambda: tried(f=Matrix([signal("u", Symbol("y0", real=True)), 1, 2])), "signal u contains y0"),
         (lambda: tried(f=Matrix([signal("y1", 1), 1, 2])), "signal y1 has the name of another symbol"),
         (lambda: tried(f=Matrix([signal("u", 1), signal("u", 2), 2])), "two formulas"),
         (lambda: tried(y0=[signal("u", 1), 0, 0]), "the symbol u in y0"),

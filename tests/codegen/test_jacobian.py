@@ -19,6 +19,7 @@ from codegen.kernel.variations import Variations
 from codegen.loader import Status, StepFailed, load
 from codegen.lower import problem_for
 from codegen.scene import FieldScene
+from tests import compilations
 from tests.promises import clean_c, clean_python
 from tests.strategies import field_scene
 
@@ -40,12 +41,16 @@ CASES = [
     ("free_rigid_body_s3", "rkmk:rk4"),
     ("free_rigid_body_product", "cf:cf4"),
 ]
+LONG = (("driven_spin", "cg:cg3"), ("dipole", "vrkmk(2):gauss2"), ("dipole", "ambient:rk4"))
+"""Cases like others of :data:`CASES`, for the slow run."""
+
+TRIED = [pytest.param(*case, marks=pytest.mark.slow if case in LONG else ()) for case in CASES]
+
 H = {"fast_heavy_top": 0.002}
 
 
-@cache
 def compiled(scene, method, inputs=(), frame="space", jacobian=True):
-    return compile_method(scene, method, (), inputs, frame, jacobian=jacobian)
+    return compilations.compiled(scene, method, "auto", frame, inputs, jacobian)
 
 
 @cache
@@ -100,7 +105,7 @@ def differences(scene, method, state, h, t, **more):
     return np.array(columns).T
 
 
-@pytest.mark.parametrize(("scene", "method"), CASES)
+@pytest.mark.parametrize(("scene", "method"), TRIED)
 def test_the_jacobian_is_the_limit_of_differences(scene, method):
     state, h = somewhere(scene, method), H.get(scene, 0.03)
     found = np.array(load(emitted(scene, method)).jacobian(state, h, 0.1))
@@ -109,7 +114,7 @@ def test_the_jacobian_is_the_limit_of_differences(scene, method):
     assert np.abs(found - np.eye(len(found))).max() > 1e-3
 
 
-@pytest.mark.parametrize(("scene", "method"), CASES)
+@pytest.mark.parametrize(("scene", "method"), TRIED)
 def test_c_and_python_have_the_same_jacobian(scene, method):
     state, h = somewhere(scene, method), H.get(scene, 0.03)
     c, python = (np.array(load(emitted(scene, method, t)).jacobian(state, h, 0.1)) for t in ("c", "python"))
@@ -144,7 +149,10 @@ def defect(method):
     return np.abs(J.T @ form(new[9:]) @ J - form(state[9:])).max()
 
 
-@pytest.mark.parametrize("method", ["vcg:triple_jump", "vrkmk(2):gauss2", "splitting:ruth3"])
+@pytest.mark.parametrize(
+    "method",
+    ["vcg:triple_jump", pytest.param("vrkmk(2):gauss2", marks=pytest.mark.slow), "splitting:ruth3"],
+)
 def test_jacobians_of_symplectic_steps_are_symplectic(method):
     assert defect(method) < 1e-12
 
@@ -187,8 +195,17 @@ def test_inputs_are_held_and_momenta_are_those_of_the_frame(target):
     assert np.abs(turned[:3, 3:] - space[:3, 3:] @ g).max() < 1e-12
 
 
-@pytest.mark.parametrize("precision", ["double", "single"])
-@pytest.mark.parametrize(("scene", "method"), [CASES[0], CASES[2], CASES[9]])
+@pytest.mark.parametrize(
+    ("scene", "method", "precision"),
+    [
+        (*CASES[0], "double"),
+        pytest.param(*CASES[0], "single", marks=pytest.mark.slow),
+        (*CASES[2], "double"),
+        pytest.param(*CASES[2], "single", marks=pytest.mark.slow),
+        pytest.param(*CASES[9], "double", marks=pytest.mark.slow),
+        (*CASES[9], "single"),
+    ],
+)
 def test_modules_with_a_jacobian_are_clean(scene, method, precision, compiler: Compiler, tmp_path):
     (tmp_path / "c").mkdir()
     emission = emitted(scene, method, "c", precision=precision)

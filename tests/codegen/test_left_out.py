@@ -12,6 +12,7 @@ from codegen.build import CompileError, Compiler, compile_files, find_compiler
 from codegen.emitter import compile_method, emit_compiled
 from codegen.lower import names
 from codegen.printers.c.module import FLAGS
+from tests.compilations import compiled
 
 EXPLICIT = {
     "rk": ("linear_oscillator", "rk:rk4"),
@@ -35,11 +36,6 @@ IMPLICIT = {
     "discrete_gradient": ("free_rigid_body_s3", "discrete_gradient:midpoint"),
 }
 ALL = [*EXPLICIT.values(), *IMPLICIT.values()]
-
-
-@cache
-def compiled(scene, method):
-    return compile_method(scene, method)
 
 
 @cache

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -11,25 +12,30 @@ import pytest
 EULER = 'name = "euler"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n[claims]\nrk = {}\n'
 
 
-def run(folder: Path, *flags: str, target: str = ".") -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "pytest", "-p", "orderconds.pytest_plugin", "-p", "no:cacheprovider"]
-    root = Path(__file__).parents[2]
-    return subprocess.run(
-        [
-            *command,
-            "-q",
-            "--rootdir",
-            str(folder),
-            "-c",
-            str(folder / "none.ini"),
-            *flags,
-            str(folder / target),
-        ],
-        capture_output=True,
-        text=True,
-        cwd=root,
-        check=False,
-    )
+Run = Callable[..., tuple[int, str]]
+
+
+def arguments(folder: Path, *flags: str, target: str = ".") -> list[str]:
+    """Return the arguments of pytest for a file or folder in ``folder``."""
+    plugins = ["-p", "orderconds.pytest_plugin", "-p", "no:cacheprovider"]
+    places = ["--rootdir", str(folder), "-c", str(folder / "none.ini")]
+    return [*plugins, "-q", *places, *flags, str(folder / target)]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Return a function that runs pytest in this process and returns its status and output."""
+    # A worker of pytest-xdist passes its options on in these variables.
+    for name in ("PYTEST_ADDOPTS", "PYTEST_XDIST_WORKER", "PYTEST_XDIST_WORKER_COUNT"):
+        monkeypatch.delenv(name, raising=False)
+
+    def inside(folder: Path, *flags: str, target: str = ".") -> tuple[int, str]:
+        capsys.readouterr()
+        without = ["--capture=no", "-p", "no:xdist", "-p", "no:hypothesispytest"]
+        status = pytest.main([*without, *arguments(folder, *flags, target=target)])
+        return int(status), "".join(capsys.readouterr())
+
+    return inside
 
 
 @pytest.fixture
@@ -41,57 +47,64 @@ def folder(tmp_path: Path) -> Path:
 
 
 def test_a_folder_of_sound_tableaux_passes(folder: Path) -> None:
-    result = run(folder, "--orderconds")
+    """In a process of its own, as a user starts it."""
+    result = subprocess.run(
+        [sys.executable, "-m", "pytest", *arguments(folder, "--orderconds")],
+        capture_output=True,
+        text=True,
+        cwd=Path(__file__).parents[2],
+        check=False,
+    )
     assert result.returncode == 0, result.stdout + result.stderr
     assert "1 passed" in result.stdout
 
 
-def test_a_wrong_claim_fails_with_the_condition_and_no_traceback(folder: Path) -> None:
+def test_a_wrong_claim_fails_with_the_condition_and_no_traceback(folder: Path, run: Run) -> None:
     (folder / "wrong.toml").write_text(EULER.format(2), encoding="utf-8")
-    result = run(folder, "--orderconds")
-    assert result.returncode == 1
-    assert "rk: order 1, claimed 2" in result.stdout
-    assert "sum_i b_i c_i = 1/2, residual -1/2" in result.stdout
-    assert "Traceback" not in result.stdout + result.stderr
-    assert "1 failed, 1 passed" in result.stdout
+    status, output = run(folder, "--orderconds")
+    assert status == 1
+    assert "rk: order 1, claimed 2" in output
+    assert "sum_i b_i c_i = 1/2, residual -1/2" in output
+    assert "Traceback" not in output
+    assert "1 failed, 1 passed" in output
 
 
-def test_a_file_that_cannot_be_read_fails_with_its_message(folder: Path) -> None:
+def test_a_file_that_cannot_be_read_fails_with_its_message(folder: Path, run: Run) -> None:
     (folder / "broken.toml").write_text("name = ", encoding="utf-8")
-    result = run(folder, "--orderconds")
-    assert result.returncode == 1
-    assert "expected a TOML file" in result.stdout
+    status, output = run(folder, "--orderconds")
+    assert status == 1
+    assert "expected a TOML file" in output
 
 
-def test_complete_demands_every_family(folder: Path) -> None:
-    result = run(folder, "--orderconds-complete")
-    assert result.returncode == 1
-    assert "no order is claimed in family cg, in which the method has order 1" in result.stdout
+def test_complete_demands_every_family(folder: Path, run: Run) -> None:
+    status, output = run(folder, "--orderconds-complete")
+    assert status == 1
+    assert "no order is claimed in family cg, in which the method has order 1" in output
 
 
-def test_certified_demands_proofs(folder: Path) -> None:
+def test_certified_demands_proofs(folder: Path, run: Run) -> None:
     text = EULER.format(1).replace('"1"', '"1.00000000000000000000~"')
     (folder / "rounded.toml").write_text(text.replace("euler", "rounded"), encoding="utf-8")
-    assert run(folder, "--orderconds").returncode == 0
-    result = run(folder, "--orderconds-certified")
-    assert result.returncode == 1
-    assert "rk: certificate decimal" in result.stdout
-    assert "1 failed, 1 passed" in result.stdout
+    assert run(folder, "--orderconds")[0] == 0
+    status, output = run(folder, "--orderconds-certified")
+    assert status == 1
+    assert "rk: certificate decimal" in output
+    assert "1 failed, 1 passed" in output
 
 
-def test_a_tableau_without_claims_is_skipped_with_its_order(folder: Path) -> None:
+def test_a_tableau_without_claims_is_skipped_with_its_order(folder: Path, run: Run) -> None:
     (folder / "silent.toml").write_text(EULER.partition("[claims]")[0], encoding="utf-8")
-    result = run(folder, "--orderconds", "-rs")
-    assert result.returncode == 0
-    assert "the file claims no order; computed orders: rk 1" in result.stdout
+    status, output = run(folder, "--orderconds", "-rs")
+    assert status == 0
+    assert "the file claims no order; computed orders: rk 1" in output
 
 
-def test_other_files_are_left_alone_unless_named(folder: Path) -> None:
+def test_other_files_are_left_alone_unless_named(folder: Path, run: Run) -> None:
     (folder / "Cargo.toml").write_text('[package]\nname = "x"\n', encoding="utf-8")
-    assert "1 passed" in run(folder, "--orderconds").stdout
-    result = run(folder, "--orderconds", target="Cargo.toml")
-    assert "no family; expected one of cf" in result.stdout
+    assert "1 passed" in run(folder, "--orderconds")[1]
+    _, output = run(folder, "--orderconds", target="Cargo.toml")
+    assert "no family; expected one of cf" in output
 
 
-def test_without_the_flag_nothing_is_collected(folder: Path) -> None:
-    assert run(folder).returncode == 5
+def test_without_the_flag_nothing_is_collected(folder: Path, run: Run) -> None:
+    assert run(folder)[0] == 5

@@ -29,6 +29,13 @@ class Action(ABC):
         """Return x.y for x in the algebra, a tuple as long as y: the derivative of exp(eps x).y at eps =
         0."""
 
+    def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
+        """Return y moved back to the orbit of ``start``; a defect of size eps becomes O(eps^2).
+
+        By default y is returned, as on an orbit that is open.
+        """
+        return y
+
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x).y; a subclass may have a formula that does not form exp(x)."""
         return self.act(d, group, group.exp(d, x), y)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from codegen.groups.actions.base import Action
 from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import Projection
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
@@ -20,6 +21,11 @@ class LeftMultiplication(Action):
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return exp(x) y."""
         return group.expmul(d, x, y)
+
+    def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
+        """Return y projected onto the group; a group without projection returns y."""
+        projection = group.offers(Projection)
+        return y if projection is None else projection.project(d, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return x.y, the derivative of exp(eps x).y at eps = 0."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from codegen.groups.actions.base import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.capabilities import MatrixElements, Rotations
-from codegen.groups.linear_algebra import S, Vector, matvec
+from codegen.groups.linear_algebra import S, Vector, dot, matvec, rescaled
 from codegen.ir.domain import Domain
 
 
@@ -23,6 +23,18 @@ class Linear(Action):
         """Return exp(x) y; for rotations the matrix exp(x) is not formed."""
         rotations = group.offers(Rotations)
         return matvec(group.exp(d, x), y) if rotations is None else rotations.rotate(d, x, y)
+
+    def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
+        """Return y with the length of ``start`` where the group keeps lengths; otherwise y.
+
+        With e = 1 - (y.y)/(start.start), the factor 1 + e/2 + 3 e^2/8 leaves a defect O(e^3).
+        """
+        if group.offers(Rotations) is None:
+            return y
+        squared = dot(start, start)
+        # The quotient is zero where the orbit is the origin alone.
+        defect = d.call("quotient", squared - dot(y, y), squared)
+        return rescaled(d, y, defect)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return hat(x) y."""

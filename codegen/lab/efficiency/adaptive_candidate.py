@@ -18,15 +18,15 @@ from codegen.lab.timing import samples
 from codegen.loader import Arrival, Statistics, StepFailed
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. They begin looser than for peers, because error estimates of low order
-require short steps."""
+"""Tolerances, from loose to tight. The first tolerance is looser than for peers, because error estimates of
+low order require many short steps for a tight tolerance."""
 
 
 @dataclass
 class AdaptiveCandidate(EmittedCandidate):
     """A method with an embedded row, emitted to a target, run over the span with step-size control.
 
-    MethodError for a method without an error estimate.
+    Raises MethodError for a method without an error estimate.
     """
 
     def __post_init__(self) -> None:
@@ -45,9 +45,9 @@ class AdaptiveCandidate(EmittedCandidate):
         return not diverged and super().enough(rows)
 
     def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
-        """Return the end of a run with a tolerance.
+        """Return the result of a run with this tolerance at the end of the span.
 
-        If the tolerance is infinite, the run covers an empty span; it measures the overhead of a call.
+        If the tolerance is infinite, the span is empty; the time of this run is the overhead of a call.
         """
         first, last = map(float, self.scene.span)
         if math.isinf(tolerance):

@@ -109,7 +109,7 @@ def bench(
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
     for method in controlled:
-        replace(method, adaptive=True).embedded()  # MethodError without an embedded row
+        replace(method, adaptive=True).embedded()  # raises MethodError if the tableau has no embedded row
     others = find(peers)
     folder = _folder(output)
     progress(f"{problem.name}: reference solution")

@@ -58,7 +58,8 @@ class PeerCandidate:
             spent = samples(prepared.run)
             subtract = prepared.idle is not None and spent[0] < COUNTED
             overhead = cost(prepared.idle) if subtract and prepared.idle is not None else 0.0
-        except Exception as failure:  # peers may raise anything; the other candidates are still measured
+        # A peer may raise any exception; the other candidates must still be measured.
+        except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)
             setup = time.perf_counter() - start
             reason = str(failure)

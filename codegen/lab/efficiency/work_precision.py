@@ -69,7 +69,7 @@ class Candidate(Protocol):
         """Yield numbers of steps or tolerances, from coarse to fine."""
 
     def prepare(self) -> None:
-        """Prepare the first run; InputError if the candidate cannot run on the scene."""
+        """Prepare the first run; raises InputError if the candidate cannot run on the scene."""
 
     def measure(self, control: float) -> Row:
         """Run once for the error, then several times for the CPU time."""

@@ -29,10 +29,10 @@ def compensated(compiled: Compiled) -> Compiled:
 
     All carries are zero initially.
 
-    :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
+    Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
     """
     kernel = compiled.kernel
-    if kernel.deferred is not None:  # deferred flows would be applied once for many steps
+    if kernel.deferred is not None:  # one step must be complete, without deferred flows
         kernel = to_kernel(compiled.program, compiled.problem)
     if kernel.carried is not None:
         solvers = {loop.label: loop.solver for loop in kernel.loops}

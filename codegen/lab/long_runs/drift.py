@@ -103,7 +103,8 @@ def fit(
     if count < 2 * BLOCKS:
         return Drift(math.nan, math.nan, largest, math.nan, rounding)
     whole, scale = float(t[count - 1]), float(size[:count].max()) or 1.0
-    t, y, size = t[:count] / whole, y[:count] / scale, size[:count] / scale  # no overflow of squares
+    # The values are scaled, so that their squares do not overflow.
+    t, y, size = t[:count] / whole, y[:count] / scale, size[:count] / scale
     slope, half = _slope(t, y)
     factor = scale / whole
     return Drift(slope * factor, half * abs(factor), largest, _exponent(t, size), rounding)

@@ -32,10 +32,10 @@ from codegen.printers import DEFAULT
 
 STARTS = 16
 APART = 37
-"""Steps from one start to the next."""
+"""The number of steps between two consecutive starts."""
 
 TIMES = 9
-"""Deviations are measured after this many numbers of steps; each number is twice the previous number."""
+"""The number of measurements of a deviation; each is made after twice as many steps as the previous one."""
 
 EXACT = 1e-30
 """A quantity counts as exactly conserved if one step in 60 digits has a smaller relative change."""

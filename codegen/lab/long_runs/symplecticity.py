@@ -28,12 +28,13 @@ SWEEPS = 100
 
 
 def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: float = 0.0) -> float:
-    """Return the largest entry of J^T Omega(end) J - Omega(start), relative to that of Omega(start).
+    """Return the largest entry of J^T Omega(end) J - Omega(start) divided by the largest entry of
+    Omega(start).
 
     Entries are compared by absolute value.
 
     ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
-    :class:`NotConverged` if an implicit block takes more than :data:`SWEEPS` iterations.
+    Raises :class:`NotConverged` if an implicit block takes more than :data:`SWEEPS` iterations.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)

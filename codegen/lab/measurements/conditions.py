@@ -89,8 +89,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     highest: dict[str, int] = {}
     for each in study:
         label = each.method.family_label
-        if each.method.family not in names():
-            continue  # only the compiler defines this family; its conditions have no index sums
+        if each.method.family not in names() or each.method.coefficients is None:
+            continue  # a family of the compiler only, without index sums, or one without conditions
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
 

@@ -32,7 +32,7 @@ class Cost(Measurement[CostResult]):
 
     name = "cost"
     title = "Error against run time"
-    about = "error against CPU time, beside peers; the operations of a step"
+    about = "error against CPU time, compared with peers; the operations of a step"
 
     def run(self, subject: Subject) -> CostResult:
         """Measure all methods with equal steps, the methods with step-size control, and the peers."""

@@ -87,7 +87,7 @@ def _pictures(runs: Sequence[LongRun], command: str) -> list[Picture]:
             pictures.append(
                 Picture(
                     Markup(growth_figure(title, curves, f"largest deviation of {name}")),
-                    f"The largest deviation of the {name} up to a time. Dotted: growth like √t and t.",
+                    f"The largest deviation of the {name} up to each time t. Dotted: growth like √t and t.",
                     command,
                 )
             )

@@ -80,8 +80,9 @@ class ExactLocalError:
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of the step program that is emitted for a method on a scene.
 
-    :class:`codegen.errors.SceneError` if the field is not rational in the coordinates (it calls ``sqrt``,
-    say); :class:`codegen.errors.MethodError` if the coefficients are balls, whose zeros cannot be decided.
+    Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates (for example, if
+    it calls ``sqrt``), and :class:`codegen.errors.MethodError` if the coefficients are balls, whose zeros
+    cannot be decided.
     """
     ring = method.ring
     third = ring.rational(1, 3)

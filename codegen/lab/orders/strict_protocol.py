@@ -29,7 +29,7 @@ def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")
-    for claim in method.tableau.claims.orders:
+    for claim in () if method.coefficients is None else method.coefficients.claims.orders:
         if claim.family == method.family and (claim.cutoff is None or claim.cutoff == method.cutoff):
             return CertifiedOrder(claim.order, "claimed")
     return certified_order(method)

@@ -219,7 +219,7 @@ def _draw(axes: Axes, curves: Sequence[Curve], *, marked: bool = True) -> None:
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
-    """Draw C h^order a little below the curve's finest point, over the curve's range of h."""
+    """Draw the line C h^order over the curve's range of h, slightly below the point with the smallest h."""
     x = sorted(p[0] for p in curve.points)
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
@@ -296,7 +296,8 @@ def _svg(figure: Figure, name: str) -> str:
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
     text = re.sub(r'\s+(width|height)="[\d.]+pt"', "", text, count=2)
-    text = re.sub(r"<style.*?</style>", "", text, flags=re.DOTALL)  # it would apply to the whole page
+    # A style element in the figure would apply to the whole page.
+    text = re.sub(r"<style.*?</style>", "", text, flags=re.DOTALL)
     text = re.sub(r'\s+id="[^"]*_\d+"', "", text)
     text = re.sub(r"""'DejaVu Sans'(?:, [^;"]*)?""", "var(--sans)", text)
     for colour, variable in COLOURS.items():

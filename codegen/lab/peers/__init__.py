@@ -71,7 +71,7 @@ PEERS = {
     "scipy-radau": ("solve_ivp", "scipy"),
     "scipy-radau-projected": ("solve_ivp", "scipy"),
     "scipy-lsoda": ("solve_ivp", "scipy"),
-    "heyoka": ("taylor", "heyoka"),
+    "heyoka": ("heyoka", "heyoka"),
     "diffrax": ("jax", "diffrax"),
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
@@ -102,7 +102,8 @@ def installed(name: str) -> bool:
 def find(names: Sequence[str]) -> tuple[Peer, ...]:
     """Return the named peers in the order of :data:`PEERS`. For a group, the installed members are returned.
 
-    :class:`UnknownName` for an unknown name, :class:`InputError` for a named peer that is not installed.
+    Raises :class:`UnknownName` for an unknown name, and :class:`InputError` for a named peer that is not
+    installed.
     """
     chosen: set[str] = set()
     for name in names:

@@ -22,7 +22,7 @@ from codegen.scene.problem import Problem
 
 
 def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
-    """Return the projected state; :class:`SceneError` for a manifold without a projection."""
+    """Return the projected state; raises :class:`SceneError` for a manifold without a projection."""
     result: list[Scalar] = []
     start = 0
     for block in scene.state:

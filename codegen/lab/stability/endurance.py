@@ -26,8 +26,8 @@ class Endurance:
 
     ``defect`` is the distance from the manifold at the end (None if the manifold is a vector space).
     ``returned`` is the distance from the initial state after a run forward and back. ``failure`` is the
-    status message if the run stopped early. A run holds if it stopped with a status. It also holds if
-    the final state is finite and rounding errors can explain its distance from the manifold.
+    status message if the run stopped early. A run holds in two cases: it stopped with a status, or its final
+    state is finite and rounding errors can explain the distance of this state from the manifold.
     """
 
     name: str

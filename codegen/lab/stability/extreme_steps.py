@@ -15,9 +15,9 @@ is used. Numbers below the least normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
 interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
-from the solution of emitted code of a target in which the solution can be observed; all targets use the same
-algorithm. Newton's method then converges to
-a solution near that result, or shows that there is none.
+from the solution that emitted code has computed. This solution is read from a target in which the solved
+unknowns can be observed, because all targets use the same algorithm. Newton's method then converges to a
+nearby solution, or shows that there is none.
 """
 
 from __future__ import annotations
@@ -173,7 +173,10 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
         exact, probed = _exact(compiled, runner, case)
     except (NotConverged, ArithmeticError, ValueError):
         return Answer(
-            case, UNSOLVED if compiled.kernel.loops else f"{WRONG}: a result, but the interpreter fails"
+            case,
+            UNSOLVED
+            if compiled.kernel.loops
+            else f"{WRONG}: the emitted code returns a result, the interpreter fails",
         )
     error, determined, explained = 0.0, math.inf, True
     for block in _blocks(compiled):

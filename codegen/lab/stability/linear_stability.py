@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 from codegen.method import Method
 from orderconds.errors import InputError
+from orderconds.families import get
 from orderconds.tableau.stability import stability_function
 
 FARTHEST = 100.0
@@ -55,8 +56,12 @@ class Region:
 def region(method: Method) -> Region | None:
     """Return the linear stability of a method's tableau on R^n.
 
-    None for splitting methods, and for tableaux whose coefficients are not exact.
+    The result is None for splitting methods, and for tableaux whose coefficients are not exact.
     """
+    known = get(method.family_label).stability_coefficients()
+    if known is not None:
+        polynomial = Quotient(tuple(map(float, known)), (1.0,))
+        return Region(method.label, polynomial, reach(polynomial, -1.0), reach(polynomial, 1j))
     tableau = method.tableau
     try:
         R = stability_function(tableau.abelian(), tableau.ring)

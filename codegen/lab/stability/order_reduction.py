@@ -58,7 +58,8 @@ class OrderReduction:
 
 
 def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> OrderReduction:
-    """Return the runs of a method on a stiff variant; MethodError if the method cannot be lowered onto it."""
+    """Return the runs of a method on a stiff variant; raises MethodError if the method cannot be lowered onto
+    it."""
     scene = variant.scene
     compiled = compile_method(scene, method)
     order = certified_order(method, scene)

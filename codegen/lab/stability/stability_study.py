@@ -53,7 +53,7 @@ class Stability:
 
     @property
     def held(self) -> bool:
-        """Whether the method is honest and no result is undetermined."""
+        """Whether no result is wrong or undetermined, and every endurance run holds."""
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
     def as_json(self) -> dict[str, object]:

@@ -28,10 +28,11 @@ from codegen.run.language import (
     Table,
     Unit,
     While,
-    terms,
+    direct,
+    statements,
 )
 from codegen.run.scope import declarations
-from codegen.run.terms import Kind, Term, own, symbols
+from codegen.run.terms import Kind, Term, names
 from codegen.run.writes import written
 from codegen.snippets.graph import LIBRARY
 
@@ -164,10 +165,8 @@ class _Body:
 
     def lines(self) -> list[str]:
         """Return the lines of the whole body."""
-        read = {self.identifiers.variable(t) for t in terms(self.function.body) if t.op == "name"}
-        for term in terms(self.function.body):
-            if term.value is not None:
-                read |= {self.identifiers.variable(own(s)) for s in symbols(term.value)}
+        whole = statements(self.function.body)
+        read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         parameters = [p for p in self.function.parameters if p.kind is not Kind.SIGNAL]
         # The parameters are fixed by the interface, even if this kernel does not use all; the cast avoids a
         # warning.
@@ -261,7 +260,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
-        # C has this loop, so no flag or break is needed.
+        # C has a do-while loop, so no flag or break is needed, unlike in Python.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)

@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 from sympy import diag
 
-from codegen.emitter import compile_method, emit_compiled
+from codegen.emitter import emit_compiled
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import interpret
@@ -18,6 +18,7 @@ from codegen.passes import optimise
 from codegen.printers import names as target_names
 from orderconds.ring import QQ
 from tests.codegen.kernel.test_translate import carried_out
+from tests.compilations import compiled
 from tests.promises import ulps
 from tests.strategies import full, full_exponentials, hamiltonian_scene, lowered, starting, top_scene
 
@@ -64,11 +65,6 @@ def test_a_whole_kernel_is_the_step_of_the_program_exactly(whole):
     state = interpret(before, view, domain, inputs)
     pairs = list(zip(carried_out(kernel, view, domain, inputs), (*state["q"], *state["mu"]), strict=True))
     assert all(domain.ring.is_zero(a - b) is True for a, b in pairs) == whole
-
-
-@cache
-def compiled(scene, method, **options):
-    return compile_method(scene, method, **options)
 
 
 @cache

@@ -24,13 +24,14 @@ from codegen.loader import load
 from codegen.lower import lowering
 from orderconds.errors import InputError
 from orderconds.tableau import available
+from tests.compilations import compiled
 from tests.strategies import hamiltonian_scene
 
 SPECS = [("dipole", "vcg:gauss4")]
 
 EXPLICIT = ("dipole", "cg:cg4a")
 
-LONGEST = ["vcf:hairer_wanner4", "slgi:kahan_li8"]
+LONGEST = ["vcf:hairer_wanner4", pytest.param("slgi:kahan_li8", marks=pytest.mark.slow)]
 
 MANY_BLOCKS = ("rkmk:kahan_li8",)
 """Seventeen blocks, one after the other."""
@@ -40,11 +41,6 @@ ALL = [
     for family in ("vcf", "vcg", "vrkmk", "slgi", "vrkmk_pade", "rkmk", "cg", "cf", "ambient")
     for tableau in available()
 ]
-
-
-@cache
-def compiled(scene, method):
-    return compile_method(scene, method)
 
 
 @cache
@@ -87,7 +83,7 @@ def symbols(root):
 
 def test_short_steps_have_no_functions():
     for spec in (("dipole", "vcg:midpoint"), ("dipole", "vcf:cf4"), ("free_rigid_body", "rkmk:rk4")):
-        assert compile_method(*spec).kernel.outlined == ()
+        assert compiled(*spec).kernel.outlined == ()
 
 
 def twice(c1, c2):

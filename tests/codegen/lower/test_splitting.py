@@ -10,7 +10,7 @@ from sympy import Matrix, Rational, Symbol, diag, exp, sin
 
 from codegen import scenes
 from codegen.certify import certified_order
-from codegen.emitter import compile_method, emit
+from codegen.emitter import emit
 from codegen.errors import MethodError, SceneError
 from codegen.flows.drift import Drift
 from codegen.flows.isotropic import Isotropic
@@ -29,6 +29,7 @@ from codegen.method import Method, parse
 from codegen.scene import HamiltonianScene
 from orderconds.ring import QQ
 from orderconds.tableau import Tableau
+from tests.compilations import compiled, emitted
 from tests.strategies import quarter_turn, shipped, top_scene
 
 
@@ -273,18 +274,17 @@ def test_a_step_frozen_in_time_is_caught():
 def test_emitted_steps_agree_with_the_interpreter(scene, method, target):
     from codegen.lab.runner import Emitted, Interpreted
 
-    compiled = compile_method(scene, method)
-    found, expected = Emitted(compiled, target).final(20), Interpreted(compiled).final(20)
+    shared = compiled(scene, method)
+    found, expected = Emitted(shared, target).final(20), Interpreted(shared).final(20)
     size = max(map(abs, expected))
     assert max(abs(a - b) for a, b in zip(found, expected, strict=True)) < 1e-13 * size
 
 
 def test_steps_back_undo_symmetric_steps():
-    compiled = compile_method("dipole", "splitting:blanes_moan4")
     from codegen.loader import load
 
-    integrator = load(emit("dipole", "splitting:blanes_moan4"))
-    start = [float(x) for x in compiled.scene.initial(PreciseDomain(0, 20))]
+    integrator = load(emitted("dipole", "splitting:strang"))
+    start = [float(x) for x in scenes.load("dipole").initial(PreciseDomain(0, 20))]
     there = integrator.run(start, 0.01, 50)
     back = integrator.run(there, -0.01, 50)
     assert max(abs(a - b) for a, b in zip(start, back, strict=True)) < 1e-13
@@ -295,7 +295,7 @@ def test_momenta_of_the_fast_top_are_kept_to_rounding():
     from codegen.loader import load
 
     scene = scenes.load("fast_heavy_top")
-    integrator = load(emit(scene, "splitting:blanes_moan_rkn4"))
+    integrator = load(emitted("fast_heavy_top", "splitting:blanes_moan_rkn4"))
     x = [float(v) for v in scene.initial(PreciseDomain(0, 20))]
     y = integrator.run(x, 0.01, 200)
     axis = lambda s: sum(s[9 + i] * s[3 * i + 1] for i in range(3))  # noqa: E731

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from functools import cache
 
 import numpy as np
 import pytest
 
-from codegen.emitter import emit
 from codegen.loader import load
 from codegen.lower import lowering, names
+from tests.compilations import emitted
 
 H = 0.05
 WEIGHTS = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
@@ -39,8 +38,28 @@ OF_FLOWS += ["composition:triple_jump", "composition:mclachlan4", "composition:y
 """Splittings of the dipole: a kick, and the two exact flows that its asymmetric inertia is split into."""
 
 
+LONG = frozenset(
+    {
+        "vcg:gauss2",
+        "vrkmk(4):gauss3",
+        "slgi:radau2a1",
+        "slgi:gauss2",
+        "splitting:blanes_moan4",
+        "composition:mclachlan4",
+        "composition:yoshida6",
+        "rkmk(2):gauss2",
+    }
+)
+"""Methods that take long to compile, of families that the quick run tries by others."""
+
+
+def tries(methods):
+    """Return the parameters of a test; long methods are left to the slow run."""
+    return [pytest.param(m, marks=pytest.mark.slow if m in LONG else ()) for m in methods]
+
+
 def test_every_family_of_hamiltonian_scenes_is_tried():
-    tried = {re.match(r"[a-z_]+", method)[0] for method in (*VARIATIONAL, *OF_FLOWS)}
+    tried = {re.match(r"[a-z_]+", method)[0] for method in {*VARIATIONAL, *OF_FLOWS} - LONG}
     assert tried == {family for family in names() if lowering(family).hamiltonian}
 
 
@@ -66,13 +85,8 @@ DIRECTIONS = np.block([[np.eye(3), np.zeros((3, 3))], [np.zeros((3, 3)), Q * INE
 """Tangent vectors (xi, nu) as columns: those of the momentum move the velocity by one."""
 
 
-@cache
-def emitted(method):
-    return emit("dipole", method, "c")
-
-
 def stepper(method):
-    integrator = load(emitted(method))
+    integrator = load(emitted("dipole", method))
 
     def step(q, mu, h=H):
         state = np.array(integrator.step([*q.ravel(), *mu], h))
@@ -109,19 +123,19 @@ def defect(method):
     return np.abs(J.T @ form(step(Q, MU)[1]) @ J - DIRECTIONS.T @ form(MU) @ DIRECTIONS).max()
 
 
-@pytest.mark.parametrize("method", [*VARIATIONAL, *OF_FLOWS])
+@pytest.mark.parametrize("method", tries([*VARIATIONAL, *OF_FLOWS]))
 def test_variational_steps_and_compositions_of_flows_are_symplectic(method):
     assert defect(method) < 1e-11
 
 
 @pytest.mark.parametrize(
-    "method", ["rkmk(2):rk4", "cf:cf4", "rkmk(2):gauss2", "rkmk(0):euler", "rkmk(0):midpoint"]
+    "method", tries(["rkmk(2):rk4", "cf:cf4", "rkmk(2):gauss2", "rkmk(0):euler", "rkmk(0):midpoint"])
 )
 def test_others_are_not(method):
     assert defect(method) > 1e-7
 
 
-@pytest.mark.parametrize("method", [*VARIATIONAL, *OF_FLOWS])
+@pytest.mark.parametrize("method", tries([*VARIATIONAL, *OF_FLOWS]))
 def test_the_momentum_of_the_rotations_about_the_vertical_is_kept(method):
     step, q, mu = stepper(method), Q, MU
     for _ in range(40):
@@ -133,7 +147,7 @@ def test_the_momentum_of_the_rotations_about_the_vertical_is_kept(method):
 SYMMETRIC = ["vcg:midpoint", "vcg:triple_jump", "vrkmk(0):midpoint", "slgi:midpoint"]
 
 
-@pytest.mark.parametrize("method", [*SYMMETRIC, *(m for m in OF_FLOWS if "ruth" not in m)])
+@pytest.mark.parametrize("method", tries([*SYMMETRIC, *(m for m in OF_FLOWS if "ruth" not in m)]))
 def test_symmetric_compositions_are_reversible(method):
     step = stepper(method)
     q, mu = step(*step(Q, MU), h=-H)
@@ -150,7 +164,7 @@ def test_a_method_that_is_not_symmetric_is_not_reversible(method):
 
 def there_and_back(method):
     """Return how far a step and one back lead from the start, on a sphere with a field that turns in time."""
-    integrator = load(emit("driven_spin", method, "c"))
+    integrator = load(emitted("driven_spin", method))
     start = [0.6, 0.0, 0.8]
     back = integrator.step(integrator.step(start, H, 0.25), -H, 0.25 + H)
     return max(abs(a - b) for a, b in zip(start, back, strict=True))

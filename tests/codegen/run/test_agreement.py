@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import mpmath
 import pytest
 
 from codegen import scenes
-from codegen.emitter import compile_method, emit_compiled, start_of
+from codegen.emitter import emit_compiled, start_of
 from codegen.ir.angle_depth import chain
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
@@ -21,6 +19,7 @@ from codegen.run.plan import Plan
 from codegen.run.solver_choice import amount
 from codegen.run.terms import OK, STATUSES
 from codegen.run.unit import unit_of
+from tests.compilations import compiled
 from tests.promises import ulps
 
 STEPS = 20
@@ -44,13 +43,14 @@ SOLVED = {
 }
 """One case for each way in which equations are solved: scene, method, solver, frame of the momentum."""
 
+LONG = ("residuals of two stages", "several blocks by simplified Newton", "substeps by fixed points")
+"""Cases that combine two others; the slow run tries them."""
+
+ALIKE = ("free_rigid_body_attitude", "free_rigid_body_quaternion", "free_rigid_body_product")
+"""Scenes whose equations are solved as those of another scene of the same group; for the slow run."""
+
 SHORTER = {"stiff_driven_spin": 1 / 32}
 """Scenes where steps of a hundredth of the span are too long for the method."""
-
-
-@cache
-def compiled(scene, method, solver="auto", frame="space"):
-    return compile_method(scene, method, solver=solver, frame=frame)
 
 
 def implicit(scene):
@@ -94,12 +94,20 @@ def agree(made, longer=1):
         assert ulps(found, state) <= 4
 
 
-@pytest.mark.parametrize("case", SOLVED)
+@pytest.mark.parametrize(
+    "case", [pytest.param(case, marks=pytest.mark.slow if case in LONG else ()) for case in SOLVED]
+)
 def test_every_way_to_solve_takes_the_same_sweeps_everywhere(case):
     agree(compiled(*SOLVED[case]), longer=0.5 if case == "continuation" else 1)
 
 
-@pytest.mark.parametrize("scene", [entry["name"] for entry in scenes.listing()])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        pytest.param(entry["name"], marks=pytest.mark.slow if entry["name"] in ALIKE else ())
+        for entry in scenes.listing()
+    ],
+)
 def test_every_scene_takes_the_same_sweeps_everywhere(scene):
     agree(compiled(scene, implicit(scene)), longer=SHORTER.get(scene, 1))
 

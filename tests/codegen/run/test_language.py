@@ -49,6 +49,7 @@ from codegen.run.terms import (
     whole,
 )
 from codegen.run.unit import unit_of
+from tests.compilations import compiled
 
 X, N, TOTAL, K = real("x"), count("n"), real("total"), count("k")
 
@@ -194,7 +195,7 @@ def test_no_loop_of_a_solver_is_left_from_its_middle():
         ("dipole", "vcg:triple_jump", "auto"),
         ("fast_heavy_top", "splitting:strang", "auto"),
     ):
-        made = compile_method(scene, method, solver=solver)
+        made = compiled(scene, method, solver)
         for function in unit_of(Plan(made.kernel, DOUBLE)).functions:
             for statement in function.body:
                 inner = list(statements([statement]))

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import pytest
 
-from codegen.emitter import compile_method, emit, emit_compiled
+from codegen.emitter import emit
 from codegen.errors import SceneError
 from codegen.loader import load
 from orderconds.errors import UnknownName
+from tests.compilations import emitted
 
-METHODS = ("vcg:midpoint", "vrkmk(1):kutta3", "rkmk:rk4", "cf:cf4", "slgi:midpoint")
-
-
-@cache
-def compiled(method, frame):
-    return compile_method("dipole", method, frame=frame)
+METHODS = (
+    "vcg:midpoint",
+    pytest.param("vrkmk(1):kutta3", marks=pytest.mark.slow),
+    "rkmk:rk4",
+    pytest.param("cf:cf4", marks=pytest.mark.slow),
+    "slgi:midpoint",
+)
 
 
 def turned(state, sign=1):
@@ -29,7 +29,7 @@ def turned(state, sign=1):
 @pytest.mark.parametrize("target", ["c", "python"])
 @pytest.mark.parametrize("method", METHODS)
 def test_a_run_in_the_body_is_the_run_in_space_seen_from_the_body(method, target):
-    space, body = (emit_compiled(compiled(method, frame), target) for frame in ("space", "body"))
+    space, body = (emitted("dipole", method, target, frame=frame) for frame in ("space", "body"))
     start = space.manifest["initial"]
     assert body.manifest["initial"] == pytest.approx(turned(start), abs=1e-16)
     middle = load(space).run(start, 0.02, 5)
@@ -42,14 +42,14 @@ def test_a_run_in_the_body_is_the_run_in_space_seen_from_the_body(method, target
 @pytest.mark.parametrize("target", ["c", "python"])
 def test_splittings_that_put_off_the_end_of_their_steps_are_seen_from_the_body_too(target):
     method = "splitting:strang"
-    space, body = (emit("fast_heavy_top", method, target, frame=frame) for frame in ("space", "body"))
+    space, body = (emitted("fast_heavy_top", method, target, frame=frame) for frame in ("space", "body"))
     start = space.manifest["initial"]
     middle = load(space).run(start, 1e-3, 7)
     assert load(body).run(turned(start), 1e-3, 7) == pytest.approx(turned(middle), abs=1e-11)
 
 
 def test_the_angular_momentum_of_a_free_body_stands_still_in_space_and_turns_in_the_body():
-    emission = emit("free_rigid_body_attitude", "vcg:midpoint", "c", frame="body")
+    emission = emitted("free_rigid_body_attitude", "vcg:midpoint", frame="body")
     rows = np.array(load(emission).trajectory(emission.manifest["initial"], 0.05, 100))
     in_space = np.array([turned(row, -1)[9:] for row in rows])
     assert np.abs(in_space - in_space[0]).max() < 1e-12
@@ -57,11 +57,11 @@ def test_the_angular_momentum_of_a_free_body_stands_still_in_space_and_turns_in_
 
 
 def test_the_frame_is_in_the_head_the_command_and_the_name():
-    emission = emit("dipole", "vcg:midpoint", "c", frame="body")
+    emission = emitted("dipole", "vcg:midpoint", frame="body")
     text = emission.files["dipole_vcg_midpoint_body.c"]
     assert "[9..11] mu: left-trivialised momentum, that of the body" in text
     assert "--frame body" in emission.manifest["command"]
-    assert "right-trivialised momentum" in "".join(emit("dipole", "vcg:midpoint", "c").files.values())
+    assert "right-trivialised momentum" in "".join(emitted("dipole", "vcg:midpoint").files.values())
 
 
 @pytest.mark.parametrize("scene", ["free_rigid_body", "linear_oscillator"])

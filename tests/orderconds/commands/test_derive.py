@@ -63,7 +63,7 @@ def test_dependent_conditions_say_what_they_equal() -> None:
     assert "% equals <o(o)>" in run("vcg", "--order", "2", "--all", "--format", "latex").stdout
 
 
-@pytest.mark.parametrize("family", families.names())
+@pytest.mark.parametrize("family", families.with_conditions())
 def test_explanations_name_what_each_condition_is_about(family: str) -> None:
     result = run(family, "--order", "2", "--explain")
     assert result.exit_code == 0
@@ -111,7 +111,7 @@ def test_written_out_for_two_stages() -> None:
 
 
 @pytest.mark.parametrize(
-    "family", [name for name in families.names() if families.get(name).formats[0] == "rk"]
+    "family", [name for name in families.with_conditions() if families.get(name).formats[0] == "rk"]
 )
 @pytest.mark.parametrize("explicit", [False, True])
 def test_written_out_conditions_have_the_values_of_the_engine(family: str, explicit: bool) -> None:

@@ -46,6 +46,10 @@ def record(*args: str, status: int = 0) -> Any:
         ("splitting --stages 3 --order 4 --symmetric --rkn", "rkn", "exact"),
         ("cf --stages 3 --order 3 --explicit", "cf", ""),
         ("rkmk(1) --stages 3 --order 3 --explicit", "rkmk(1)", "exact"),
+        ("symplectic_rk --stages 3 --order 6", "rk", "exact"),
+        ("symplectic_rk --stages 3 --order 4 --symmetric", "rk", "exact"),
+        ("symplectic_rk --stages 3 --order 4 --dirk --symmetric", "rk", "exact"),
+        ("symplectic_rk --stages 3 --order 4 --fix a12=0", "rk", "exact"),
     ],
 )
 def test_what_is_found_passes_check(args: str, family: str, certificate: str, tmp_path: Path) -> None:
@@ -86,6 +90,12 @@ def test_two_stages_of_order_three_are_refuted() -> None:
     assert "no vcg method with 2 stages has order 3" in result.stdout
 
 
+def test_found_symplectic_tableaux_are_symplectic(tmp_path: Path) -> None:
+    for options in ("--stages 2", "--stages 3 --symmetric", "--stages 4 --dirk --size 1"):
+        found = record("symplectic_rk", "--order", "2", *options.split(), "-o", str(tmp_path / "found.toml"))
+        assert "symplectic = true" in found["tableau"]
+
+
 def test_nothing_found_says_what_was_tried() -> None:
     result = run("cg", "--stages", "4", "--order", "4", "--explicit", "--starts", "64")
     assert result.exit_code == 1
@@ -113,6 +123,9 @@ def test_nothing_found_says_what_was_tried() -> None:
         ("vcf --stages 2 --order 4 --explicit --symmetric", "--explicit with --symmetric"),
         ("rk --stages 2 --order 2 -o nowhere/found.toml", "no such folder"),
         ("rk --stages 2 --order 2 --fix a21=sqrt(2)", "not linear"),
+        ("rk --stages 2 --order 2 -o found.toml --checkpoint ./found.toml", "the file of --output"),
+        ("symplectic_rk --stages 2 --order 2 --explicit", "no methods with --explicit"),
+        ("symplectic_rk --stages 2 --order 2 --fix a12=0 --fix a21=1", "both a12 and a21"),
         ("vcg --stages 4 --order 12", "vcg: 51677 trees of order 7, and more at each further order"),
     ],
 )

@@ -21,7 +21,7 @@ def formulas(family: str) -> list[str]:
     return found
 
 
-@pytest.mark.parametrize("family", families.names())
+@pytest.mark.parametrize("family", families.with_conditions())
 def test_conditions_are_mathematics_that_a_tex_engine_reads(family: str) -> None:
     mathtext = pytest.importorskip("matplotlib.mathtext")
     parser = mathtext.MathTextParser("path")
@@ -37,7 +37,7 @@ def test_a_wrong_formula_is_refused() -> None:
         mathtext.MathTextParser("path").parse(r"$\sumx b_{i}$")
 
 
-@pytest.mark.parametrize("family", families.names())
+@pytest.mark.parametrize("family", families.with_conditions())
 @pytest.mark.parametrize("line", [20, LINE])
 def test_broken_lines_are_the_formula(family: str, line: int) -> None:
     for latex in formulas(family):

@@ -107,7 +107,7 @@ REFUSED: dict[str, tuple[str, str]] = {
             ZEROS,
             'conditions = "rk"\norder = 3\nreduction = "simplifying"\nassumptions = { B = 3, C = 1 }',
         ),
-        "it implies order 2, but [proof] has order = 3",
+        "the assumptions imply order 2, but [proof] has order = 3",
     ),
 }
 

@@ -419,10 +419,18 @@ MONOMIALS = {
 }
 
 
+QUICK = {("vcg", "U(5)"), *((label, "SO(3)") for label in MONOMIALS if label != "vcg")}
+"""One group for each family in the quick run; the slow run takes all groups."""
+
+
 @pytest.mark.parametrize(
-    "group", [pytest.param(g, marks=pytest.mark.slow if g == "GL(2)" else ()) for g in SPACES]
+    ("label", "group"),
+    [
+        pytest.param(label, group, marks=() if (label, group) in QUICK else pytest.mark.slow)
+        for label in MONOMIALS
+        for group in SPACES
+    ],
 )
-@pytest.mark.parametrize("label", MONOMIALS)
 def test_residuals_errors_and_both_have_equal_ranks_in_every_order_to_four(label, group):
     generator = np.random.default_rng(4)
     ring = Residues(PRIME, METHODS)

@@ -94,6 +94,9 @@ CASES = {
 }
 
 
+QUICK = [pytest.param(name, marks=pytest.mark.slow if name == "verner6" else ()) for name in CASES]
+
+
 @cache
 def program_of(name):
     method, order, _, _ = CASES[name]
@@ -107,7 +110,7 @@ def order_of(series, most):
     return most
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", QUICK)
 def test_brackets_are_few_and_the_order_is_kept_exactly(name):
     _, order, brackets, least = CASES[name]
     program = program_of(name)
@@ -257,7 +260,7 @@ class Problem:
         )
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", QUICK)
 def test_the_local_error_of_a_concrete_step_starts_one_power_above_the_order(name):
     order = CASES[name][1]
     problem = Problem(order + 1)

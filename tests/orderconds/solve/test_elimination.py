@@ -16,6 +16,7 @@ CASES = [
     ("cg", 3, Spec(2, explicit=True)),
     ("vcg", 5, Spec(3)),
     ("composition", 6, Spec(3)),
+    ("symplectic_rk", 3, Spec(2, dirk=True)),
 ]
 
 
@@ -44,7 +45,12 @@ def test_the_equations_are_the_conditions() -> None:
 
 @pytest.mark.parametrize(
     ("family", "order", "spec"),
-    [("vcg", 3, Spec(3)), ("rk", 3, Spec(3, explicit=True)), ("vcg", 2, Spec(1))],
+    [
+        ("vcg", 3, Spec(3)),
+        ("rk", 3, Spec(3, explicit=True)),
+        ("vcg", 2, Spec(1)),
+        ("symplectic_rk", 4, Spec(2)),
+    ],
 )
 def test_what_exists_is_not_refuted(family: str, order: int, spec: Spec) -> None:
     assert infeasible(find_problem(family, order, spec, "full")) is None

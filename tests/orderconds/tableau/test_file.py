@@ -240,7 +240,7 @@ MALFORMED = {
     "stage from itself": (
         CF + '[[stage]]\nfrom = 1\n[update]\nexp = [["1"]]\n',
         "stage[1]: from = 1",
-        "no key from",
+        "no key 'from'",
     ),
     "stage from a later one": (
         CF + '[[stage]]\n[[stage]]\nfrom = 2\n[update]\nexp = [["1"]]\n',
@@ -272,7 +272,7 @@ MALFORMED = {
     "lists in lists in lists": (
         HEAD + "A = " + "[" * 3000 + "]" * 3000 + "\n",
         "nested too deep",
-        "shallow tables",
+        "with few levels",
     ),
     "rk keys in cf": (CF + 'A = [[]]\nb = ["1"]\n', "unknown key", "low_storage"),
 }

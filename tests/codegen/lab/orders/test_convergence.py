@@ -126,7 +126,7 @@ def swapped(method: Method) -> Method:
     assert isinstance(tableau.method, CommutatorFree)
     rows = tableau.method.update.exponentials[::-1]
     wrong = replace(tableau.method, update=Stage(None, rows))
-    return replace(method, tableau=replace(tableau, method=wrong))
+    return replace(method, coefficients=replace(tableau, method=wrong))
 
 
 def reversed_rows(method: Method) -> Method:
@@ -137,7 +137,7 @@ def reversed_rows(method: Method) -> Method:
         tuple(row[i - 1 - j] if j < i else row[j] for j in range(len(row)))
         for i, row in enumerate(tableau.method.A)
     )
-    return replace(method, tableau=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
+    return replace(method, coefficients=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
 
 
 def late_stage(method: Method) -> Method:
@@ -147,7 +147,7 @@ def late_stage(method: Method) -> Method:
     A = [list(row) for row in tableau.method.A]
     A[2][0], A[2][1] = A[2][1], A[2][0]
     rows = tuple(tuple(row) for row in A)
-    return replace(method, tableau=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
+    return replace(method, coefficients=replace(tableau, method=RungeKutta(rows, tableau.method.b)))
 
 
 FRAUDS = {
@@ -175,11 +175,11 @@ def test_a_weight_off_by_5e_11_is_beyond_any_slope_and_left_to_check(exact: Exac
     b = list(good.tableau.method.b)  # type: ignore[union-attr]
     b[0] = b[0] + QQ.rational(5, 10**11)
     off = replace(good.tableau, method=RungeKutta(good.tableau.method.A, tuple(b)))  # type: ignore[union-attr]
-    found = measure(exact, "free_rigid_body", replace(good, tableau=off), 4)
+    found = measure(exact, "free_rigid_body", replace(good, coefficients=off), 4)
     assert found.verdict == "holds"
     # In forty digits and fine steps the same fraud is seen here as well: the error stops falling.
     deep = measure(
-        exact, "free_rigid_body", replace(good, tableau=off), 4, "interpreter", 40, (160, 320, 640, 1280)
+        exact, "free_rigid_body", replace(good, coefficients=off), 4, "interpreter", 40, (160, 320, 640, 1280)
     )
     assert deep.observed is not None
     assert deep.observed < 3.5

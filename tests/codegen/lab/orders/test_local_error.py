@@ -261,7 +261,7 @@ def test_the_order_is_the_one_that_check_reports(method, order):
 def test_a_weight_off_by_a_little_breaks_the_order(method, scene):
     ring, rk = method.ring, method.runge_kutta()
     b = (rk.b[0] + ring.rational(1, 10**9), *rk.b[1:])
-    wrong = replace(method, tableau=replace(method.tableau, family="rk", method=replace(rk, b=b)))
+    wrong = replace(method, coefficients=replace(method.tableau, family="rk", method=replace(rk, b=b)))
     assert valuation(error_of(scene, wrong, 2)[1]) == 1
 
 

@@ -1,0 +1,225 @@
+"""The recurrence of Taylor coefficients as a loop over their order, for fields whose unrolled code is long.
+
+Coefficient n of a product is a_0 b_n + a_n b_0 and the sum of a_j b_{n-j} over 0 < j < n. These inner sums
+need coefficients of lower orders alone. The loop computes the inner sums of all operations first, side by
+side, and then coefficient n of each expression in turn. The code of one order serves all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.expr import Expr, Space
+from codegen.ir.number import Number
+from codegen.ir.taylor_recurrence import Recurrence
+from codegen.ir.taylor_series import (
+    Circular,
+    Convolution,
+    Exponential,
+    Given,
+    Logarithm,
+    Multiple,
+    Power,
+    Quotient,
+    Root,
+    Series,
+    Slope,
+    Square,
+    Sum,
+)
+
+ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
+"""The symbols of n, 1/n, 1/(n + 1), and of the coefficient n of the time, in the code of one order."""
+
+PROBED = 3
+"""Orders that are computed to find the series that are constant in time."""
+
+
+@dataclass(frozen=True)
+class OrderLoop:
+    """The code of order 0 and of every other order n.
+
+    ``first`` are the values of ``names``, which later orders read. ``start`` are the coefficients 1 of the
+    coordinates, ``following`` the coefficients n + 1; they read the coefficients n, called ``coordinates``,
+    and the inner sums, called ``sums``. Inner sum k is that of the coefficients of ``left[k]`` and
+    ``right[k]``, whose coefficients of order n are given.
+    """
+
+    names: tuple[str, ...]
+    first: tuple[Expr, ...]
+    start: tuple[Expr, ...]
+    coordinates: tuple[str, ...]
+    sums: tuple[str, ...]
+    left: tuple[Expr, ...]
+    right: tuple[Expr, ...]
+    following: tuple[Expr, ...]
+
+
+def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
+    """Return the loop of a recurrence over expressions of ``space`` in powers of the time."""
+    start = [space.zero if row[1] is None else row[1] for row in recurrence.extend(PROBED)]
+    work = _Loop(recurrence, space)
+    scale = space.sym(NEXT)
+    following = []
+    for number, slope in recurrence.slopes:
+        x = work.of(slope)
+        following.append(space.zero if x is None else scale * (space.const(number) * x))
+    left, right = [], []
+    # The list grows: an operand that no derivative reads, as the cosine in a sine, may need sums of its own.
+    for a, b in work.pairs:
+        left.append(_known(work.of(a)))
+        right.append(_known(work.of(b)))
+    count = len(work.pairs)
+    return OrderLoop(
+        tuple(f"first.{k}" for k in range(len(work.first))),
+        tuple(work.first),
+        tuple(start),
+        coordinate_names(len(recurrence.coordinates)),
+        tuple(f"sum.{k}" for k in range(count)),
+        tuple(left),
+        tuple(right),
+        tuple(following),
+    )
+
+
+def coordinate_names(count: int) -> tuple[str, ...]:
+    """Return the symbols of the coefficients n of the coordinates."""
+    return tuple(f"coefficient.{i}" for i in range(count))
+
+
+def _known(x: Expr | None) -> Expr:
+    assert x is not None, "an inner sum of a series that is constant in time"
+    return x
+
+
+@dataclass
+class _Loop:
+    """Coefficient n of series; ``pairs`` are the operands of inner sums, ``first`` the values of order 0."""
+
+    recurrence: Recurrence
+    space: Space
+    pairs: list[tuple[Series, Series]] = field(default_factory=list)
+    first: list[Expr] = field(default_factory=list)
+    known: dict[int, Expr | None] = field(default_factory=dict)
+    places: dict[tuple[int, int], int] = field(default_factory=dict)
+    positions: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        coordinates = self.recurrence.coordinates
+        for name, coordinate in zip(coordinate_names(len(coordinates)), coordinates, strict=True):
+            self.known[id(coordinate)] = self.space.sym(name)
+        self.known[id(self.recurrence.time)] = self.space.sym(LINEAR)
+
+    def of(self, root: Series) -> Expr | None:
+        """Return coefficient n of a series, None for a series that is constant in time."""
+        waiting = [root]
+        while waiting:
+            series = waiting[-1]
+            if id(series) in self.known:
+                waiting.pop()
+            elif self.constant(series):
+                self.known[id(series)] = None
+            else:
+                missing = [x for x in _operands(series) if id(x) not in self.known]
+                waiting += missing
+                if not missing:
+                    self.known[id(series)] = self.made(series)
+        return self.known[id(root)]
+
+    def constant(self, series: Series) -> bool:
+        """Whether a series is constant in time."""
+        return all(series.term(n) is None for n in range(1, PROBED))
+
+    def value(self, x: Expr) -> Expr:
+        """Return a value of order 0 as a symbol of the code of order n; numbers stay themselves."""
+        if x.op == "const":
+            return x
+        if x.id not in self.positions:
+            self.positions[x.id] = len(self.first)
+            self.first.append(x)
+        return self.space.sym(f"first.{self.positions[x.id]}")
+
+    def inner(self, a: Series, b: Series) -> Expr:
+        """Return the sum of a_j b_{n-j} over 0 < j < n."""
+        key = min(id(a), id(b)), max(id(a), id(b))
+        if key not in self.places:
+            self.places[key] = len(self.pairs)
+            self.pairs.append((a, b))
+        return self.space.sym(f"sum.{self.places[key]}")
+
+    def product(self, a: Series, b: Series) -> Expr:
+        """Return coefficient n of a b."""
+        x, y = self.known[id(a)], self.known[id(b)]
+        if x is None or y is None:
+            constant, other = (a, y) if x is None else (b, x)
+            return self.value(constant.term(0)) * _known(other)
+        return self.inner(a, b) + (self.value(a.term(0)) * y + x * self.value(b.term(0)))
+
+    def beyond(self, a: Series, b: Series) -> Expr:
+        """Return the sum of a_j b_{n-j} over 0 < j <= n, for a series b whose coefficient n is not known."""
+        return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
+
+    def made(self, series: Series) -> Expr:
+        """Return coefficient n of a series from those of its operands."""
+        space = self.space
+        match series:
+            case Sum(a=a, b=b, minus=minus):
+                x, y = (self.known[id(s)] for s in (a, b))
+                if x is None or y is None:
+                    return _known(x) if y is None else -y if minus else y
+                return x - y if minus else x + y
+            case Multiple(number=number, a=a):
+                return space.const(number) * _known(self.known[id(a)])
+            case Convolution(a=a, b=b):
+                return self.product(a, b)
+            case Square(a=a):
+                x = _known(self.known[id(a)])
+                return self.inner(a, a) + space.const(Number.rational(2)) * (self.value(a.term(0)) * x)
+            case Slope(a=a):
+                return space.sym(ORDER) * _known(self.known[id(a)])
+            case Quotient(a=a, b=b):
+                x = self.known[id(a)]
+                if self.known[id(b)] is None:
+                    return self.value(series.inverse) * _known(x)
+                rest = self.beyond(b, series)
+                return self.value(series.inverse) * (-rest if x is None else x - rest)
+            case _:
+                return self.function(series)
+
+    def function(self, series: Series) -> Expr:
+        """Return coefficient n of a root, a power or a function."""
+        space = self.space
+        match series:
+            case Root(a=a):
+                return self.value(series.inverse) * (_known(self.known[id(a)]) - self.inner(series, series))
+            case Power(a=a, slope=slope, exponent=exponent):
+                # sum_j (e j - (n - j)) a_j p_{n-j}/n = sum_j ((e + 1) j/n - 1) a_j p_{n-j}
+                factor = space.const(Number.rational(*(exponent + 1).as_integer_ratio())) * space.sym(INVERSE)
+                rest = factor * self.beyond(slope, series) - self.beyond(a, series)
+                return self.value(series.inverse) * rest
+            case Exponential(slope=slope):
+                return space.sym(INVERSE) * self.beyond(slope, series)
+            case Circular(slope=slope, other=other, minus=minus):
+                mean = space.sym(INVERSE) * self.beyond(slope, other)
+                return -mean if minus else mean
+            case Logarithm(a=a, slope=slope):
+                rest = space.sym(INVERSE) * self.inner(slope, a)
+                return self.value(series.inverse) * (_known(self.known[id(a)]) - rest)
+        raise AssertionError(type(series))
+
+
+def _operands(series: Series) -> Sequence[Series]:
+    """Return the series whose coefficient n is needed for that of a series."""
+    match series:
+        case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
+            return a, b
+        case Power(a=a, slope=slope):
+            return a, slope
+        case Exponential(slope=slope) | Circular(slope=slope):
+            return (slope,)
+        case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
+            return (a,)
+        case Given():
+            return ()
+    raise AssertionError(type(series))

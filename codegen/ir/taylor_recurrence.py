@@ -1,0 +1,245 @@
+"""Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
+
+Quotients, roots and products of one expression are joined to constant powers, and numeric factors are moved
+out of products, because each product of two series costs a convolution.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from codegen.errors import SceneError
+from codegen.ir.domain import Domain, Scalar
+from codegen.ir.expr import Expr, walk
+from codegen.ir.number import Number
+from codegen.ir.taylor_series import (
+    Circular,
+    Coefficient,
+    Convolution,
+    Exponential,
+    Given,
+    Logarithm,
+    Multiple,
+    Power,
+    Quotient,
+    Root,
+    Series,
+    Slope,
+    Square,
+    Sum,
+    multiplied,
+)
+
+TIME = "t"
+"""The symbol of the time in expressions."""
+
+
+@dataclass
+class _Builder:
+    """The series of expressions; ``values`` are those of symbols that are constant in time."""
+
+    domain: Domain
+    series: dict[str, Series]
+    values: Mapping[str, Scalar]
+    known: dict[int, Series] = field(default_factory=dict)
+    shared: dict[tuple[str, int, Fraction], Series] = field(default_factory=dict)
+    monomials: dict[int, tuple[Number, Expr, Fraction]] = field(default_factory=dict)
+
+    def of(self, root: Expr) -> Series:
+        """Return the series of an expression."""
+        # The stack replaces recursion: expressions are deeper than Python's limit.
+        waiting = [root]
+        while waiting:
+            node = waiting[-1]
+            missing = [x for x in self.operands(node) if x.id not in self.known]
+            if missing and node.id not in self.known:
+                waiting += missing
+                continue
+            if node.id not in self.known:
+                self.known[node.id] = self.made(node)
+            waiting.pop()
+        return self.known[root.id]
+
+    def operands(self, node: Expr) -> tuple[Expr, ...]:
+        """Return the expressions whose series the series of a node reads."""
+        _, base, _ = self.monomial(node)
+        if base is not node:
+            return (base,)
+        if node.op == "div":
+            _, divisor, _ = self.monomial(node.args[1])
+            return node.args[0], divisor
+        return node.args
+
+    def monomial(self, root: Expr) -> tuple[Number, Expr, Fraction]:
+        """Return c, x, e with the node equal to c x^e, where e is no positive integer, or x is the node."""
+        for node in walk([root], lambda n: n.id in self.monomials):
+            if node.id not in self.monomials:
+                self.monomials[node.id] = self._monomial(node)
+        return self.monomials[root.id]
+
+    def _monomial(self, node: Expr) -> tuple[Number, Expr, Fraction]:
+        one, plain = Number.rational(1), (Number.rational(1), node, Fraction(1))
+        parts = [self.monomials[a.id] for a in node.args]
+        constants = [a.payload if a.op == "const" else None for a in node.args]
+        match node.op:
+            case "call" if node.payload == "sqrt":
+                return one, node.args[0], Fraction(1, 2)
+            case "neg":
+                ((c, x, e),) = parts
+                return -c, x, e
+            case "mul" if constants[0] is not None:
+                c, x, e = parts[1]
+                return c * constants[0], x, e
+            case "div" if constants[0] is not None:
+                c, x, e = parts[1]
+                return constants[0] / c, x, -e
+            case "pow":
+                ((c, x, e),) = parts
+                if e == 1:
+                    return plain
+                for _ in range(node.payload - 1):
+                    c = c * parts[0][0]
+                result = c, x, e * node.payload
+            case "mul" | "div":
+                (c, x, e), (d, y, f) = parts
+                if x is not y or e == f == 1:
+                    return plain
+                result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
+            case _:
+                return plain
+        # A positive integer is left to products, as their coefficients need no division by x.
+        return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
+
+    def made(self, node: Expr) -> Series:
+        """Return the series of a node whose operands have theirs."""
+        domain = self.domain
+        number, base, exponent = self.monomial(node)
+        if base is not node:
+            return self.multiple(number, self.power(self.known[base.id], base, exponent))
+
+        def arg(i: int) -> Series:
+            return self.known[node.args[i].id]
+
+        match node.op:
+            case "const":
+                return Given(domain, domain.number(node.payload))
+            case "sym":
+                found = self.series.get(node.payload)
+                return found if found is not None else Given(domain, self.values[node.payload])
+            case "add" | "sub":
+                return Sum(domain, arg(0), arg(1), node.op == "sub")
+            case "mul":
+                return Convolution(domain, arg(0), arg(1))
+            case "pow":
+                return self.integer_power(arg(0), node.payload)
+            case "div":
+                c, divisor, e = self.monomial(node.args[1])
+                below = self.known[divisor.id]
+                if e == 1:
+                    return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
+                other = self.power(below, divisor, -e)
+                return self.multiple(Number.rational(1) / c, Convolution(domain, arg(0), other))
+            case _:
+                return self.function(node.payload, node.args[0], arg(0))
+
+    def multiple(self, number: Number, a: Series) -> Series:
+        """Return c a."""
+        return a if number.is_one else Multiple(self.domain, number, a)
+
+    def power(self, a: Series, base: Expr, exponent: Fraction) -> Series:
+        """Return the series of a power; equal powers of one expression are one series."""
+        if exponent == 1:
+            return a
+        key = "power", base.id, exponent
+        if key not in self.shared:
+            if exponent == Fraction(1, 2):
+                self.shared[key] = Root(self.domain, a)
+            elif exponent == -1:
+                self.shared[key] = Quotient(self.domain, Given(self.domain, self.domain.rational(1)), a)
+            elif exponent.denominator == 1 and exponent > 0:
+                self.shared[key] = self.integer_power(a, int(exponent))
+            else:
+                self.shared[key] = Power(self.domain, a, exponent)
+        return self.shared[key]
+
+    def integer_power(self, a: Series, n: int) -> Series:
+        """Return a^n by squaring from the leading bit."""
+        result = a
+        for bit in bin(n)[3:]:
+            result = Square(self.domain, result)
+            if bit == "1":
+                result = Convolution(self.domain, result, a)
+        return result
+
+    def function(self, name: str, argument: Expr, a: Series) -> Series:
+        """Return the series of a function of an expression."""
+        key = name, argument.id, Fraction(1)
+        if key in self.shared:
+            return self.shared[key]
+        domain, slope = self.domain, Slope(self.domain, a)
+        match name:
+            case "exp":
+                self.shared[key] = Exponential(domain, a, slope)
+            case "log":
+                self.shared[key] = Logarithm(domain, a)
+            case "sin" | "cos":
+                # The recurrences of sine and cosine read one another.
+                sine, cosine = (
+                    Circular(domain, "sin", a, slope, False),
+                    Circular(domain, "cos", a, slope, True),
+                )
+                sine.other, cosine.other = cosine, sine
+                self.shared["sin", argument.id, Fraction(1)] = sine
+                self.shared["cos", argument.id, Fraction(1)] = cosine
+            case _:
+                raise SceneError(
+                    f"no recurrence for the Taylor coefficients of {name}",
+                    expected="+ - * /, constant powers, sqrt, sin, cos, exp, log",
+                )
+        return self.shared[key]
+
+
+class Recurrence:
+    """The series of the coordinates of y(t + s scale), in powers of s, and of their derivatives.
+
+    ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are those of the other
+    symbols, the time ``t`` among them. A numeric factor of a derivative is kept apart from its series.
+    """
+
+    def __init__(
+        self,
+        roots: Sequence[Expr],
+        domain: Domain,
+        symbols: Sequence[str],
+        state: Sequence[Scalar],
+        values: Mapping[str, Scalar],
+        scale: Scalar,
+    ) -> None:
+        self.domain, self.scale = domain, scale
+        self.coordinates = [Given(domain, x, closed=False) for x in state]
+        self.time = Given(domain, values[TIME], scale)
+        series: dict[str, Series] = dict(zip(symbols, self.coordinates, strict=True))
+        builder = _Builder(domain, series | {TIME: self.time}, values)
+        self.slopes = [_apart(builder.of(root)) for root in roots]
+
+    def extend(self, degree: int) -> list[list[Coefficient]]:
+        """Return, for each coordinate, the coefficients 0, ..., degree; None if zero for all states."""
+        for n in range(len(self.coordinates[0].terms) - 1, degree):
+            factors: dict[object, Scalar] = {}
+            new = []
+            for number, slope in self.slopes:
+                # The numeric factor of the derivative joins the factor scale/(n + 1).
+                number = number * Number.rational(1, n + 1)
+                if number.key not in factors:
+                    factors[number.key] = self.domain.number(number) * self.scale
+                new.append(multiplied(factors[number.key], slope.term(n)))
+            for coordinate, x in zip(self.coordinates, new, strict=True):
+                coordinate.terms.append(x)
+        return [coordinate.terms for coordinate in self.coordinates]
+
+
+def _apart(series: Series) -> tuple[Number, Series]:
+    """Return the numeric factor of a series and the rest."""
+    return (series.number, series.a) if isinstance(series, Multiple) else (Number.rational(1), series)

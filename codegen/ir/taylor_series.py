@@ -1,0 +1,293 @@
+"""Taylor series in the time, each with the recurrence of its coefficients.
+
+Each elementary operation has a recurrence for its coefficients: sums term by term, products and squares by
+Cauchy's convolution, and quotients, constant powers, exponentials, logarithms and pairs of sine and cosine by
+the recurrence of the differential equation that they satisfy (R. E. Moore, *Interval Analysis*, 1966, chapter
+11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2). The coefficients are scalars of a
+domain: over expressions, the recurrences become straight-line code.
+
+Coefficients that are zero for all states are None, and terms with them are left out. So constants, the time
+and expressions that are linear in the time cost one term in a convolution.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import TypeAlias
+
+from codegen.ir.domain import Domain, Scalar
+from codegen.ir.expr import power
+from codegen.ir.number import Number
+
+Coefficient: TypeAlias = Scalar
+"""A scalar, or None for a coefficient that is zero for all states."""
+
+
+class Series(ABC):
+    """The Taylor coefficients of one expression; ``terms`` are those that are known."""
+
+    def __init__(self, domain: Domain) -> None:
+        self.domain = domain
+        self.terms: list[Coefficient] = []
+
+    @abstractmethod
+    def following(self, n: int) -> Coefficient:
+        """Return coefficient n, given those of the arguments up to n and the own ones below n."""
+
+    def term(self, n: int) -> Coefficient:
+        """Return coefficient n."""
+        while len(self.terms) <= n:
+            self.terms.append(self.following(len(self.terms)))
+        return self.terms[n]
+
+
+class Given(Series):
+    """Coefficients that are known or appended from outside: a constant, the time, a coordinate."""
+
+    def __init__(self, domain: Domain, *terms: Scalar, closed: bool = True) -> None:
+        super().__init__(domain)
+        self.terms = list(terms)
+        self.closed = closed
+
+    def following(self, n: int) -> Coefficient:
+        """Return None, as all further coefficients vanish."""
+        assert self.closed, f"coefficient {n} is not known yet"
+        return None
+
+
+class Sum(Series):
+    """a + b, or a - b."""
+
+    def __init__(self, domain: Domain, a: Series, b: Series, minus: bool) -> None:
+        super().__init__(domain)
+        self.a, self.b, self.minus = a, b, minus
+
+    def following(self, n: int) -> Coefficient:
+        """Return a_n + b_n, or a_n - b_n."""
+        return (
+            _subtract(self.a.term(n), self.b.term(n)) if self.minus else _add(self.a.term(n), self.b.term(n))
+        )
+
+
+class Multiple(Series):
+    """c a for a number c."""
+
+    def __init__(self, domain: Domain, number: Number, a: Series) -> None:
+        super().__init__(domain)
+        self.a, self.number = a, number
+
+    def following(self, n: int) -> Coefficient:
+        """Return c a_n."""
+        return _scaled(self.domain, self.number, self.a.term(n))
+
+
+class Convolution(Series):
+    """a b."""
+
+    def __init__(self, domain: Domain, a: Series, b: Series) -> None:
+        super().__init__(domain)
+        self.a, self.b = a, b
+
+    def following(self, n: int) -> Coefficient:
+        """Return sum_j a_j b_{n-j}."""
+        return convolution(self.domain, self.a, self.b, n)
+
+
+class Quotient(Series):
+    """a/b."""
+
+    def __init__(self, domain: Domain, a: Series, b: Series) -> None:
+        super().__init__(domain)
+        self.a, self.b = a, b
+        self.inverse: Scalar = None
+
+    def following(self, n: int) -> Coefficient:
+        """Return (a_n - sum_{j>0} b_j q_{n-j})/b_0."""
+        if n == 0:
+            self.inverse = self.domain.rational(1) / self.b.term(0)
+            return multiplied(self.a.term(0), self.inverse)
+        rest = _total(multiplied(self.b.term(j), self.term(n - j)) for j in _late_last(n, range(1, n + 1)))
+        return multiplied(_subtract(self.a.term(n), rest), self.inverse)
+
+
+class Root(Series):
+    """The square root of a."""
+
+    def __init__(self, domain: Domain, a: Series) -> None:
+        super().__init__(domain)
+        self.a = a
+        self.inverse: Scalar = None
+
+    def following(self, n: int) -> Coefficient:
+        """Return (a_n - sum_{0<j<n} s_j s_{n-j})/(2 s_0)."""
+        if n == 0:
+            root = self.domain.call("sqrt", self.a.term(0))
+            self.inverse = self.domain.rational(1, 2) / root
+            return root
+        rest = _square(self.domain, self, n, first=1)
+        return multiplied(_subtract(self.a.term(n), rest), self.inverse)
+
+
+class Power(Series):
+    """a^e for a rational number e with the denominator 1 or 2."""
+
+    def __init__(self, domain: Domain, a: Series, exponent: Fraction) -> None:
+        super().__init__(domain)
+        self.a, self.exponent = a, exponent
+        self.slope = Slope(domain, a)
+        self.inverse: Scalar = None
+
+    def following(self, n: int) -> Coefficient:
+        """Return sum_{j>0} (e j - (n - j)) a_j p_{n-j}/(n a_0)."""
+        if n == 0:
+            self.inverse = self.domain.rational(1) / self.a.term(0)
+            return self._first(self.a.term(0))
+        terms = []
+        for j in _late_last(n, range(1, n + 1)):
+            # The factor includes 1/n: the product with a_j costs as much with it as without.
+            factor = (self.exponent * j - (n - j)) / n
+            if factor and self.a.term(j) is not None:
+                a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
+                terms.append(multiplied(a, self.term(n - j)))
+        return multiplied(_total(terms), self.inverse)
+
+    def _first(self, a: Scalar) -> Scalar:
+        """Return a^e for a scalar."""
+        size = abs(self.exponent)
+        whole, half = divmod(size.numerator, size.denominator)
+        factors = [power(a, whole)] if whole else []
+        factors += [self.domain.call("sqrt", a)] if half else []
+        value = factors[0] * factors[1] if len(factors) == 2 else factors[0]
+        return self.domain.rational(1) / value if self.exponent < 0 else value
+
+
+class Square(Series):
+    """a^2."""
+
+    def __init__(self, domain: Domain, a: Series) -> None:
+        super().__init__(domain)
+        self.a = a
+
+    def following(self, n: int) -> Coefficient:
+        """Return sum_j a_j a_{n-j}, each pair computed once."""
+        return _square(self.domain, self.a, n)
+
+
+class Slope(Series):
+    """j a_j, the coefficients of t a'(t)."""
+
+    def __init__(self, domain: Domain, a: Series) -> None:
+        super().__init__(domain)
+        self.a = a
+
+    def following(self, n: int) -> Coefficient:
+        """Return n a_n."""
+        return _scaled(self.domain, Number.rational(n), self.a.term(n)) if n else None
+
+
+class Exponential(Series):
+    """exp(a)."""
+
+    def __init__(self, domain: Domain, a: Series, slope: Series) -> None:
+        super().__init__(domain)
+        self.a, self.slope = a, slope
+
+    def following(self, n: int) -> Coefficient:
+        """Return sum_{j>0} j a_j e_{n-j}/n."""
+        if n == 0:
+            return self.domain.call("exp", self.a.term(0))
+        return _mean(self.domain, self.slope, self, n)
+
+
+class Logarithm(Series):
+    """log(a)."""
+
+    def __init__(self, domain: Domain, a: Series) -> None:
+        super().__init__(domain)
+        self.a = a
+        self.slope = Slope(domain, self)
+        self.inverse: Scalar = None
+
+    def following(self, n: int) -> Coefficient:
+        """Return (a_n - sum_{0<j<n} j l_j a_{n-j}/n)/a_0."""
+        if n == 0:
+            self.inverse = self.domain.rational(1) / self.a.term(0)
+            return self.domain.call("log", self.a.term(0))
+        rest = _total(multiplied(self.slope.term(j), self.a.term(n - j)) for j in _late_last(n, range(1, n)))
+        rest = _scaled(self.domain, Number.rational(1, n), rest)
+        return multiplied(_subtract(self.a.term(n), rest), self.inverse)
+
+
+class Circular(Series):
+    """sin(a) or cos(a), by its name; ``other`` is the other one of the same argument."""
+
+    other: Circular
+
+    def __init__(self, domain: Domain, name: str, a: Series, slope: Series, minus: bool) -> None:
+        super().__init__(domain)
+        self.name, self.a, self.slope, self.minus = name, a, slope, minus
+
+    def following(self, n: int) -> Coefficient:
+        """Return +-sum_{j>0} j a_j o_{n-j}/n for the coefficients o of the other function."""
+        if n == 0:
+            return self.domain.call(self.name, self.a.term(0))
+        mean = _mean(self.domain, self.slope, self.other, n)
+        return None if mean is None else -mean if self.minus else mean
+
+
+def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:
+    """Return sum_j a_j b_{n-j}, for 0 <= j <= n."""
+    if a is b:
+        return _square(domain, a, n)
+    return _total(multiplied(a.term(j), b.term(n - j)) for j in _late_last(n, range(n + 1)))
+
+
+def _square(domain: Domain, a: Series, n: int, first: int = 0) -> Coefficient:
+    """Return sum_j a_j a_{n-j} for first <= j <= n - first; each pair is computed once."""
+    pairs = _total(multiplied(a.term(j), a.term(n - j)) for j in range((n - 1) // 2, first - 1, -1))
+    twice = _scaled(domain, Number.rational(2), pairs)
+    middle = a.term(n // 2) if n % 2 == 0 and n // 2 >= first else None
+    return _add(twice, multiplied(middle, middle))
+
+
+def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
+    """Return sum_{j>0} slope_j factor_{n-j}/n."""
+    total = _total(multiplied(slope.term(j), factor.term(n - j)) for j in _late_last(n, range(1, n + 1)))
+    return _scaled(domain, Number.rational(1, n), total)
+
+
+def _late_last(n: int, indices: range) -> list[int]:
+    """Return indices j of products a_j b_{n-j}, those with the newest coefficients last.
+
+    A processor then computes the first products of a sum before the newest coefficients are known.
+    """
+    return sorted(indices, key=lambda j: max(j, n - j))
+
+
+def _total(terms: Iterable[Coefficient]) -> Coefficient:
+    """Return the sum of terms in order."""
+    total: Coefficient = None
+    for x in terms:
+        total = _add(total, x)
+    return total
+
+
+def _add(a: Coefficient, b: Coefficient) -> Coefficient:
+    return b if a is None else a if b is None else a + b
+
+
+def _subtract(a: Coefficient, b: Coefficient) -> Coefficient:
+    return a if b is None else -b if a is None else a - b
+
+
+def multiplied(a: Coefficient, b: Coefficient) -> Coefficient:
+    """Return a b."""
+    return None if a is None or b is None else a * b
+
+
+def _scaled(domain: Domain, number: Number, a: Coefficient) -> Coefficient:
+    if a is None or number.is_one:
+        return a
+    return -a if number.is_minus_one else domain.number(number) * a

@@ -1,0 +1,78 @@
+"""Taylor polynomials in the coordinates of the state, brought back to the manifold after each step."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from codegen.errors import MethodError
+from codegen.ir.program import Assign, Program
+from codegen.ir.scene_operations import TaylorStep, ToOrbit
+from codegen.ir.values import Kind, Var
+from codegen.ir.verify import verify
+from codegen.lower.base import Lowering, Objection
+from codegen.method import Method
+from codegen.scene.ambient import ambient
+from codegen.scene.evolution import evolution
+from codegen.scene.problem import Problem
+
+LEAST = 2
+"""The least degree for which two coefficients beyond the state are known."""
+
+if TYPE_CHECKING:
+    from orderconds.checking import FamilyOrder
+
+
+class Taylor(Lowering):
+    """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
+
+    A step on a manifold other than R^n ends with a projection. It changes the result by O(h^(P+1)), so the
+    order is the degree P.
+    """
+
+    family = "taylor"
+
+    def objection(self, scene: Problem) -> Objection | None:
+        """Return why scenes with run-time inputs are not taken."""
+        if not scene.inputs:
+            return None
+        return Objection(
+            f", whose input {scene.inputs[0]} is a function that emitted code calls",
+            "a scene whose time derivatives follow from formulas",
+        )
+
+    def problem(self, scene: Problem, method: Method) -> Problem:
+        """Return the scene in the coordinates of its state, with the coordinates of the polynomials."""
+        return replace(ambient(scene), evolution=evolution(scene))
+
+    def lower(self, problem: Problem, method: Method) -> Program:
+        """Return the program: the polynomial, then the projection."""
+        degree = self.conditions(method).degree_of_step()
+        y, moved, end = (Var(name, Kind.POINT) for name in ("y", "moved", "end"))
+        time = () if problem.autonomous else (Var("t", Kind.REAL),)
+        body = (
+            Assign((moved,), TaylorStep(degree, bool(time)), (y, *time)),
+            Assign((end,), ToOrbit(), (moved, y)),
+        )
+        return verify(Program(method.label, (y, *time), body, (("y", end),)))
+
+    def symplectic(self, scene: Problem, method: Method) -> bool:
+        """Return false: a Taylor polynomial is not a symplectic map."""
+        return False
+
+    def degree(self, method: Method) -> int:
+        """Return the degree; step control needs two coefficients beyond the state."""
+        degree = self.conditions(method).degree_of_step()
+        if method.adaptive and degree < LEAST:
+            raise MethodError(
+                f"step control for {method.label}, which compares two coefficients",
+                expected=f"a degree of at least {LEAST}",
+            )
+        return degree
+
+    def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
+        """Return the degree."""
+        from orderconds.checking import FamilyOrder
+
+        family = self.conditions(method)
+        return FamilyOrder(family.label(), family.degree_of_step(), "construction", True, (), None)

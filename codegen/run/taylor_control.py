@@ -1,0 +1,367 @@
+"""Step control by Taylor coefficients: no step is rejected, because its size follows from its polynomial.
+
+Let c_k be coefficient k of the solution at the state y, and p the degree. With the maximum norm and
+epsilon = atol + rtol |y|, the step size is the smaller one of (epsilon/|c_k|)^(1/k) for k = p - 1 and k = p,
+times exp(-0.7/(p - 1)). So the last terms of the polynomial are about as large as the tolerance (A. Jorba and
+M. Zou, Experimental Mathematics 14 (2005) 99, section 3.2.1, where the tolerance determines the degree, too).
+"""
+
+from __future__ import annotations
+
+import math
+
+from codegen.ir.kernel import Expansion
+from codegen.ir.taylor_loop import INVERSE, LINEAR, NEXT, ORDER, coordinate_names
+from codegen.run.arithmetic import computed, filling, loaded, stored
+from codegen.run.language import (
+    RAISES_NAN,
+    RAISES_STATUS,
+    Array,
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    While,
+)
+from codegen.run.plan import STEP, TIME, Plan
+from codegen.run.step import ADVANCE
+from codegen.run.terms import (
+    BAD_STEP,
+    LIMIT,
+    NOT_FINITE,
+    OK,
+    STATUS,
+    Kind,
+    Term,
+    all_finite,
+    both,
+    call,
+    code,
+    count,
+    either,
+    flag,
+    given,
+    is_finite,
+    largest,
+    negated,
+    number,
+    own,
+    real,
+    select,
+    size,
+    total,
+    value,
+    whole,
+)
+
+ENTER, EXPAND, EVALUATE, LEAVE, ADVISE = "coordinates", "expand", "evaluate", "moved_state", "advise"
+"""The names of the functions that a run calls."""
+
+LEAST = 1e-30
+"""The least size of a coefficient: smaller coefficients permit steps beyond every span."""
+
+ROWS = 4
+"""Products of a sum that are added at once."""
+
+RTOL, ATOL = real("rtol"), real("atol")
+
+ORDER_TERM = own(ORDER)
+
+
+def functions(plan: Plan) -> tuple[Function, ...]:
+    """Return the adaptive run and those of its functions that are not in :func:`polynomial_step`."""
+    expansion = plan.kernel.expansion
+    if expansion is None or not expansion.controlled:
+        return ()
+    own = _Controlled(plan, expansion)
+    return *(own.polynomial() if plan.kernel.outputs else ()), own.advise(), own.run()
+
+
+def polynomial_step(plan: Plan) -> tuple[Function, ...]:
+    """Return the step of a kernel that evaluates the polynomial, and the functions that it calls."""
+    expansion = plan.kernel.expansion
+    assert expansion is not None
+    own = _Controlled(plan, expansion)
+    return *own.polynomial(), own.advance()
+
+
+def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list[Statement]:
+    """Return the statements that compute all inner sums of order k + 1."""
+    j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
+
+    def products(i: int) -> Term:
+        """Return the product of the rows i after the first and i before the last."""
+        return left[(first + i) * width + lane] * right[(last - i) * width + lane]
+
+    def together(rows: int) -> Term:
+        pairs = [products(i) for i in range(rows)]
+        return total(total(pairs[i : i + 2]) for i in range(0, rows, 2))
+
+    # All sums advance together, so that no addition waits for the previous one of the same sum. Several rows
+    # share a load and a store of each sum.
+    many = For(
+        j,
+        k // ROWS,
+        (
+            Assign(first, j * ROWS),
+            Assign(last, k - first - 1),
+            For(lane, whole(width), (Assign(sums[lane], sums[lane] + together(ROWS)),)),
+        ),
+    )
+    single = For(
+        j,
+        k % ROWS,
+        (
+            Assign(first, k - j - 1),
+            Assign(last, j),
+            For(lane, whole(width), (Assign(sums[lane], sums[lane] + products(0)),)),
+        ),
+    )
+    return [For(lane, whole(width), (Assign(sums[lane], number(0.0)),)), many, single]
+
+
+class _Controlled:
+    """The run and its variables."""
+
+    t, h = real("t", 1, cell=True), real("h", 1, cell=True)
+    end, limit = real("end"), count("limit")
+    accepted, rejected = (count(name, 1, optional=True, cell=True) for name in ("accepted", "rejected"))
+    steps, last, finite = count("accepted_steps"), flag("last"), flag("finite")
+    now, length, left, taken = real("now"), real("size"), real("left"), real("taken")
+    following, advised = real("then"), real("advised")
+
+    def __init__(self, plan: Plan, expansion: Expansion) -> None:
+        self.plan, self.expansion = plan, expansion
+        self.degree = expansion.degree
+        self.own = Plan(expansion.coefficients, plan.format)
+        self.size = self.own.size
+        self.state, self.trial = plan.state(), plan.state("trial")
+        # Where the coordinates are those of the state, no arrays are copied.
+        self.start = self.state if expansion.enter is None else real("start", self.size)
+        self.moved = self.trial if expansion.leave is None else real("moved", self.size)
+        self.series = real("series", self.degree * self.size)
+
+    def polynomial(self) -> tuple[Function, ...]:
+        """Return the functions that compute and evaluate the polynomial, and those of its coordinates."""
+        enter, leave = self.expansion.enter, self.expansion.leave
+        listed = []
+        if enter is not None:
+            about = "The coordinates of the polynomial, from the state."
+            listed.append(filling(Plan(enter, self.plan.format), ENTER, about, self.start))
+        listed.append(self.expand() if self.expansion.following is None else self.expand_in_loop())
+        listed.append(self.evaluate())
+        if leave is not None:
+            about = "The new state on the manifold, from the old state followed by the new coordinates."
+            listed.append(filling(Plan(leave, self.plan.format), LEAVE, about, self.trial))
+        return tuple(listed)
+
+    def advance(self) -> Function:
+        """Return the function for a step of size h."""
+        plan = self.plan
+        body: list[Statement] = [
+            If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
+            *self.arrays(),
+            *self.entered(),
+            Call(EXPAND, (self.start, *self.moment, self.series)),
+            Call(EVALUATE, (self.start, self.series, STEP, self.moved)),
+            *self.returned(),
+            If(negated(self.is_sound()), (Return(code(NOT_FINITE)),)),
+            Assign(self.state, self.trial),
+            Return(code(OK)),
+        ]
+        parameters = (self.state, *plan.moment(), *plan.parameters)
+        return Function(ADVANCE, "One step.", parameters, tuple(body), Kind.STATUS, RAISES_STATUS)
+
+    def arrays(self) -> tuple[Statement, ...]:
+        """Return the definitions of all arrays of a step."""
+        separate = [x for x, y in ((self.start, self.state), (self.moved, self.trial)) if x is not y]
+        return tuple(map(Array, (self.series, self.trial, *separate)))
+
+    def entered(self) -> tuple[Statement, ...]:
+        """Return the statements that compute the coordinates."""
+        return () if self.expansion.enter is None else (Call(ENTER, (self.state, self.start)),)
+
+    def returned(self) -> tuple[Statement, ...]:
+        """Return the statements that compute the new state."""
+        if self.expansion.leave is None:
+            return ()
+        n = self.plan.size
+        pair = real("pair", n + self.size)
+        return (
+            Array(pair),
+            Assign(pair.part(0, n), self.state),
+            Assign(pair.part(n, self.size), self.moved),
+            Call(LEAVE, (pair, self.trial)),
+        )
+
+    def is_sound(self) -> Term:
+        """Return the test of both states: the new one may not depend on some entries of the old one."""
+        return both(all_finite(self.trial), all_finite(self.state))
+
+    def expand_in_loop(self) -> Function:
+        """Return the function that computes the coefficients in a loop over their order."""
+        first, n, following = self.own, self.size, self.expansion.following
+        assert following is not None
+        every = Plan(following, self.plan.format)
+        ends, symbols = first.arrangement.outputs, every.arrangement.symbols()
+        m, k = self.expansion.sums, count("k")
+        # An even number of sums suits vector instructions; the last one may be unused.
+        width = m + m % 2
+        left, right = (real(name, (self.degree - 1) * width) for name in ("left", "right"))
+        sums, values = own("sum", width), len(ends) - n
+        operands = [value(x) for x in every.arrangement.outputs]
+        padding = [number(0.0)] * (width - m)
+        inner = (
+            Assign(ORDER_TERM, ORDER_TERM + 1.0),
+            *self.numbers(symbols),
+            *inner_sums(k, width, left, right, sums),
+            *(
+                Assign(own(s), self.series[k * n + i])
+                for i, s in enumerate(coordinate_names(n))
+                if s in symbols
+            ),
+            *computed(every),
+            *(Assign(left[k * width + c], x) for c, x in enumerate([*operands[:m], *padding])),
+            *(Assign(right[k * width + c], x) for c, x in enumerate([*operands[m : 2 * m], *padding])),
+            *(Assign(self.series[k * n + (n + i)], x) for i, x in enumerate(operands[2 * m :])),
+        )
+        body = (
+            *loaded(first.symbols, self.start, first.arrangement.symbols()),
+            *computed(first),
+            Array(own("first", values), tuple(map(value, ends[:values]))),
+            *stored(self.series, [value(x) for x in ends[values:]]),
+            Array(left),
+            Array(right),
+            Array(sums),
+            Assign(ORDER_TERM, number(0.0)),
+            For(k, whole(self.degree - 1), inner),
+        )
+        about = (
+            f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other. "
+            "left and right are the coefficients of the operands of all products."
+        )
+        return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
+
+    def numbers(self, symbols: frozenset[str]) -> list[Statement]:
+        """Return the statements that compute the numbers of one order which its code reads."""
+        one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
+        known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
+        return [Assign(own(name), x) for name, x in known.items() if name in symbols]
+
+    @property
+    def moment(self) -> tuple[Term, ...]:
+        """The arguments of the coefficients besides the state."""
+        return (*((TIME,) if self.own.time else ()), *self.own.parameters)
+
+    def expand(self) -> Function:
+        """Return the function that computes the Taylor coefficients."""
+        own = self.own
+        body = [
+            *loaded(own.symbols, self.start, own.arrangement.symbols()),
+            *computed(own),
+            *stored(self.series, [value(x) for x in own.arrangement.outputs]),
+        ]
+        about = f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other."
+        parameters = (self.start, *self.moment, self.series)
+        return Function(EXPAND, about, parameters, tuple(body), guard=RAISES_NAN)
+
+    def evaluate(self) -> Function:
+        """Return the function that evaluates the polynomial by Horner's rule."""
+        n, i, result = self.size, count("i"), real("total")
+        entries = [self.series[i + k * n] for k in range(self.degree)]
+        horner = [Assign(result, result * STEP + x) for x in reversed(entries[:-1])]
+        inner = (Assign(result, entries[-1]), *horner, Assign(self.moved[i], self.start[i] + STEP * result))
+        about = "The polynomial at the time h."
+        parameters = (self.start, self.series, STEP, self.moved)
+        return Function(EVALUATE, about, parameters, (For(i, whole(n), inner),), guard=RAISES_NAN)
+
+    def advise(self) -> Function:
+        """Return the function that computes the step size."""
+        n, p = self.size, self.degree
+        epsilon, found, reached = real("epsilon"), real("found"), real("reached")
+        body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
+        for k, result in ((p - 1, found), (p, reached)):
+            norm = real(f"norm_{k}")
+            body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
+            ratio = epsilon / select(norm > LEAST, norm, number(LEAST))
+            body.append(Assign(result, call("power", ratio, self.rounded(1 / k))))
+        least = select(found < reached, found, reached)
+        body.append(Return(self.rounded(math.exp(-0.7 / (p - 1))) * least))
+        about = "The step size at which the last two terms of the polynomial are as large as the tolerance."
+        parameters = (self.start, self.series, RTOL, ATOL)
+        return Function(ADVISE, about, parameters, tuple(body), Kind.REAL, RAISES_NAN)
+
+    def rounded(self, x: float) -> Term:
+        """Return a constant in the format of the module."""
+        return number(self.plan.format.round(x))
+
+    def run(self) -> Function:
+        """Return the run."""
+        plan = self.plan
+        chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
+        parameters = (self.state, *chosen, *plan.parameters, self.accepted, self.rejected)
+        moving = either(self.now < self.end, self.now > self.end)
+        numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
+        tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
+        body: tuple[Statement, ...] = (
+            Assign(STATUS, code(OK)),
+            Assign(self.steps, whole(0)),
+            Assign(self.now, self.t[0]),
+            # A size that the caller gives bounds the first step.
+            Assign(self.length, size(self.h[0])),
+            Assign(self.advised, self.length),
+            If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),
+            *self.arrays(),
+            While(both(STATUS.equals(code(OK)), moving), self.step()),
+            Assign(self.t[0], self.now),
+            Assign(self.h[0], self.advised),
+            If(given(self.accepted), (Assign(self.accepted[0], self.steps),)),
+            If(given(self.rejected), (Assign(self.rejected[0], whole(0)),)),
+            Return(STATUS),
+        )
+        return Function("run_adaptive", "", parameters, body, Kind.STATUS, public=True)
+
+    def step(self) -> tuple[Statement, ...]:
+        """Return the statements of one step."""
+        n, p = self.size, self.degree
+        moment = tuple(self.now if x is TIME else x for x in self.moment)
+        bounded = both(self.length > 0.0, self.advised > self.length)
+        stuck = negated(either(self.following > self.now, self.following < self.now))
+        return (
+            *self.entered(),
+            Call(EXPAND, (self.start, *moment, self.series)),
+            # An infinity or NaN in a coefficient reaches the later ones, and no shorter step removes it.
+            Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
+            Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
+            If(bounded, (Assign(self.advised, self.length),)),
+            Assign(self.length, number(0.0)),
+            Assign(self.left, self.end - self.now),
+            Assign(self.last, self.advised >= size(self.left)),
+            Assign(self.taken, select(self.last, self.left, call("copysign", self.advised, self.left))),
+            # The last step sets the time to the end itself, without rounding errors of a sum.
+            Assign(self.following, select(self.last, self.end, self.now + self.taken)),
+            If(
+                negated(self.finite),
+                (Assign(STATUS, code(NOT_FINITE)),),
+                (If(either(self.steps >= self.limit, stuck), (Assign(STATUS, code(LIMIT)),), self.move()),),
+            ),
+        )
+
+    def move(self) -> tuple[Statement, ...]:
+        """Return the statements that change the state and the time."""
+        return (
+            Call(EVALUATE, (self.start, self.series, self.taken, self.moved)),
+            *self.returned(),
+            If(
+                self.is_sound(),
+                (
+                    Assign(self.state, self.trial),
+                    Assign(self.now, self.following),
+                    Assign(self.steps, self.steps + 1),
+                ),
+                (Assign(STATUS, code(NOT_FINITE)),),
+            ),
+        )

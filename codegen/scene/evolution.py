@@ -1,0 +1,174 @@
+"""The coordinates in which Taylor polynomials of a scene are computed, and the way from the state and back.
+
+A product of two series costs a convolution, so the coordinates with the fewest products are chosen. If a
+Hamiltonian scene has a body frame, they may be the group element q and the momentum P = Ad*_q mu of the body,
+with q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Coordinates of q that the others determine are
+left out if no other equation reads them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from codegen.groups.actions import LeftMultiplication
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import BodyFrame, CotangentBundle, DependentCoordinates, Projection
+from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.rn import Rn
+from codegen.ir.collect_constants import gathered
+from codegen.ir.domain import Domain, ExprDomain
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.taylor_loop import order_loop
+from codegen.ir.taylor_recurrence import Recurrence
+from codegen.ir.taylor_series import Coefficient
+from codegen.ir.values import Kind
+from codegen.scene.ambient import ambient
+from codegen.scene.problem import TIME, Problem, StateField
+
+
+@dataclass(frozen=True)
+class Evolution:
+    """Coordinates with their own equations: ``inner`` is the problem on R^m, ``outer`` the scene as a field.
+
+    ``body`` is the group whose body frame the coordinates use, None for the momentum of the state.
+    ``missing`` are the coordinates of the state that are left out.
+    """
+
+    inner: Problem
+    outer: Problem
+    body: BodyFrame | None = None
+    missing: tuple[int, ...] = ()
+
+    def enter(self, domain: Domain, y: Vector[S]) -> Vector[S]:
+        """Return the coordinates of a state."""
+        if self.body is not None:
+            q, mu = self._split(y)
+            y = (*q, *self.body.Adt(domain, q, mu))
+        return tuple(x for i, x in enumerate(y) if i not in self.missing)
+
+    def leave(self, domain: Domain, moved: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return the state with given coordinates on the manifold that contains the state y."""
+        z = self._completed(domain, moved)
+        if self.body is None:
+            return self.outer.action.to_orbit(domain, self.outer.group, z, y)
+        (q, mu), (end, momentum) = self._split(y), self._split(z)
+        projection = self.body.offers(Projection)
+        end = end if projection is None else projection.project(domain, end)
+        before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
+        after = self.body.Adtinv(domain, end, momentum)
+        # Only the change of the momentum is converted back: if q is not quite orthogonal, converting the
+        # whole momentum would scale it in each step.
+        return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
+
+    def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
+        """Return the coordinates after the time h by the Taylor polynomial of the solution through y."""
+        # The coefficients include powers of h, which saves the powers in the polynomial.
+        rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
+        result = []
+        for first, *further in rows:
+            # The sum follows the order in which the coefficients become known. The first coefficient is added
+            # last, so that the rounding errors are those of the change in one step.
+            change = None
+            for x in further:
+                change = x if change is None else change if x is None else change + x
+            result.append(first if change is None else first + change)
+        return tuple(result)
+
+    def coefficients(
+        self, domain: Domain, degree: int, start: Sequence[S], t: S | None, scale: S
+    ) -> list[list[Coefficient]]:
+        """Return the coefficients 0, ..., degree of each coordinate, in powers of the time divided by
+        ``scale``.
+
+        A coefficient that is zero for all states is None.
+        """
+        return self.recurrence(domain, start, t, scale).extend(degree)
+
+    def recurrence(self, domain: Domain, start: Sequence[S], t: S | None, scale: S) -> Recurrence:
+        """Return the recurrence of the coefficients."""
+        inner = self.inner
+        values = inner.values(domain, start, t)
+        return Recurrence(inner.roots, domain, inner.symbols, start, values, scale)
+
+    def products(self) -> int:
+        """Return the number of convolutions in each order."""
+        domain = ExprDomain()
+        start = tuple(map(domain.space.sym, self.inner.symbols))
+        recurrence = self.recurrence(domain, start, domain.space.sym(TIME), domain.space.one)
+        return len(order_loop(recurrence, domain.space).sums)
+
+    def _split(self, y: Vector[S]) -> tuple[Vector[S], Vector[S]]:
+        assert self.body is not None
+        return tuple(y[: self.body.size]), tuple(y[self.body.size :])
+
+    def _completed(self, domain: Domain, moved: Vector[S]) -> Vector[S]:
+        """Return all coordinates."""
+        if not self.missing:
+            return moved
+        group, own = _of_element(self.outer.group), iter(moved)
+        zero = domain.rational(0)
+        z = [zero if i in self.missing else next(own) for i in range(len(moved) + len(self.missing))]
+        q = group.require(DependentCoordinates).complete(domain, tuple(z[: group.size]), self.missing)
+        return (*q, *z[group.size :])
+
+
+def evolution(scene: Problem) -> Evolution:
+    """Return the coordinates of a scene with the fewest products of series."""
+    outer = scene.as_field()
+    forms = [_flat(scene, outer, None, ambient(scene).roots)]
+    group = scene.group.offers(BodyFrame)
+    if scene.body is not None and group is not None:
+        forms.append(_flat(scene, outer, group, _in_body(scene, group)))
+    # The first of equals is taken, so that a scene keeps its own coordinates.
+    return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
+
+
+def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
+    """Return the evolution with all coordinates."""
+    return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
+
+
+def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
+    space = roots[0].space
+    start = tuple(space.zero for _ in symbols)  # the coordinates come from a state, not from the scene
+    return replace(
+        scene,
+        group=Rn(len(symbols)),
+        action=LeftMultiplication(),
+        state=(StateField("y", Kind.POINT, symbols, start),),
+        roots=roots,
+        open_roots=(),
+        paired=False,
+    )
+
+
+def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
+    """Return q' = q.W and P' = N; the symbols of mu denote P."""
+    body = scene.body
+    assert body is not None
+    domain = ExprDomain()
+    state = tuple(map(domain.space.sym, scene.symbols))
+    values = scene.values(domain, state, domain.space.sym(TIME))
+    W, N = (tuple(evaluate(roots, domain, values)) for roots in (body.velocity, body.force))
+    return (*group.left_velocity(domain, state[: group.size], W), *N)
+
+
+def _shorter(form: Evolution) -> Iterator[Evolution]:
+    """Yield the evolutions without coordinates that the others determine."""
+    on_itself = isinstance(form.outer.action, LeftMultiplication)
+    group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
+    inner = form.inner
+    for missing in () if group is None else group.determined():
+        kept = [i for i in range(len(inner.symbols)) if i not in missing]
+        roots = tuple(inner.roots[i] for i in kept)
+        read = {node.payload for node in walk(roots) if node.op == "sym"}
+        if not read.intersection(inner.symbols[i] for i in missing):
+            symbols = tuple(inner.symbols[i] for i in kept)
+            yield replace(form, inner=_problem(inner, symbols, roots), missing=missing)
+
+
+def _of_element(group: LieGroup) -> LieGroup:
+    """Return the group of the first coordinates of a state."""
+    bundle = group.offers(CotangentBundle)
+    return group if bundle is None else bundle.base

@@ -1,0 +1,93 @@
+"""Taylor's method of degree P: the step is the Taylor polynomial of the solution, computed by recurrences.
+
+The coefficients of the polynomial follow from the field by automatic differentiation, so there is no tableau
+and there are no order conditions: the order is P for every field (A. Jorba and M. Zou, *A software package
+for the numerical integration of ODEs by means of high-order Taylor methods*, Experimental Mathematics 14
+(2005) 99).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import factorial
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.families.base import Family
+from orderconds.families.registry import register
+from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.products import Method
+from orderconds.tableau.record import Tableau
+from orderconds.tableau.work import Work
+
+HIGHEST = 40
+"""The highest degree: the size of unrolled code grows with its square."""
+
+
+@register
+class TaylorFamily(Family):
+    """The Taylor polynomial of degree P; ``degree`` is P.
+
+    >>> TaylorFamily(3).label(), TaylorFamily(3).degree_of_step()
+    ('taylor(3)', 3)
+    >>> TaylorFamily(3).stability_coefficients()
+    (Fraction(1, 1), Fraction(1, 1), Fraction(1, 2), Fraction(1, 6))
+    """
+
+    name = "taylor"
+    description = "Taylor polynomials of a degree, as taylor(12): no tableau, no conditions, order = degree."
+    has_tableau = False
+    controls_steps = True
+    keeps_manifold = True
+    source = "A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, sections 2 and 3"
+
+    def __init__(self, degree: int | None = None) -> None:
+        if degree is not None and not 1 <= degree <= HIGHEST:
+            raise InputError(
+                f"the degree {degree}", where=f"family {self.name}", expected=f"a degree from 1 to {HIGHEST}"
+            )
+        self.degree = degree
+
+    def label(self) -> str:
+        """Return the name with the degree."""
+        return self.name if self.degree is None else f"{self.name}({self.degree})"
+
+    def degree_of_step(self) -> int:
+        """Return the degree, which is the order of the step.
+
+        Raises :class:`~orderconds.errors.InputError` where no degree was given.
+        """
+        if self.degree is None:
+            raise InputError(f"no degree of family {self.name}", expected="a degree", hint="write taylor(12)")
+        return self.degree
+
+    def stability_coefficients(self) -> tuple[Fraction, ...]:
+        """Return the coefficients of R(z) = sum_{k <= P} z^k/k!."""
+        return tuple(Fraction(1, factorial(k)) for k in range(self.degree_of_step() + 1))
+
+    def conditions(self, order: int) -> tuple[OrderCondition, ...]:
+        """Raise :class:`~orderconds.errors.InputError`, which says why there are no conditions."""
+        raise self._unconditional()
+
+    def evaluate(
+        self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
+    ) -> tuple[Element, ...]:
+        """Raise :class:`~orderconds.errors.InputError`, which says why there are no conditions."""
+        raise self._unconditional()
+
+    def read(self, tableau: Tableau) -> Method | None:
+        """Raise :class:`~orderconds.errors.InputError`: the family reads no tableau."""
+        raise self._unconditional()
+
+    def work(self, tableau: Tableau) -> Work | None:
+        """Return None: a step evaluates recurrences, not the field."""
+        return None
+
+    def _unconditional(self) -> InputError:
+        return InputError(
+            f"family {self.name} has no tableau and no order conditions: "
+            "a step of taylor(P) is the Taylor polynomial of degree P, so its order is P by construction",
+            expected="a family with a tableau",
+            hint="orderconds localerror SCENE -m 'taylor(8)' computes the order on a scene",
+        )
