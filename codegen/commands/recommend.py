@@ -9,8 +9,8 @@ import click
 from orderconds.commands.screen import print_json, print_table, working
 
 if TYPE_CHECKING:
-    from codegen.lab.efficiency.recommend import Recommendation, Request
     from codegen.lab.efficiency.race import Result
+    from codegen.lab.efficiency.recommend import Recommendation, Request
 
 
 @click.command("recommend", short_help="Find the fastest method for a scene and an error.")

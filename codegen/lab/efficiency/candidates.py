@@ -19,6 +19,10 @@ SEARCHED = 5
 """The search for the fewest brackets takes seconds from order six on, so such methods have a cut-off only."""
 
 
+DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
+"""The degrees of families without tableau."""
+
+
 @dataclass(frozen=True)
 class Recipe:
     """A way to integrate a scene: the name of a method, the form of the equations, the choice of step sizes.
@@ -63,7 +67,11 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
     On an abelian group, families that reduce to one classical family give the same methods; only the first
     of them is used. A recipe may still be refused when its method is compiled.
     """
-    families = families_for(problem)
+    families = [f for f in families_for(problem) if family_class(f).has_tableau]
+    if not tableaux:
+        for family in families_for(problem):
+            if not family_class(family).has_tableau:
+                yield from degrees(family)
     for name in tableaux or available():
         tableau = Tableau.load(find(name))
         seen: set[str] = set()
@@ -117,6 +125,12 @@ def recipes(tableau: Tableau, kind: type[Family], family: str) -> Iterator[Recip
 def size(tableau: Tableau) -> int:
     """Return the number of stages, or of factors of a splitting or composition."""
     return getattr(tableau.read_as(("rk",)) or tableau.method, "s", 1)
+
+
+def degrees(family: str) -> Iterator[Recipe]:
+    """Yield the recipes of a family without tableau, with the degree as its number."""
+    for degree in DEGREES:
+        yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
 
 
 def _both(method: str, order: int, stages: int, tableau: str, controlled: bool) -> Iterator[Recipe]:

@@ -38,6 +38,13 @@ PATIENCE = 1.0
 
 MOST_SWEEPS = 40
 FEWEST_SWEEPS = 3
+USUAL_SWEEPS = 5
+"""Sweeps of a solved block at least, and usually; a method that cannot win with USUAL_SWEEPS is not
+interpreted."""
+
+SETTLED = 1e-9
+"""Interpreted blocks are solved to this relative change; the error of a method is much larger."""
+
 UNLIKELY = 0.1
 """A method rarely has an error below UNLIKELY times the least error of methods of higher order."""
 
@@ -45,7 +52,7 @@ CALL = 8.0
 """Nanoseconds of the loop around a step, and of the state that it reads and writes."""
 
 DIGITS = 16
-"""Decimal digits of a solved block."""
+"""Decimal digits of a solved block of emitted code; interpreted blocks have half as many."""
 
 
 @dataclass(frozen=True)
@@ -99,9 +106,10 @@ class _Counted(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return as :class:`FloatDomain`, and count the sweep."""
+        """Return whether the change is below SETTLED, and the change; count the sweep."""
         self.swept[0] += 1
-        return super().settled(old, new, previous)
+        done, change = super().settled(old, new, previous)
+        return done or change <= SETTLED * max(map(abs, old), default=0.0), change
 
 
 @dataclass(frozen=True)
@@ -143,7 +151,7 @@ class Predictor:
             program = each.run(program)
         once, sweep = self.cost(program, problem)
         explicit = not any(isinstance(s, Solve) for s in program.body)
-        if bar.too_high(order, 1e-9 * (once + FEWEST_SWEEPS * sweep)):
+        if bar.too_high(order, 1e-9 * (once + USUAL_SWEEPS * sweep)):
             return Prediction(method.label, order, explicit, once, sweep)
         steps, error, sweeps = self._reached(program, problem)
         return Prediction(method.label, order, explicit, once, sweep, sweeps, steps, error)
@@ -233,12 +241,13 @@ def run(program: Program, problem: Problem, steps: int) -> tuple[Vector, float]:
     first, last = problem.span
     domain = _Counted(float((last - first) / steps))
     state = problem.initial(domain)
+    solutions: dict[Var, Scalar] = {}
     for k in range(steps):
         values: dict[str, Scalar] = {TIME: float(first) + k * domain.h, **split_state(problem, state)}
         inputs = {v.name: values[v.name] for v in program.inputs}
-        ends = interpret(program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False)
+        ends = interpret(program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False, solutions=solutions)
         state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
         if not all(map(math.isfinite, state)):
             raise ArithmeticError("a number is not finite")
     blocks = sum(isinstance(s, Solve) for s in program.body) * max(1, len(program.substeps))
-    return state, domain.swept[0] / steps / max(1, blocks)
+    return state, 2 * domain.swept[0] / steps / max(1, blocks)

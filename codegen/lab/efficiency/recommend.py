@@ -48,6 +48,9 @@ LEADERS, CLOSE = 4, 1.4
 ROUND = 6
 """Recipes that are emitted between two corrections."""
 
+GROUP = 30
+"""Methods that are predicted between two updates of the bar."""
+
 PREDICTING = 0.5
 """The part of the budget that predictions may take."""
 
@@ -306,23 +309,25 @@ class Search:
         )
 
     def predict(self) -> None:
-        """Predict all recipes, from high to low orders."""
-        methods = {r.method: r for r in self.recipes}
-        orders = sorted({r.order for r in methods.values()}, reverse=True)
-        for order in orders:
-            chosen = [replace(r, adaptive=False) for r in methods.values() if r.order == order]
-            known = [p for p in self.predictions.values() if order < p.order <= order + 3]
-            plausible = min((p.error_of(FEW_STEPS) for p in known), default=0.0)
-            times = [p.seconds(self.request.error) for p in self.predictions.values()]
-            bar = Bar(self.request.error, 2 * SAFETY * min(times, default=math.inf), plausible)
-            self.progress(f"{self.problem.name}: predicting {len(chosen)} methods of order {order}")
-            work = partial(_predicted, _Predicting(self.request, bar))
-            # Recipes of one tableau are neighbours, but have different costs: jobs are single recipes.
-            for prediction in in_processes(work, chosen):
-                self.predictions[prediction.method] = prediction
+        """Predict all recipes, from high to low orders, and within an order from few to many stages."""
+        methods = {r.method: replace(r, adaptive=False) for r in self.recipes}
+        for order in sorted({r.order for r in methods.values()}, reverse=True):
+            same = sorted((r for r in methods.values() if r.order == order), key=lambda r: r.stages)
+            for k in range(0, len(same), GROUP):
+                self.progress(f"{self.problem.name}: predicting methods of order {order}")
+                work = partial(_predicted, _Predicting(self.request, self._bar(order)))
+                for prediction in in_processes(work, same[k : k + GROUP]):
+                    self.predictions[prediction.method] = prediction
                 if self.spent > PREDICTING:
                     self.complete = False
                     return
+
+    def _bar(self, order: int) -> Bar:
+        """Return what a method of an order must reach to be interpreted."""
+        known = [p for p in self.predictions.values() if order < p.order <= order + 2]
+        plausible = min((p.error_of(FEW_STEPS) for p in known), default=0.0)
+        times = [p.seconds(self.request.error) for p in self.predictions.values()]
+        return Bar(self.request.error, 2 * SAFETY * min(times, default=math.inf), plausible)
 
     def expected(self, recipe: Recipe) -> float:
         """Return the predicted seconds of a recipe, corrected by the ratio of its kind."""
