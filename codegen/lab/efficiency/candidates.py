@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from codegen.emitter import quoted
 from codegen.lower import families_for
-from codegen.method import with_estimate
+from codegen.method import Method, with_estimate
 from codegen.scene.problem import Problem
 from orderconds.families import Family, family_class
 from orderconds.tableau import RungeKutta, Tableau, available, find
@@ -118,7 +118,8 @@ def recipes(tableau: Tableau, kind: type[Family], family: str) -> Iterator[Recip
             method = family if cutoff is None else f"{family}({cutoff})"
             yield from _both(f"{method}:{name}", order, stages, name, controlled)
     best = max(cheapest, default=0)
-    if best and None not in own and best <= min(kind.minimal_brackets, SEARCHED):
+    reducible = best <= min(kind.minimal_brackets, SEARCHED) and Method(family, tableau).can_reduce_brackets()
+    if best and None not in own and reducible:
         yield Recipe(f"{family}:{name}", best, stages, name)
 
 

@@ -33,7 +33,7 @@ FEW_STEPS, MANY_STEPS = 8, 1024
 SMALL = 1e-2
 """An error below SMALL, relative to the size of the state, follows the order of the method approximately."""
 
-PATIENCE = 1.0
+PATIENCE = 0.4
 """CPU seconds after which the interpreted steps of one recipe end."""
 
 MOST_SWEEPS = 40
@@ -45,8 +45,8 @@ interpreted."""
 SETTLED = 1e-9
 """Interpreted blocks are solved to this relative change; the error of a method is much larger."""
 
-UNLIKELY = 0.1
-"""A method rarely has an error below UNLIKELY times the least error of methods of higher order."""
+FAR = 10.0
+"""An error is far from another error if it is FAR times as large."""
 
 CALL = 8.0
 """Nanoseconds of the loop around a step, and of the state that it reads and writes."""
@@ -67,6 +67,7 @@ class Prediction:
 
     method: str
     order: int
+    family: str = ""
     explicit: bool = True
     once: float = 0.0
     sweep: float = 0.0
@@ -92,9 +93,10 @@ class Prediction:
             sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
         return 1e-9 * count * (CALL + self.once + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
-    def error_of(self, steps: int) -> float:
-        """Return the predicted error with another number of steps."""
-        return self.error * (self.steps / steps) ** self.order
+    def error_within(self, seconds: float) -> float:
+        """Return the predicted error of a run that takes some seconds; infinite if a step takes longer."""
+        steps = seconds / (1e-9 * (CALL + self.once + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
+        return self.error * (self.steps / steps) ** self.order if steps >= 1 else math.inf
 
 
 class _Counted(FloatDomain):
@@ -114,22 +116,29 @@ class _Counted(FloatDomain):
 
 @dataclass(frozen=True)
 class Bar:
-    """What a recipe must reach: ``seconds`` for an ``error``.
+    """What a recipe must reach: an ``error`` within ``seconds``.
 
-    ``plausible`` is the least error with FEW_STEPS steps that methods of higher order had on this scene. A
-    method that needs an error far below it is not interpreted.
+    ``least`` are the least errors within these seconds of the methods of the next higher orders, by family and
+    by whether they are explicit; the family '' is the least of all families.
     """
 
     error: float
     seconds: float = math.inf
-    plausible: float = 0.0
+    least: tuple[tuple[str, bool, float], ...] = ()
 
-    def too_high(self, order: int, step_seconds: float) -> bool:
-        """Whether a method of an order, whose step takes at least ``step_seconds``, cannot reach the bar."""
-        if not math.isfinite(self.seconds):
-            return False
-        most = self.seconds / step_seconds
-        return most < 1 or self.error * (most / FEW_STEPS) ** order < UNLIKELY * self.plausible
+    def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
+        """Whether a method whose step takes at least ``step_seconds`` cannot reach the bar.
+
+        If the methods of the next higher orders are far from the error, lower orders are even farther.
+        """
+        if step_seconds > self.seconds:
+            return True
+        known = {(name, kind): error for name, kind, error in self.least}
+        return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
+
+    def hopeless(self, family: str) -> bool:
+        """Whether neither explicit nor implicit methods of a family can reach the bar."""
+        return self.too_high(family, True) and self.too_high(family, False)
 
 
 @dataclass
@@ -151,10 +160,10 @@ class Predictor:
             program = each.run(program)
         once, sweep = self.cost(program, problem)
         explicit = not any(isinstance(s, Solve) for s in program.body)
-        if bar.too_high(order, 1e-9 * (once + USUAL_SWEEPS * sweep)):
-            return Prediction(method.label, order, explicit, once, sweep)
+        if bar.too_high(method.family, explicit, 1e-9 * (once + USUAL_SWEEPS * sweep)):
+            return Prediction(method.label, order, method.family, explicit, once, sweep)
         steps, error, sweeps = self._reached(program, problem)
-        return Prediction(method.label, order, explicit, once, sweep, sweeps, steps, error)
+        return Prediction(method.label, order, method.family, explicit, once, sweep, sweeps, steps, error)
 
     def _reached(self, program: Program, problem: Problem) -> tuple[int, float, float]:
         """Return a number of steps with a small error, the error, and the sweeps of a step."""

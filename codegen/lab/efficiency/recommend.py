@@ -23,7 +23,7 @@ from codegen.build import build
 from codegen.emitter import compile_method
 from codegen.errors import SceneError
 from codegen.lab.efficiency.candidates import Recipe, candidates
-from codegen.lab.efficiency.prediction import FEW_STEPS, Bar, Prediction, Predictor
+from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
 from codegen.lab.efficiency.race import Entry, Racer, Result, entry
 from codegen.lab.efficiency.requirements import Features
 from codegen.lab.long_runs.long_run import long_run
@@ -315,8 +315,10 @@ class Search:
             same = sorted((r for r in methods.values() if r.order == order), key=lambda r: r.stages)
             for k in range(0, len(same), GROUP):
                 self.progress(f"{self.problem.name}: predicting methods of order {order}")
-                work = partial(_predicted, _Predicting(self.request, self._bar(order)))
-                for prediction in in_processes(work, same[k : k + GROUP]):
+                bar = self._bar(order)
+                chosen = [r for r in same[k : k + GROUP] if not bar.hopeless(r.family)]
+                work = partial(_predicted, _Predicting(self.request, bar))
+                for prediction in in_processes(work, chosen):
                     self.predictions[prediction.method] = prediction
                 if self.spent > PREDICTING:
                     self.complete = False
@@ -324,10 +326,17 @@ class Search:
 
     def _bar(self, order: int) -> Bar:
         """Return what a method of an order must reach to be interpreted."""
-        known = [p for p in self.predictions.values() if order < p.order <= order + 2]
-        plausible = min((p.error_of(FEW_STEPS) for p in known), default=0.0)
         times = [p.seconds(self.request.error) for p in self.predictions.values()]
-        return Bar(self.request.error, 2 * SAFETY * min(times, default=math.inf), plausible)
+        seconds = 2 * SAFETY * min(times, default=math.inf)
+        if not math.isfinite(seconds):
+            return Bar(self.request.error)
+        least: dict[tuple[str, bool], float] = {}
+        for known in self.predictions.values():
+            if not known.failure and order < known.order <= order + 2:
+                for family in (known.family, ""):
+                    key = family, known.explicit
+                    least[key] = min(least.get(key, math.inf), known.error_within(seconds))
+        return Bar(self.request.error, seconds, tuple((*key, error) for key, error in least.items()))
 
     def expected(self, recipe: Recipe) -> float:
         """Return the predicted seconds of a recipe, corrected by the ratio of its kind."""

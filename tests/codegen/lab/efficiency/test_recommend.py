@@ -70,7 +70,8 @@ def test_the_stack_of_every_place_is_within_the_limit() -> None:
     limit = stacks[0]
     assert limit < stacks[-1]
     bound = recommend(Request(SCENE, 1e-6, stack=limit, tableaux=FEW))
-    assert {place.entry.features.stack for place in bound.places} == {limit}
+    assert bound.places
+    assert max(place.entry.features.stack for place in bound.places) <= limit
 
 
 def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_times(
@@ -137,8 +138,11 @@ def test_a_prediction_scales_with_the_order() -> None:
     assert known.seconds(1e-8) > known.seconds(1e-6)
 
 
-def test_a_bar_drops_a_method_only_if_it_needs_an_implausible_error() -> None:
-    bar = Bar(1e-12, 1e-6, plausible=1e-6)
-    assert bar.too_high(2, 1e-8)  # at most 100 steps: the error with 8 steps would be 1.6e-10
-    assert not bar.too_high(8, 1e-8)  # the error with 8 steps may be 6e-4
-    assert not Bar(1e-12).too_high(1, 1.0)
+def test_a_bar_drops_slow_steps_and_orders_below_those_that_are_far_from_the_error() -> None:
+    bar = Bar(1e-12, 1e-6, (("cf", True, 1e-9), ("", True, 1e-13), ("", False, 1.0)))
+    assert bar.too_high("cf", True)  # methods of higher order in this family are a thousand times off
+    assert not bar.too_high("rkmk", True)
+    assert bar.too_high("rkmk", True, 1e-5)
+    assert bar.hopeless("cf")
+    assert not bar.hopeless("rkmk")
+    assert not Bar(1e-12).too_high("cf", False, 1.0)
