@@ -44,7 +44,7 @@ def command(
     The whole library is searched: every family that accepts the scene, with equal steps and with step-size
     control. The error is the distance from a reference solution at the end of the span. Needs: manifold (the
     state stays on the manifold up to rounding), symplectic (for long times; a method that loses a conserved
-    quantity in a long run is excluded), explicit (no equations are solved), adaptive (with step-size control).
+    quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size control).
     The exit status is 1 if no method reaches the error.
     """
     from codegen.lab.efficiency.recommend import BUDGET, Request, recommend, span_of
@@ -113,7 +113,6 @@ def unreached(result: Recommendation) -> str:
     if result.best is None:
         return f"{asked.scene}: {found}; no method meets the needs; relax --need or --stack"
     best = result.best
-    return (
-        f"{asked.scene}: {found}; the smallest measured error is {best.error:.1e}, by {best.entry.recipe.label} "
-        f"({control(asked, best)}); relax --error\n{searched(result)}"
-    )
+    by = f"by {best.entry.recipe.label} ({control(asked, best)})"
+    least = f"the smallest measured error is {best.error:.1e}, {by}"
+    return f"{asked.scene}: {found}; {least}; relax --error\n{searched(result)}"

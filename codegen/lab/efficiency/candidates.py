@@ -1,4 +1,4 @@
-"""The recipes of a scene: every method of the library that can integrate it, with equal or controlled steps."""
+"""The recipes of a scene: every method of the library that suits it, with equal or controlled steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The predicted time of a recipe for an error, without emission: a few interpreted steps and counted operations.
+"""The predicted time of a recipe for an error, from a few interpreted steps and counted operations.
 
 The step program is interpreted with a small number of steps; its error and the order of the method give the
 number of steps for another error. The cost of a step is the sum of the costs of its operations, each counted
@@ -89,7 +89,7 @@ class Prediction:
             return math.inf
         sweeps = self.sweeps
         if sweeps:
-            # The rate of a fixed-point iteration is proportional to h: shorter steps gain more digits a sweep.
+            # The rate of a fixed-point iteration is proportional to h: short steps need fewer sweeps.
             sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
         return 1e-9 * count * (CALL + self.once + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
@@ -118,8 +118,8 @@ class _Counted(FloatDomain):
 class Bar:
     """What a recipe must reach: an ``error`` within ``seconds``.
 
-    ``least`` are the least errors within these seconds of the methods of the next higher orders, by family and
-    by whether they are explicit; the family '' is the least of all families.
+    ``least`` are the least errors within these seconds of the methods of the next higher orders, by family
+    and by whether they are explicit; the family '' is the least of all families.
     """
 
     error: float
@@ -254,7 +254,9 @@ def run(program: Program, problem: Problem, steps: int) -> tuple[Vector, float]:
     for k in range(steps):
         values: dict[str, Scalar] = {TIME: float(first) + k * domain.h, **split_state(problem, state)}
         inputs = {v.name: values[v.name] for v in program.inputs}
-        ends = interpret(program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False, solutions=solutions)
+        ends = interpret(
+            program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False, solutions=solutions
+        )
         state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
         if not all(map(math.isfinite, state)):
             raise ArithmeticError("a number is not finite")

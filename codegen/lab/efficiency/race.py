@@ -162,9 +162,7 @@ class Racer:
             control = min(known, key=lambda c: known[c])
             return Result(self.entry, control, self.counts[control], known[control], math.inf, False)
         control = self._coarsened(control, error)
-        return Result(
-            self.entry, control, self.counts[control], self.errors[control], self.seconds(control)
-        )
+        return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Return the first control from which two runs reach the error, and whether there is one."""

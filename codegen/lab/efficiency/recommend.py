@@ -1,4 +1,4 @@
-"""The search for the method to take: the fastest recipe of the library that reaches an error and meets the needs.
+"""The search for the fastest recipe of the library that reaches an error and meets the needs.
 
 The search has three stages. First, each recipe is predicted by a few interpreted steps
 (:mod:`codegen.lab.efficiency.prediction`). Orders are treated from high to low, so that methods of low order
@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import time
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, partial
@@ -75,7 +75,9 @@ class Need:
 
 NEEDS = (
     Need("manifold", "the state stays on the manifold up to rounding"),
-    Need("symplectic", "steps are symplectic maps, and no conserved quantity is lost in a long run", long=True),
+    Need(
+        "symplectic", "steps are symplectic maps, and no conserved quantity is lost in a long run", long=True
+    ),
     Need("explicit", "no equations are solved; each step takes the same time"),
     Need("adaptive", "step sizes are controlled by an error estimate"),
 )
@@ -371,7 +373,11 @@ class Search:
             self.progress(f"{self.problem.name}: racing {names}")
             self.raced.update(ready)
             for found in in_processes(partial(_emitted, self.request), ready):
-                if isinstance(found, Entry) and found.code not in self.codes and self.request.met(found.features):
+                if (
+                    isinstance(found, Entry)
+                    and found.code not in self.codes
+                    and self.request.met(found.features)
+                ):
                     self.codes.add(found.code)
                     self._measure(found)
 
@@ -416,7 +422,7 @@ class Search:
                 self.ratios[self.kind(found.recipe)].append(seconds / predicted)
 
     def leaders(self) -> tuple[list[Result], list[str]]:
-        """Time the leaders again; return all places and the labels of the recipes that a long run excludes."""
+        """Time the leaders again; return all places, and the labels that a long run excludes."""
         ranked = sorted((r for r in self.results if r.reached), key=lambda r: r.seconds)
         close = [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]
         again = []
@@ -447,15 +453,16 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
     return Search(request, progress).run()
 
 
-def race_all(request: Request, recipes: Iterable[Recipe], limit: Sequence[float] = ()) -> list[Result]:
-    """Emit and race every recipe without predictions; the baseline of ``benchmarks/recommend.py``."""
-    problem = request.problem()
-    exact = cached_reference(problem).state
-    results: list[Result] = []
-    for found in in_processes(partial(_emitted, request), list(recipes)):
+def race_all(request: Request, errors: Sequence[float]) -> dict[float, list[Result]]:
+    """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark."""
+    search = Search(request)
+    exact = search.exact.state
+    results: dict[float, list[Result]] = {error: [] for error in errors}
+    for found in in_processes(partial(_emitted, request), search.recipes):
         if isinstance(found, Entry) and request.met(found.features):
-            best = min((r.seconds for r in results if r.reached), default=math.inf)
-            results.append(Racer(problem, exact, found).reach(request.error, best))
+            for error, known in results.items():
+                best = min((r.seconds for r in known if r.reached), default=math.inf)
+                known.append(Racer(search.problem, exact, found).reach(error, best))
     return results
 
 

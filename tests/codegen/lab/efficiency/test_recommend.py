@@ -8,6 +8,7 @@ from dataclasses import replace
 import pytest
 
 from codegen import scenes
+from codegen.emitter import compile_method
 from codegen.lab.distance import distance
 from codegen.lab.efficiency import race
 from codegen.lab.efficiency.candidates import PRINTED, Recipe, candidates
@@ -15,7 +16,6 @@ from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
 from codegen.lab.efficiency.race import Racer, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
 from codegen.lab.reference import cached_reference
-from codegen.emitter import compile_method
 from codegen.lower import families_for
 from codegen.method import parse
 from orderconds.errors import InputError
@@ -82,9 +82,7 @@ def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_ti
     free = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
     first = free.places[0].entry.recipe.label
     real = module.Search._loses
-    monkeypatch.setattr(
-        module.Search, "_loses", lambda s, r: r.entry.recipe.label == first or real(s, r)
-    )
+    monkeypatch.setattr(module.Search, "_loses", lambda s, r: r.entry.recipe.label == first or real(s, r))
     without = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
     assert first in without.lost
     assert first not in [place.entry.recipe.label for place in without.places]
