@@ -1,8 +1,8 @@
 """The search for the fastest recipe of the library that reaches an error and meets the needs.
 
 The search has three stages. First, each recipe is predicted by a few interpreted steps
-(:mod:`codegen.lab.efficiency.prediction`). Orders are treated from high to low, so that methods of low order
-are dropped without a run if they cannot win. Then recipes are emitted and raced in C in the order of their
+(:mod:`codegen.lab.efficiency.prediction`). Methods are dropped without a run if their steps take too long, or
+if methods of higher order are far from the error. Then recipes are emitted and raced in C in the order of their
 predicted times. The ratio of measured to predicted times of each kind of recipe corrects the later
 predictions. A recipe is left out if its corrected prediction exceeds the best measured time by a safety
 factor. Last, the leaders are timed again, with more repetitions.
@@ -311,9 +311,14 @@ class Search:
         )
 
     def predict(self) -> None:
-        """Predict all recipes, from high to low orders, and within an order from few to many stages."""
+        """Predict all recipes until the part of the budget for predictions is used.
+
+        The usual order for the error is first. The other orders follow by their distance from it, and within
+        an order, methods with few stages are first.
+        """
         methods = {r.method: replace(r, adaptive=False) for r in self.recipes}
-        for order in sorted({r.order for r in methods.values()}, reverse=True):
+        usual = 2 - math.log10(self.request.error) / 2
+        for order in sorted({r.order for r in methods.values()}, key=lambda p: (abs(p - usual), p)):
             same = sorted((r for r in methods.values() if r.order == order), key=lambda r: r.stages)
             for k in range(0, len(same), GROUP):
                 self.progress(f"{self.problem.name}: predicting methods of order {order}")
@@ -322,9 +327,9 @@ class Search:
                 work = partial(_predicted, _Predicting(self.request, bar))
                 for prediction in in_processes(work, chosen):
                     self.predictions[prediction.method] = prediction
-                if self.spent > PREDICTING:
-                    self.complete = False
-                    return
+                    if self.spent > PREDICTING:
+                        self.complete = False
+                        return
 
     def _bar(self, order: int) -> Bar:
         """Return what a method of an order must reach to be interpreted."""
