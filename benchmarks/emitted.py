@@ -1,12 +1,13 @@
 """Time emitted C beside hand-written C of the same method and scene; write the second table of README.md.
 
-    python benchmarks/emitted.py [--pairs N] [--only WORD ...]
+    python benchmarks/emitted.py [--pairs N] [--only WORD ...] [--races SCENE ...] [--budget S]
 
 Both programs are built by the same compiler with the same flags and make the same steps from the same state.
 They run in pairs of fresh processes, in alternating order, and measure their own CPU time. The result is the
 median ratio of the pairs with its distribution-free 95 % interval. If valgrind is installed, callgrind counts
-the instructions of a step. Both programs must compute the same final state. README.md is only written if all
-cases are run.
+the instructions of a step. Both programs must compute the same final state. With ``--races`` the cases are
+left out, and the times to an accuracy are printed for the named scenes. README.md is only written if all
+cases and races are run.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ from codegen.artifact import Artifact
 from codegen.build import compile_files, find_compiler
 from codegen.emitter import compile_method, emit
 from codegen.lab.efficiency.bench import bench
-from codegen.lab.efficiency.ranking import seconds_to
+from codegen.lab.efficiency.ranking import fastest_form, prevailing_form
 from codegen.lab.peers import installed
 
 HERE = Path(__file__).parent
@@ -96,8 +97,13 @@ RACES = {
 }
 """The methods of each scene that are compared with the peers."""
 
+CONTROLLED = ("ambient:dop853",)
+"""The methods with step-size control that are compared with the peers on every scene."""
+
 PEERS = ("scipy-dop853", "heyoka", "diffrax", "c-dop853")
 DECADES = (4, 6, 8, 10, 12)
+BUDGET = 0.5
+"""CPU seconds that one run of a race may take."""
 
 
 @dataclass(frozen=True)
@@ -114,14 +120,19 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--pairs", type=int, default=PAIRS)
     parser.add_argument("--only", nargs="*", choices=CASES, default=list(CASES), metavar="CASE")
+    parser.add_argument("--races", nargs="*", choices=RACES, default=[], metavar="SCENE")
+    parser.add_argument("--budget", type=float, default=BUDGET)
     asked = parser.parse_args()
+    if asked.races:
+        print("".join(race(scene, asked.budget) for scene in asked.races))
+        return 0
     rows = []
     for key in asked.only:
         print(f"{key} ...", file=sys.stderr, flush=True)
         rows.append(row(CASES[key], asked.pairs))
     text = f"{table(rows)}\n{verdict(rows)}\n"
     if asked.only == list(CASES):
-        text = f"{text}\n{RACE}\n{''.join(race(scene) for scene in RACES)}"
+        text = f"{text}\n{RACE}\n{''.join(race(scene, asked.budget) for scene in RACES)}"
     print(text)
     if asked.only == list(CASES):
         page = HERE / "README.md"
@@ -183,32 +194,43 @@ def verdict(rows: list[list[str]]) -> str:
     return f"{text} The code of CasADi is faster than the hand-written code in: {', '.join(beaten)}."
 
 
-def race(scene: str) -> str:
+def race(scene: str, budget: float) -> str:
     """Return a table of the CPU times that emitted methods and installed peers need for each accuracy."""
     peers = [name for name in PEERS if installed(name)]
     print(f"race on {scene} ...", file=sys.stderr, flush=True)
-    match = bench(scene, RACES[scene], ["c"], peers, 0.5, None, str)
+    match = bench(scene, RACES[scene], ["c"], peers, budget, None, str, CONTROLLED)
     result = match.run(str)
     lines = [[f"{scene}: error", *(f"1e-{d}" for d in DECADES), "evaluations", "exponentials", "iterations"]]
     lines.append(["---"] + ["---:"] * (len(DECADES) + 3))
-    found = {label: [seconds_to(rows, 10.0**-d) for d in DECADES] for label, rows in result.entries.items()}
+    found = {label: [fastest_form(rows, 10.0**-d) for d in DECADES] for label, rows in result.entries.items()}
     best = [
-        min((s for s in column if s is not None), default=None)
+        min((f[0] for f in column if f is not None), default=None)
         for column in zip(*found.values(), strict=True)
     ]
     for label, rows in result.entries.items():
-        times = found[label]
-        last = next((r for r in reversed(rows) if r.error is not None), rows[-1])
+        times = [
+            "-" if f is None else microseconds(f[0], f[0] == b, f[1])
+            for f, b in zip(found[label], best, strict=True)
+        ]
+        own = prevailing_form(rows)
+        last = next((r for r in reversed(own) if r.error is not None), own[-1])
         counts = [last.evaluations, last.exponentials, last.iterations]
         cells = ["-" if n is None or not last.steps else f"{n / last.steps:.3g}" for n in counts]
-        lines.append([label, *(microseconds(s, s == b) for s, b in zip(times, best, strict=True)), *cells])
+        lines.append([label, *times, *cells])
     return "".join(f"| {' | '.join(line)} |\n" for line in lines) + "\n"
 
 
-def microseconds(seconds: float | None, best: bool) -> str:
-    """Return a time in microseconds as text, in bold if it is the best of its column."""
-    text = "-" if seconds is None else f"{1e6 * seconds:.3g}"
-    return f"**{text}**" if best and seconds is not None else text
+def microseconds(seconds: float, best: bool, form: str = "") -> str:
+    """Return a time in microseconds, in bold if it is the best of its column, and the letter of a form.
+
+    The letter is the first one of the last word in the name of the form.
+
+    >>> microseconds(1.234e-4, True), microseconds(1.234e-4, False, "body momentum and unit quaternion")
+    ('**123**', '123 q')
+    """
+    text = f"{1e6 * seconds:.3g}"
+    letter = f" {form.rpartition(' ')[2][0]}" if form else ""
+    return f"**{text}**{letter}" if best else f"{text}{letter}"
 
 
 def build_emitted(case: Case, emission: Artifact, folder: Path) -> Path:
@@ -346,9 +368,12 @@ RACE = """
 
 CPU time in microseconds that is needed for the error in the head of the column, at the end of the span of the
 scene. Times are interpolated between runs with different step sizes or tolerances. They were measured
-together with the table above. Peers integrate the ambient equations. Compilation before the first step is not
-counted, neither for peers nor for emitted code. The fastest time of a column is bold. Evaluations,
-exponentials and iterations are averages over the steps of the finest run.
+together with the table above. Peers and the emitted methods *ambient* integrate the equations in
+coordinates. They run on every classical form of the equations, and the fastest form counts: *p*, the
+equations as printed; *m*, the momentum in the body and a rotation matrix; *q*, the momentum in the body and a
+unit quaternion (seven equations). Compilation before the first step is not counted, neither for peers nor for
+emitted code. The fastest time of a column is bold. Evaluations, exponentials and iterations are averages over
+the steps of the finest run.
 """
 
 

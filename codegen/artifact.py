@@ -26,7 +26,8 @@ MANIFEST = "manifest.json"
 
 @dataclass(frozen=True)
 class Artifact:
-    """One module in one target: ``files`` maps names to texts, ``manifest`` is the module's entry."""
+    """An emitted module in one target language: ``files`` maps file names to texts, ``manifest`` is the
+    module's entry in the manifest."""
 
     files: Mapping[str, str]
     manifest: Mapping[str, Any]
@@ -94,7 +95,8 @@ def digest(text: str) -> str:
 
 
 def manifest_text(entries: list[dict[str, Any]]) -> str:
-    """Return the text of a manifest: sorted, so that the same modules give the same bytes."""
+    """Return the text of a manifest. Entries and keys are sorted, so the bytes do not depend on the order in
+    which modules were written."""
     ordered = sorted(entries, key=lambda e: (e["module"], e["target"]))
     return json.dumps({"modules": ordered}, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
 
@@ -128,7 +130,8 @@ def _is_entry(entry: Mapping[str, Any]) -> bool:
 
 
 def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
-    """Return a module from a folder; ``module`` and ``target`` choose if it has several.
+    """Return a module from a folder. If the folder contains several modules, ``module`` and ``target`` choose
+    one.
 
     InputError is raised if no module or several modules match, and if a file is missing or has changed.
     """
@@ -136,7 +139,8 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     try:
         with locked(folder, shared=True):
             return _read(folder, entries_of(folder), module, target)
-    except OSError:  # the folder cannot be opened; reading the manifest reports why
+    # The folder cannot be locked if it cannot be opened. Reading the manifest then raises the InputError.
+    except OSError:
         return _read(folder, entries_of(folder), module, target)
 
 

@@ -1,4 +1,5 @@
-"""Compile emitted C to a shared object; results are cached by content and compiler.
+"""Compile emitted C to a shared object. A cache keeps the shared object for the same sources and the same
+compiler.
 
 The compiler writes into a temporary folder inside the cache, and the finished file is renamed
 (:mod:`codegen.cache_entry`). Thus no incomplete file has the final name, and two processes may build the same
@@ -137,7 +138,8 @@ def compile_files(
     sources = [name for name in sorted(files) if name.endswith(".c")]
     libraries = () if "-c" in flags else ("-lm",)
     command = [*compiler.command, *flags, "-o", str(output), *sources, *libraries]
-    # If the compiler is killed, its temporary files are removed together with this folder.
+    # The compiler writes its temporary files into this folder, so they are removed with it even if the
+    # compiler is killed.
     environment = {**os.environ, "TMPDIR": str(directory)}
     try:
         answer = subprocess.run(

@@ -1,4 +1,4 @@
-"""The cache: files that are computed once, each beside a digest of its content.
+"""The cache: files that are computed once, and for each file a digest of its content.
 
 An entry is used only if it is a regular file of the user and its content has the digest. Otherwise it is
 computed again. The folder has mode 0700 and belongs to the user, because compiled code in it is executed. If
@@ -28,7 +28,8 @@ WORKING = "building-"
 """The prefix of the names of working folders."""
 
 SETTLED = 60.0
-"""The age in seconds from which a temporary file may be removed, unless a process has locked it."""
+"""A temporary file that is older than this number of seconds may be removed, unless a process has locked
+it."""
 
 
 def cache_directory() -> Path:
@@ -54,7 +55,7 @@ def _require_private(folder: Path) -> None:
     """Remove other users' access to the folder; raise an OSError if it does not belong to the user alone."""
     if not hasattr(os, "geteuid"):
         return
-    for status in (folder.lstat(), folder.stat()):  # a symbolic link must be the user's, too
+    for status in (folder.lstat(), folder.stat()):  # a symbolic link must also belong to the user
         if status.st_uid != os.geteuid():
             raise PermissionError(1, "a folder of another user")
     if folder.stat().st_mode & 0o077:
@@ -78,7 +79,8 @@ def temporary_directory(why: str) -> Path:
 
 
 def _remove(folder: Path, owner: int) -> None:
-    if os.getpid() == owner:  # a forked worker process must not remove the folder
+    # Only the process that created the folder removes it. A forked worker process must not remove it.
+    if os.getpid() == owner:
         shutil.rmtree(folder, ignore_errors=True)
 
 
@@ -131,7 +133,7 @@ def _sweep(folder: Path) -> None:
     for path in folder.iterdir():
         with suppress(OSError):
             if path.stat(follow_symlinks=False).st_mtime > time.time() - SETTLED:
-                continue  # a new folder may not be locked yet
+                continue  # its process may not have locked it yet
             if is_temporary(path.name):
                 path.unlink()
             elif path.name.startswith(WORKING) and path.is_dir():

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 DOUBLE_BITS = 53
-"""Bits of a double: rounding changes a number by a relative error of at most 2^-53."""
+"""The number of significant bits of a double: rounding causes a relative error of at most 2^-53."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class CertifiedOrder:
 
     If ``bound`` is true, the search ended before a condition failed, so the order may be higher. If the order
     was computed for an abelian group, ``classical`` is the classical family to which the method reduces
-    there. ``radius`` is the uncertainty of the coefficients if it exceeds double precision; in this case
-    there is no certificate.
+    there. ``radius`` is the uncertainty of the coefficients if it exceeds the rounding error of a double; in
+    this case there is no certificate.
     """
 
     order: int
@@ -43,10 +43,12 @@ class CertifiedOrder:
         """Return the order and its certificate for a header."""
         how = {
             "construction": "a step is the Taylor polynomial of this degree",
-            "exact": "every order condition up to it is zero in exact arithmetic",
-            "ball": "interval arithmetic proves that such a method exists within the last printed digit",
+            "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
+            "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
+            "differ from the decimals of the tableau by at most one unit in the last digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
-            "none": f"the coefficients are known to {self.radius} only, which is less than double precision",
+            "none": f"the uncertainty of the coefficients is {self.radius}, "
+            "which is larger than the rounding error of a double",
         }
         least = "at least " if self.bound else ""
         explained = f" ({how[self.certificate]})" if self.certificate in how else ""
@@ -64,7 +66,8 @@ def family_of(method: Method) -> Family:
 
 
 def certified_order(method: Method, scene: Problem | None = None) -> CertifiedOrder:
-    """Return the order of a method in its family; raise a MethodError if the order cannot be decided.
+    """Return the order of a method in its family; raise a MethodError if the precision of the coefficients
+    does not determine the order.
 
     On a ``scene`` with an abelian group the method belongs to a classical family, whose conditions determine
     the order.
@@ -100,7 +103,7 @@ def rounding_of_digits(method: Method, order: CertifiedOrder, target: Precision,
 
 
 def upwards(x: float) -> str:
-    """Return a positive number with two digits, rounded up.
+    """Return the text of a positive number, rounded up to two digits.
 
     >>> upwards(1.01e-16), upwards(2e-5)
     ('1.1e-16', '2.0e-05')

@@ -17,6 +17,7 @@ from typing import Any
 from codegen import scenes
 from codegen.artifact import Artifact, digest
 from codegen.certify import CertifiedOrder, certified_order, rounding_of_digits
+from codegen.error_estimate import order_of_estimate
 from codegen.ir.domain import FloatDomain
 from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
@@ -36,6 +37,7 @@ from codegen.printers.interface import Interface
 from codegen.printers.recipe import Recipe
 from codegen.run.solver_choice import AUTO, Choice, known_solver, solved
 from codegen.run.trial import PARTS
+from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
@@ -49,11 +51,12 @@ COUNTED = "; the numbers of sweeps above are for double precision"
 
 SWEEPS = 5
 WEIGHTS = {"div": 4, "sqrt": 5}
-"""The cost model for comparing two forms of a step: costs in additions; functions that are not listed cost
-twelve."""
+"""The cost of an operation in units of one addition, by which two forms of a step are compared. Additions and
+products cost 1, and functions that are not listed cost 12."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Headers and modules that emitted files or their examples include; no emitted file may have their names."""
+"""Headers and modules that emitted files or their examples include. No emitted file may have the name of one
+of them."""
 
 
 @dataclass(frozen=True)
@@ -73,18 +76,21 @@ class Optimised:
 
 @dataclass(frozen=True)
 class Compiled(Optimised):
-    """A method on a scene, ready to be printed: with the kernel.
+    """A method on a scene, ready to be printed: the optimised program with its kernel.
 
     ``solvers`` are the solvers of the implicit blocks; ``asked`` is the value of the option ``--solver``.
+    ``form`` is the classical form whose equations ``scene`` contains, None for the equations as printed.
     """
 
     kernel: Kernel
     solvers: tuple[Choice, ...] = ()
     asked: str = AUTO
+    form: ClassicalForm | None = None
 
 
 def optimise_method(scene: Problem, method: Method) -> Optimised:
-    """Return a method on a scene lowered and optimised, for groups without closed forms as well."""
+    """Return the optimised step program of a method on a scene. The group need not have closed forms, because
+    no kernel is built."""
     problem, lowered = problem_for(scene, method), lower(scene, method)
     program, trace = optimise(lowered, problem, composed=lower_composed(scene, method))
     return Optimised(scene, method, problem, lowered, program, trace)
@@ -100,6 +106,7 @@ def compile_method(
     *,
     solver: str = AUTO,
     jacobian: bool = False,
+    form: str = PRINTED,
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -107,8 +114,8 @@ def compile_method(
     parameters become constants with the scene's values. ``inputs`` are signals that become run-time inputs.
     ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
-    embedded method, ``jacobian`` the derivative of a step. Errors: SceneError, MethodError, UnknownName,
-    TableauError.
+    embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
+    scene (:mod:`codegen.scene.classical_forms`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -116,7 +123,8 @@ def compile_method(
         scene = with_runtime(scene, tuple(parameters))
     if inputs:
         scene = with_inputs(scene, tuple(inputs))
-    scene = with_frame(scene, frame)
+    chosen = find_form(scene, form) if form != PRINTED else None
+    scene = with_frame(scene if chosen is None else chosen.problem, frame)
     if isinstance(method, str):
         method = parse(method, families_for(scene))
     if adaptive:
@@ -125,10 +133,11 @@ def compile_method(
     lowered = lower(scene, method)
     passes = Optimiser(lowered, problem, lower_composed(scene, method))
     candidates, degree = [], lowering(method.family).degree(method)
+    estimated = order_of_estimate(method, scene) if method.adaptive and not degree else 0
     for program, trace in (passes.plain(), *([passes.framed()] if problem.has_body else [])):
         looped = looped_kernel(program, problem, degree) if degree else None
         kernel = looped or fastest(program, problem)
-        candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel))
+        candidates.append(Compiled(scene, method, problem, lowered, program, trace, kernel, form=chosen))
     best = min(candidates, key=lambda c: work(c.kernel))
     if known_solver(solver) and best.kernel.loops:
         kernel, choices = solved(best.program, problem, start_of(scene), solver, best.kernel)
@@ -138,15 +147,15 @@ def compile_method(
         best = replace(best, kernel=replace(best.kernel, vary=vary))
     if degree and method.adaptive:
         return replace(best, kernel=with_step_control(best.kernel, problem, degree))
-    embedded, estimate = method.embedded(), best.kernel.estimate
-    if embedded is None or estimate is None:
+    estimate = best.kernel.estimate
+    if estimate is None:
         return best
-    order = 1 + min(certified_order(m, scene).order for m in (method, embedded))
-    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=order)))
+    return replace(best, kernel=replace(best.kernel, estimate=replace(estimate, order=estimated)))
 
 
 def work(kernel: Kernel) -> int:
-    """Estimate the cost of a step in additions: SWEEPS sweeps of each block, and the rest once."""
+    """Estimate the cost of a step in units of one addition. The operations of each block are counted SWEEPS
+    times, all other operations once."""
     total, sweeps = 0, SWEEPS * max(1, len(kernel.substeps))
     for key, counts in step_operations(kernel).items():
         cost = sum(n * WEIGHTS.get(name, 1 if name in ("add", "mul") else 12) for name, n in counts.items())
@@ -167,6 +176,7 @@ def emit(
     adaptive: bool = False,
     solver: str = AUTO,
     jacobian: bool = False,
+    form: str = PRINTED,
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
@@ -175,7 +185,8 @@ def emit(
     ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
     inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
     control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,
-    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. Errors: the errors of
+    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key
+    of a classical form of the scene, by default the equations as printed. Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
@@ -184,7 +195,7 @@ def emit(
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
     named["method"] = bare(method) if isinstance(method, str) else method.label
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
     return emit_compiled(compiled, target, prefix, named, precision=precision)
 
@@ -204,7 +215,8 @@ def emit_compiled(
     of :func:`certified_order`, if the caller has computed it already.
     """
     scene, method = compiled.scene, compiled.method
-    named = named or {"scene": scene.name, "method": method.label}
+    own = scene if compiled.form is None else compiled.form.scene
+    named = named or {"scene": own.name, "method": method.label}
     body = scene.body_group is not None
     single = known_precision(precision) is not DOUBLE
     chosen = (
@@ -216,7 +228,8 @@ def emit_compiled(
     words += ["--target", target, *options, *options_of(compiled, precision), "-o", "."]
     recipe = recipe_of(compiled, order, " ".join(words), known_precision(precision))
     about = {
-        "scene": scene.name,
+        "scene": own.name,
+        **({} if compiled.form is None else {"form": compiled.form.key}),
         "method": method.label,
         "family": method.family_label,
         "tableau": method.name,
@@ -235,6 +248,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     """Return the options of the command that regenerates a module, except the prefix."""
     scene = compiled.scene
     options = ["--frame body"] if scene.body_group is not None else []
+    options += [f"--form {compiled.form.key}"] if compiled.form is not None else []
     options += ["--adaptive"] if compiled.method.adaptive else []
     options += ["--jacobian"] if compiled.kernel.vary is not None else []
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
@@ -260,7 +274,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
             ("source", method.source),
             ("order", order.text()),
             *digits,
-            ("scene", f"{scene.title}, group {scene.group.name}"),
+            *scene_facts(compiled),
             *((("flows", flows_of(compiled.problem)),) if compiled.problem.flows else ()),
             *((("substeps", substeps_of(compiled.kernel)),) if compiled.kernel.substeps else ()),
             *(("solved by", choice.text()) for choice in compiled.solvers),
@@ -287,7 +301,8 @@ def emit_kernel(
 ) -> Artifact:
     """Return a kernel as a module of a target; ``about`` is added to the manifest entry.
 
-    The prefix starts every external C name and names the files. UnknownName for an unknown target.
+    Every external C name and every file name begins with the prefix. UnknownName is raised for an unknown
+    target.
     """
     interface = Interface.of(kernel, prefix, precision)
     files = known_target(target).print_module(kernel, interface, recipe)
@@ -304,6 +319,18 @@ def emit_kernel(
         "version": recipe.version,
     }
     return Artifact(files, manifest)
+
+
+def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
+    """Return the lines of the header about the scene, and about the form of its equations."""
+    form = compiled.form
+    if form is None:
+        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"),)
+    return (
+        ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
+        ("form", f"{form.name}; {form.state}"),
+        *((("to scene", form.conversion),) if form.conversion else ()),
+    )
 
 
 def steps_of(kernel: Kernel) -> str:
@@ -376,7 +403,8 @@ def quoted(word: str) -> str:
 
 
 def default_prefix(scene: Problem, method: Method) -> str:
-    """Return SCENE_FAMILY_TABLEAU_, without the family if the tableau's name starts with it.
+    """Return the prefix SCENE_FAMILY_TABLEAU_, or SCENE_TABLEAU_ if the tableau's name starts with the
+    family.
 
     A family's cut-off follows its name: ``free_rigid_body_rkmk2_rk4_``.
     """
@@ -392,8 +420,8 @@ def prefix_of(name: str, hint: str = "") -> str:
     """Return a prefix that ends in one underscore; raise an InputError if it is not an identifier of C and
     Python.
 
-    The files have this name, too. So it must not be a keyword, because Python cannot import such a file, and
-    it must not be the name of a header or module that emitted code includes.
+    The names of the files begin with the prefix. It must not be a keyword, because Python cannot import a
+    module with this name. It must not be the name of a header or module that emitted code includes.
     """
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
         raise InputError(

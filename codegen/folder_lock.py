@@ -25,7 +25,8 @@ def locked(folder: Path, *, shared: bool = False, wait: bool = True) -> Iterator
     ...         held, again
     (True, False)
     """
-    if sys.platform == "win32":  # Windows has no flock; renames are atomic even without locks
+    # Windows has no flock, so there is no lock; files are still complete, because renames are atomic
+    if sys.platform == "win32":
         yield False
         return
     import fcntl

@@ -18,6 +18,7 @@ from typing import Any
 
 from codegen.artifact import Artifact, read
 from codegen.build import build
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.printers import target as known_target
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
@@ -30,8 +31,12 @@ Signals = Callable[[float], Sequence[float]]
 """A function from the time to the run-time inputs."""
 
 
+SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
+"""The solvers of implicit blocks, the most robust first."""
+
+
 class Status(IntEnum):
-    """The result of a step, with the numbers of emitted code."""
+    """The result of a step; emitted code returns these numbers."""
 
     OK = 0
     NOT_CONVERGED = 1
@@ -41,7 +46,8 @@ class Status(IntEnum):
 
 
 class StepFailed(ArithmeticError):
-    """A step failed: its status, the number of steps completed before it, the last good state."""
+    """The error of a failed step: its status, the number of steps completed before it, and the state after
+    these steps."""
 
     def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
         super().__init__(f"step {step + 1}: {reason}")
@@ -61,8 +67,9 @@ class Arrival:
 
 @dataclass
 class Statistics:
-    """Sweeps by block, the largest number of sweeps of a block in one step, and the number of the block that
-    failed (counted from 1; 0 if no block failed).
+    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
+    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
+    failed.
 
     ``matrices`` is the number of Newton matrices that were computed.
     """
@@ -82,9 +89,17 @@ class _Begun:
     values: list[float]
     inputs: Signals | None = None
     statistics: Statistics | None = None
+    solvers: tuple[str, ...] = ()
 
     def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
-        """Return the error of a failed step; its state has the type of the caller's state."""
+        """Return the error of a failed step; its state has the type of the caller's state.
+
+        If an implicit block did not converge, the message names the other solvers.
+        """
+        if status == Status.NOT_CONVERGED:
+            others = [s for s in SOLVERS if s not in self.solvers]
+            options = f", or emit with --solver {' or '.join(others)}" if others else ""
+            reason += f"; take shorter steps{options}"
         return StepFailed(Status(status), step, like(self.state, state), reason)
 
 
@@ -182,7 +197,8 @@ class Integrator(ABC):
         inputs: Sequence[float] | None = None,
         **parameters: float,
     ) -> State:
-        """Return the derivative of one step; the module's header names the variations in its rows.
+        """Return the derivative of one step with respect to the state. The header of the emitted module
+        describes its rows and columns.
 
         TypeError is raised for a module without a Jacobian (``emit --jacobian``), StepFailed if the step
         fails.
@@ -192,7 +208,7 @@ class Integrator(ABC):
         if bool(self.interface.inputs) != (inputs is not None):
             raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
         held = None if inputs is None else [float(x) for x in inputs]
-        begun = _Begun(state, self._numbers(state), self._values(parameters))
+        begun = _Begun(state, self._numbers(state), self._values(parameters), solvers=self.interface.solvers)
         return like(state, self._derive(begun, t, h, held))
 
     def _begin(
@@ -207,7 +223,14 @@ class Integrator(ABC):
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
-        return _Begun(state, self._numbers(state), self._values(parameters), inputs, statistics)
+        return _Begun(
+            state,
+            self._numbers(state),
+            self._values(parameters),
+            inputs,
+            statistics,
+            self.interface.solvers,
+        )
 
     def _checked_count(self, steps: int) -> int:
         count = operator.index(steps)
@@ -225,7 +248,7 @@ class Integrator(ABC):
         known = self.interface.parameters
         for name in parameters:
             if name not in known:
-                raise TypeError(f"unknown parameter {name}; this step reads {', '.join(known) or 'none'}")
+                raise TypeError(f"unknown parameter {name}; the parameters are: {', '.join(known) or 'none'}")
         values = {**self.defaults, **parameters}
         for name in known:
             if name not in values:
@@ -233,7 +256,7 @@ class Integrator(ABC):
         return [float(values[name]) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
-        """Add the counts of emitted code to the caller's statistics."""
+        """Add the counts that emitted code has returned to the caller's statistics."""
         if counts is not None and statistics is not None:
             before = statistics.sweeps or [0] * len(self.interface.blocks)
             statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
@@ -259,7 +282,7 @@ class Integrator(ABC):
 
 
 class CompiledIntegrator(Integrator):
-    """A module in a shared object; calls release the interpreter lock."""
+    """An emitted C module in a shared object. Calls release Python's global interpreter lock."""
 
     def __init__(self, interface: Interface, defaults: Mapping[str, float], path: Path) -> None:
         from cffi import FFI
@@ -271,7 +294,9 @@ class CompiledIntegrator(Integrator):
         try:
             self._run = getattr(self._library, f"{interface.prefix}run")
         except AttributeError:
-            self._ffi.dlclose(self._library)  # an open library would hide a rebuilt library of the same name
+            # The library is closed, because loading a rebuilt library of the same name would otherwise return
+            # this one.
+            self._ffi.dlclose(self._library)
             raise
 
     def _call(
@@ -312,7 +337,8 @@ class CompiledIntegrator(Integrator):
 
     @contextmanager
     def _observed(self, begun: _Begun) -> Iterator[tuple[list[Any], list[Any]]]:
-        """Yield the arguments for inputs and statistics; afterwards raise the error of an input function."""
+        """Yield the arguments for inputs and statistics. After the call, raise the error that an input
+        function has raised in it, if any."""
         callback = None if begun.inputs is None else _Callback(self._ffi, self.interface, begun.inputs)
         blocks, prefix = self.interface.blocks, self.interface.prefix
         counted = [self._ffi.new(f"{prefix}statistics *")] if blocks else []
@@ -410,7 +436,7 @@ class InterpretedIntegrator(Integrator):
 
 
 def reason(status: int, block: str, h: float) -> str:
-    """Return the reason for a failed step, for an error message."""
+    """Return the reason why a step has failed, for an error message."""
     match status:
         case Status.BAD_STEP:
             return f"the step size h = {h} is not finite"
@@ -456,7 +482,8 @@ def load_compiled(
     try:
         return CompiledIntegrator(interface, defaults, build(files))
     except (OSError, AttributeError):
-        # The cached file has the recorded digest but is no library, or lacks the symbols: build it again.
+        # The cached file has the recorded digest, but it is no library or it lacks the functions of the
+        # module. It is built again.
         return CompiledIntegrator(interface, defaults, build(files, again=True))
 
 

@@ -1,7 +1,7 @@
 """A method: a family with a tableau, such as ``vcg:triple_jump``, ``rkmk(2):rk4``, ``rkmk:rk4`` or
 ``cf4``.
 
-A family without tableau is a method itself, as ``taylor(12)``.
+Some families need no tableau: ``taylor(12)`` is a method.
 """
 
 from __future__ import annotations
@@ -23,14 +23,16 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
-"""The label of a family, perhaps with a number, that may be a method without tableau."""
+"""The form of a label of a method without tableau: the name of a family, and a number in parentheses if
+necessary."""
 
 PATTERN = re.compile(r"(?:(?P<family>[a-z_]+)(?:\((?P<cutoff>\d{1,2})\))?:)?(?P<tableau>.+)")
 
 
 @dataclass(frozen=True)
 class Method:
-    """A family, its ``cutoff`` (the number of brackets of dexp^{-1}) if it has one, and the tableau.
+    """A family, its ``cutoff`` if it has one (the number of brackets after which dexp^{-1} is truncated), and
+    a tableau.
 
     ``coefficients`` is None for a family without tableau; ``cutoff`` is then the number in its label.
     ``adaptive`` adds the result of the embedded method to each step, for an error estimate.
@@ -60,7 +62,7 @@ class Method:
 
     @property
     def name(self) -> str:
-        """The name of the tableau, '' without one."""
+        """The name of the tableau; '' for a method without tableau."""
         return "" if self.coefficients is None else self.coefficients.name
 
     @property
@@ -75,12 +77,12 @@ class Method:
 
     @property
     def ring(self) -> Ring:
-        """The ring of the coefficients; those of a family without tableau are rational."""
+        """The ring of the coefficients; it is QQ for a family without tableau."""
         return QQ if self.coefficients is None else self.coefficients.ring
 
     def number(self, x: Element) -> Number:
-        """Return a coefficient as a number; a rational coefficient becomes an element of QQ, also from a
-        larger field."""
+        """Return a coefficient as a number. A rational coefficient becomes an element of QQ, even if the
+        coefficients of the tableau are in a larger field."""
         number = Number(self.ring, x)
         if self.ring is QQ:
             return number
@@ -98,7 +100,8 @@ class Method:
         return method
 
     def can_reduce_brackets(self) -> bool:
-        """Whether the tableau is explicit and exact: the algorithm for the fewest brackets requires both."""
+        """Whether the tableau is explicit and its coefficients are exact: the search for the fewest brackets
+        requires both."""
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             return False
@@ -108,8 +111,8 @@ class Method:
         return decided and all(self.ring.is_zero(x) is True for x in above)
 
     def commutator_free(self) -> CommutatorFree:
-        """Return stages and update as products of exponentials; a Butcher tableau is read as a
-        Crouch-Grossman method."""
+        """Return the exponents of the stages and of the update as products of exponentials. A Butcher tableau
+        is read as a Crouch-Grossman method."""
         method = self.tableau.read_as(("cf",))
         if isinstance(method, CommutatorFree):
             return method
@@ -118,8 +121,9 @@ class Method:
     def embedded(self) -> Method | None:
         """Return the embedded method if ``adaptive`` is set; raise :class:`MethodError` if there is none.
 
-        The embedded method shares the stages, so the stages of the family must not depend on the weights. The
-        fewest brackets depend on the weights, so a family that searches for them needs a cut-off.
+        The embedded method uses the same stages with other weights, so the stages must not depend on the
+        weights. The fewest brackets depend on the weights, so a family that searches for the fewest brackets
+        needs a cut-off.
         """
         if not self.adaptive or self.kind.controls_steps:
             return None
@@ -174,12 +178,14 @@ _RATIONAL = re.compile(r"-?\d+(/\d+)?")
 
 
 def with_estimate() -> tuple[str, ...]:
-    """Return the families for which an embedded row can estimate the error: those with fixed stages."""
+    """Return the families for which an embedded row can estimate the error, because their stages do not
+    depend on the weights."""
     return tuple(name for name in names() if family_class(name).fixed_stages)
 
 
 def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
-    """Return the method of a label such as ``taylor(12)``, None if a text is no label of such a family."""
+    """Return the method that a label such as ``taylor(12)`` names; None if the text names no family without
+    tableau."""
     match = ALONE.fullmatch(text.strip())
     if match is None or match["family"] not in names() or family_class(match["family"]).has_tableau:
         return None
@@ -188,7 +194,7 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
             f"family {match['family']} on this scene", where=text, expected=f"one of {', '.join(families)}"
         )
     number = None if match["number"] is None else int(match["number"])
-    # The family checks its number: InputError for a number that is missing or out of range.
+    # The family raises an InputError for a number that is missing or out of range.
     get(text.strip()).degree_of_step()
     return Method(match["family"], None, number)
 
@@ -229,7 +235,8 @@ def parse(text: str, families: Sequence[str]) -> Method:
             where=text,
             expected=f"a cut-off for {' or '.join(cutting)} only, as in rkmk(2):rk4",
         )
-    # A commutator-free tableau has no A and b, even if it claims an order in rk (for its sums of exponents).
+    # A commutator-free tableau has no A and b. It may claim an order in rk, but the claim is for the sums of
+    # its exponents.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # as splitting(3)

@@ -34,7 +34,7 @@ class Entry:
 def entries(path: Path = LIST) -> list[Entry]:
     """Return the entries of the list; an InputError names an entry that cannot be read.
 
-    A file without modules is an error, because all of ``generated/`` would be stale.
+    A list without modules is an error, because every file of ``generated/`` would then be removed as stale.
     """
     text = read_text(path, "a list of modules")
     try:
@@ -65,7 +65,8 @@ def _entry(module: object, where: str) -> Entry:
 
 
 def contents(listed: list[Entry]) -> dict[str, str]:
-    """Return every file that belongs in the folder, by its path within it, manifests included."""
+    """Return the text of every file that belongs in the folder, including manifests, by the path of the file
+    in the folder."""
     files: dict[str, str] = {}
     manifests: dict[str, list[dict[str, object]]] = {}
     for entry in listed:
@@ -124,13 +125,13 @@ def emitted(directory: Path) -> set[str]:
 
 
 def ignored(path: str) -> bool:
-    """Return whether a file may be ignored: it is left by a run of an emitted module, or by a write that was
-    killed."""
+    """Return whether a file may be ignored, because running an emitted module creates it, or because a
+    process that was writing the folder was killed."""
     return "__pycache__" in path.split("/") or is_temporary(path.rpartition("/")[2])
 
 
 def write(directory: Path, files: dict[str, str]) -> list[Difference]:
-    """Write the files, remove stale files, and return the differences that existed before."""
+    """Write the files, remove stale files, and return the differences that existed before writing."""
     changed = compare(directory, files)
     # Manifests are written last, because they identify emitted files.
     last = sorted(changed, key=lambda d: (d.path.endswith(MANIFEST), d.path))

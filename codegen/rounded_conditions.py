@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from orderconds.families import Family
 
 RING = Balls(256)
-"""The balls in which residuals are evaluated; they have more bits than the coefficients, because terms of
-residuals cancel.
+"""The ball arithmetic in which residuals are evaluated. It has more bits than the coefficients, because the
+terms of a residual cancel.
 """
 
 MOST = 3000
@@ -32,7 +32,8 @@ of ``emit``.
 def rounded_residual(method: Method, family: Family, order: int, target: Precision) -> float | None:
     """Return the largest residual of the conditions up to ``order`` at the coefficients in ``target``.
 
-    Every coefficient is rounded once to the target's format; otherwise as :func:`largest_residual`.
+    Every coefficient is rounded once to the target's format. :func:`largest_residual` evaluates the
+    conditions.
 
     >>> from codegen.method import parse
     >>> from codegen.ir.precision import DOUBLE, SINGLE
@@ -51,8 +52,8 @@ def rounded_residual(method: Method, family: Family, order: int, target: Precisi
 def largest_residual(tableau: Tableau, family: Family, order: int) -> float | None:
     """Return an upper bound of the residuals of the conditions up to ``order``, by absolute value.
 
-    It is None if an order has more than :data:`MOST` conditions, and if a family divides by a coefficient
-    that may be zero.
+    The result is None if an order has more than :data:`MOST` conditions, or if the conditions of the family
+    divide by a coefficient that may be zero.
     """
     coefficients = family.read(tableau.over(RING))
     if coefficients is None:

@@ -1,7 +1,8 @@
 """The command-line program: a click group that loads each command when it is called.
 
-Built-in commands are known by name. Commands of other packages (``codegen`` has emit, converge and others)
-come from the entry-point group ``orderconds.commands``, which is scanned only if a name is not built in.
+The names of the built-in commands are in :data:`BUILT_IN`. Commands of other packages (``codegen`` has emit,
+converge and others) come from the entry-point group ``orderconds.commands``, which is scanned only if a name
+is not built in.
 
 Exit statuses are those of :mod:`orderconds.exit_status`.
 """
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 COMMAND_GROUP = "orderconds.commands"
-"""The entry-point group in which other packages offer commands."""
+"""The entry-point group in which other packages register commands."""
 
 BUILT_IN = {
     "check": (
@@ -83,10 +84,10 @@ class Program(click.Group):
                 raise UnknownName(
                     f"cannot load the command: {error}",
                     where=f"{name} ({entries[0].value})",
-                    expected="a complete installation of the package that offers it",
+                    expected="a complete installation of the package that defines this command",
                 ) from error
         if not isinstance(command, click.Command):
-            raise UnknownName(f"{command!r} is no click command", where=f"entry point {name}")
+            raise UnknownName(f"{command!r} is not a click command", where=f"entry point {name}")
         return command
 
     def resolve_command(
@@ -134,8 +135,8 @@ class Program(click.Group):
         return result
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
-        """Parse the command line. Closed pipes are handled here too, because click prints --help during
-        parsing."""
+        """Parse the command line. A closed pipe is also handled here, because click prints the text of --help
+        during parsing."""
         with past_click():
             return super().make_context(*args, **extra)
 
@@ -162,7 +163,8 @@ class Program(click.Group):
 
 
 def _offered() -> Iterable[EntryPoint]:
-    """Return the commands of other packages; the import is slow, so it happens only on demand."""
+    """Return the commands of other packages. The import of ``importlib.metadata`` is slow, so it happens only
+    when this function is called."""
     from importlib import metadata
 
     return metadata.entry_points(group=COMMAND_GROUP)
@@ -213,8 +215,8 @@ def program() -> None:
 def main() -> NoReturn:
     """Run the program on the command line's arguments.
 
-    Garbage collection is restricted, because most commands are short and their objects live until the end.
-    Collection would take a tenth of the time of a check.
+    Garbage collection is restricted: most commands are short and use their objects until the end. With
+    garbage collection a check would take about a tenth longer.
     """
     gc.set_threshold(100_000, 20, 20)
     catch_signals()

@@ -1,5 +1,5 @@
-"""Errors that a user can cause: one class for each cause. A message has four parts: problem, place,
-expectation, and hint.
+"""Errors that a user can cause: one class for each cause. A message has four parts: the problem, its place in
+the input, the expected input, and a hint.
 
 The command line turns every :class:`InputError` into exit status 2 and its message, never a traceback.
 """
@@ -36,4 +36,4 @@ class UnknownName(InputError):
 
 
 class ZeroWeight(InputError):
-    """A weight b_i = 0 in a family that divides by it (SPRK, VCG, VRKMK, VCF)."""
+    """A weight b_i = 0 in a family whose formulas divide by b_i (SPRK, VCG, VRKMK, VCF)."""

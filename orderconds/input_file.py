@@ -38,7 +38,7 @@ def read_bytes(
         return content_of(path, limit=limit)
     except OSError as problem:
         raise error(reason(problem), where=str(path), expected=expected) from None
-    except ValueError:  # the path has a null character or half a surrogate pair
+    except ValueError:  # The path contains a null character or half a surrogate pair.
         raise error("not a valid file name", where=ascii(str(path)), expected=expected) from None
 
 
@@ -63,13 +63,13 @@ def read_text(
 def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -> bytes:
     """Return the content of a regular file of at most ``limit`` bytes; raise OSError for any other file.
 
-    With ``own`` the file must belong to the user and must not be a symbolic link, so no other user can
-    replace the file.
+    If ``own`` is true, the file must belong to the user and must not be a symbolic link, so that no other
+    user can replace the file.
 
     >>> len(content_of(__file__)) > 1000
     True
     """
-    _require_regular(os.stat(path, follow_symlinks=not own), own)  # opening a device may have side effects
+    _require_regular(os.stat(path, follow_symlinks=not own), own)  # Opening a device may have side effects.
     # If another process has replaced the file by a pipe, opening it without O_NONBLOCK would block.
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
     descriptor = os.open(path, flags | (getattr(os, "O_NOFOLLOW", 0) if own else 0))

@@ -24,8 +24,8 @@ class _LazyPackage(ModuleType):
 def lazy(package: str, **names: tuple[str, ...]) -> None:
     """Make the names of an imported package load from their modules on first use; ``dir`` loads no module.
 
-    ``names`` maps each module of the package to the names that it defines. No module may have one of these
-    names: the import system would replace the object of this name by the module.
+    ``names`` maps each module of the package to the names that load from it. No module may have one of these
+    names, because the import system would replace the object with this name by the module.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)

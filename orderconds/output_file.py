@@ -18,7 +18,7 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 
 
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
-    """Write files under temporary names; when all are on the disk, rename them in the order given.
+    """Write files under temporary names. When all files are on the disk, rename them in the given order.
 
     A replaced file keeps its permissions. A new file gets the default permissions of the process, or with
     ``private`` is readable by the user alone. If a path is a symbolic link, the link is replaced and its
@@ -32,13 +32,14 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
     written: dict[Path, str] = {}
     try:
         for path, content in contents.items():
-            # The full name with a suffix could be longer than the file system allows.
+            # The temporary name contains only the beginning of the file's name, because the full name with a
+            # suffix could be longer than the file system allows.
             start = f".{path.name[:40]}."
             handle, written[path] = tempfile.mkstemp(dir=path.parent, prefix=start, suffix=SUFFIX)
             with os.fdopen(handle, "wb") as stream:
                 stream.write(content)
                 stream.flush()
-                os.fsync(stream.fileno())  # otherwise a power failure could leave an empty file
+                os.fsync(stream.fileno())  # without this flush, a power failure could leave an empty file
             if not private:
                 os.chmod(written[path], _mode(path))
         for path, temporary in written.items():

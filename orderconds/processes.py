@@ -1,6 +1,7 @@
 """Run jobs in parallel in worker processes, which end when the process that started them ends.
 
-Jobs and results are strings, numbers and records of these, because exact numbers cannot be pickled.
+Jobs and results are strings, numbers of Python, and records of these, because the exact numbers of flint
+cannot be pickled.
 """
 
 from __future__ import annotations
@@ -44,8 +45,9 @@ def in_processes(
             workers[connection] = worker
         yield from _distribute(list(workers), jobs)
         for connection in workers:
-            # A worker ends only when it receives an empty tuple. To close the connection is not enough,
-            # because later workers have inherited it. A worker that has already died raises ConnectionError.
+            # A worker ends only when it receives an empty tuple. Closing the connection does not end the
+            # worker, because workers started later have inherited the connection. A worker that has already
+            # died raises ConnectionError.
             with suppress(ConnectionError):
                 connection.send(())
     except BaseException:
@@ -61,7 +63,7 @@ def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
     import multiprocessing
 
     ours, theirs = multiprocessing.Pipe()
-    # A daemon is terminated when the interpreter exits, even if the iteration was never closed.
+    # The interpreter terminates daemon processes when it exits, even if the iteration was never closed.
     worker = multiprocessing.Process(target=_serve, args=(theirs, work), daemon=True)
     worker.start()
     theirs.close()
@@ -118,7 +120,7 @@ def _serve(connection: Connection, work: Callable[[Job], Result]) -> None:
 
 
 def _portable(error: Exception) -> Exception:
-    """Return an error that can be pickled, with the traceback of this process as a note."""
+    """Return an error that can be pickled and that contains the traceback of this process as a note."""
     import pickle
     import traceback
 
@@ -132,7 +134,7 @@ def _portable(error: Exception) -> Exception:
 
 
 def _follow_parent() -> None:
-    """End this process as soon as its parent has ended."""
+    """End this process as soon as the parent process has ended."""
     from multiprocessing import connection, parent_process
 
     parent = parent_process()

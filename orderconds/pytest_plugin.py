@@ -1,9 +1,9 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
 Without a flag the plugin does nothing. ``--orderconds-complete`` requires a claim for every family that a
-tableau can claim and ``--orderconds-certified`` a proof of every order, like the flags of ``orderconds
-check``. A tableau that claims nothing is skipped, with a reason. Files ``*.toml`` without the keys of a
-tableau (``pyproject.toml``) are skipped, unless the command line names the file itself.
+tableau can claim. ``--orderconds-certified`` requires a proof of every order. ``orderconds check`` has the
+same two flags. A tableau that claims nothing is skipped, with a reason. Files ``*.toml`` without the keys of
+a tableau (``pyproject.toml``) are skipped, unless the command line names the file itself.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ class TableauItem(pytest.Item):
             pytest.skip(f"the file claims no order; computed orders: {orders}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the verdict, or the message of a file that cannot be read, without a traceback."""
+        """Return the verdict. If the file cannot be read, return the message, without a traceback."""
         from orderconds.errors import InputError
 
         if isinstance(excinfo.value, ClaimFails | InputError):

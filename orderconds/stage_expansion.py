@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
     """Return a derivation's conditions as polynomials in the entries of a tableau with ``stages`` stages.
 
-    The tableau is full, or with ``explicit`` strictly lower triangular. Raises
-    :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered by stages alone.
+    If ``explicit`` is true, the tableau is strictly lower triangular. Otherwise all its entries are
+    variables. Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered
+    by stages alone.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -50,9 +51,9 @@ def polynomials(
 ) -> tuple[Polynomials | LaurentPolynomials, tuple[Name, ...], tuple[Element, ...]]:
     """Return a ring of polynomials, its variables, and the left-hand sides as elements of the ring.
 
-    The family evaluates its conditions over this ring of polynomials, or of Laurent polynomials if the family
-    divides by weights. Raises :class:`~orderconds.errors.InputError` for the same families as
-    :func:`expand_stages`.
+    The family evaluates its conditions over this ring of polynomials, or of Laurent polynomials if the
+    formulas of the family divide by weights. Raises :class:`~orderconds.errors.InputError` for the same
+    families as :func:`expand_stages`.
 
     >>> from orderconds.derivation import derive
     >>> ring, names, values = polynomials(derive("rk", order=2), 2, explicit=True)

@@ -22,6 +22,7 @@ from codegen.groups import (
     SO3,
     Cotangent,
     LeftMultiplication,
+    LieGroup,
     Linear,
     MatrixGroup,
     Motion,
@@ -29,6 +30,7 @@ from codegen.groups import (
     Rn,
     Rotation,
 )
+from codegen.groups.capabilities import Coadjoint
 from codegen.groups.linear_algebra import invert
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
@@ -51,7 +53,7 @@ def heisenberg() -> MatrixGroup:
 
 PLACES = ((0, 1), (1, 2), (0, 2))
 
-BASE_GROUPS = {
+GROUPS: dict[str, LieGroup] = {
     "SO(3)": SO3(),
     "R^3": Rn(3),
     "GL(2)": GL(2),
@@ -61,7 +63,10 @@ BASE_GROUPS = {
     "SL(2)": SL2(),
     "SO(3) x R^2": Product(SO3(), Rn(2)),
 }
-ALL_GROUPS = BASE_GROUPS | {f"T*{name}": Cotangent(group) for name, group in BASE_GROUPS.items()}
+"""The groups that tests draw from."""
+BASE_GROUPS: dict[str, Any] = {name: group for name, group in GROUPS.items() if group.offers(Coadjoint)}
+"""The groups with a coadjoint action, so that T*G is a group."""
+ALL_GROUPS: dict[str, Any] = GROUPS | {f"T*{name}": Cotangent(group) for name, group in BASE_GROUPS.items()}
 
 
 @dataclass

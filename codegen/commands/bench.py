@@ -35,6 +35,13 @@ if TYPE_CHECKING:
     multiple=True,
     help="Other integrators (peers) by name, or the groups scipy, c, all.",
 )
+@click.option(
+    "--form",
+    "forms",
+    multiple=True,
+    help="Form of the equations for peers and methods in coordinates: printed, body-matrix, quaternion; "
+    "by default all; may be repeated.",
+)
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
 @click.option(
     "--output",
@@ -50,6 +57,7 @@ def command(
     adaptive: tuple[str, ...],
     targets: tuple[str, ...],
     peers: tuple[str, ...],
+    forms: tuple[str, ...],
     budget: float,
     output: str | None,
     as_json: bool,
@@ -59,8 +67,10 @@ def command(
     --adaptive accepts methods whose tableau has an embedded row for an error estimate, such as
     ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control. Peers:
     scipy-dop853, scipy-radau, scipy-lsoda, heyoka, diffrax, c-dop853, c-rk4-projected; a group contains only
-    installed peers. With -o an interrupted measurement continues when the command is repeated. A method or
-    peer that fails has a row with the reason. The exit status is 1 if a method or peer has no successful run.
+    installed peers. Peers and methods in coordinates (ambient:TABLEAU) run on all classical forms of the
+    equations, such as body momentum and unit quaternion. The tables name the fastest form. With -o an
+    interrupted measurement continues when the command is repeated. A method or peer that fails has a row with
+    the reason. The exit status is 1 if a method or peer has no successful run.
     """
     from codegen.lab.efficiency.bench import bench
     from codegen.printers import DEFAULT
@@ -68,7 +78,8 @@ def command(
     if not 0 < budget < 1e5:
         raise InputError(f"the budget {budget:g}", where="--budget", expected="CPU seconds above 0")
     with working("reading scene and methods") as progress:
-        candidates = bench(scene, methods, targets or (DEFAULT,), peers, budget, output, progress, adaptive)
+        targets = targets or (DEFAULT,)
+        candidates = bench(scene, methods, targets, peers, budget, output, progress, adaptive, forms)
     with counting(f"{candidates.scene.name}: first runs") as done:
         result = candidates.run(lambda row: done(f"{row.method} ({row.target})"))
     if as_json:
@@ -80,14 +91,22 @@ def command(
 
 def show(result: Result) -> None:
     """Print all rows, the fastest method for each decade of accuracy, and the set-up times."""
+    from codegen.lab.efficiency.ranking import in_form
     from codegen.lab.page.formatting import duration
 
     rows = []
     for row in result.rows:
         if row.failure:
-            rows.append([row.method, row.target, f"{row.control:g}", "", row.failure, "", "", "", "", ""])
+            label = in_form(row.method, row.form)
+            rows.append([label, row.target, f"{row.control:g}", "", row.failure, "", "", "", "", ""])
             continue
-        cells = [row.method, row.target, f"{row.control:g}", str(row.steps), f"{row.error:.2e}"]
+        cells = [
+            in_form(row.method, row.form),
+            row.target,
+            f"{row.control:g}",
+            str(row.steps),
+            f"{row.error:.2e}",
+        ]
         cells += [duration(row.seconds), f"{row.spread:.0%}" if row.spread is not None else ""]
         cells += ["" if x is None else str(x) for x in (row.evaluations, row.exponentials, row.iterations)]
         rows.append(cells)

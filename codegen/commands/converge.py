@@ -11,28 +11,32 @@ from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
 if TYPE_CHECKING:
-    from codegen.lab.orders.convergence import Convergence
+    from codegen.lab.orders.convergence import Convergence, NotEmitted
 
 
 @click.command("converge", cls=Variadic)
 @click.argument("scene", required=False)
 @click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
 @click.option("--target", help="A target (see orderconds list targets) or interpreter; by default c.")
+@click.option("--form", help="Form of the equations: printed (the default), body-matrix, quaternion.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: on built-in scenes, compare orders measured in 50 digits with the claims; give no SCENE.",
+    help="strict: measure orders in 50 digits on built-in scenes, and compare them with claims. Omit SCENE.",
 )
 @click.option(
-    "--stated", type=click.IntRange(1, 20), help="The order that the observed order is compared with."
+    "--stated",
+    type=click.IntRange(1, 20),
+    help="The stated order of the methods, with which the observed order is compared.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str | None,
     methods: tuple[str, ...],
     target: str | None,
+    form: str | None,
     steps: tuple[str, ...],
     digits: int | None,
     protocol: str | None,
@@ -41,19 +45,22 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    The exit status is 0 if every observed order equals the stated order, 1 if an order differs or is
-    undecided.
+    A method that cannot be emitted for the scene has a row with the reason.
+
+    The exit status is 0 if every observed order equals the stated order, and 1 if an observed order differs
+    or is undecided.
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
-    if scene is None and (steps or target is not None or digits is not None):
+    chosen = (target, form, digits)
+    if scene is None and (steps or any(option is not None for option in chosen)):
         raise click.UsageError(
-            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits"
+            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits, --form"
         )
     results = (
         _by_protocol(methods, stated, as_json)
         if scene is None
-        else _on_scene(scene, methods, target, steps, digits or 16, stated, as_json)
+        else _on_scene(scene, methods, target, form, steps, digits or 16, stated, as_json)
     )
     if as_json:
         print_json([result.as_json() for result in results])
@@ -64,47 +71,54 @@ def _on_scene(
     scene: str,
     methods: tuple[str, ...],
     target: str | None,
+    form: str | None,
     steps: tuple[str, ...],
     digits: int,
     stated: int | None,
     as_json: bool,
-) -> list[Convergence]:
+) -> list[Convergence | NotEmitted]:
     from codegen.certify import CertifiedOrder, certified_order
-    from codegen.lab.orders.convergence import converge
+    from codegen.lab.orders.convergence import NotEmitted, converge
     from codegen.lab.reference import cached_reference
-    from codegen.lab.runner import runner
+    from codegen.lab.runner import check_target, runner
     from codegen.lower import families_for
     from codegen.method import parse
     from codegen.printers import DEFAULT
+    from codegen.scene.classical_forms import PRINTED, find_form
     from codegen.scenes import load
 
     prescribed = read_steps(steps)
     problem = load(scene)
-    chosen = [parse(name, families_for(problem)) for name in methods]
-    with working("order conditions") as progress:
-        held = None if stated is None else CertifiedOrder(stated, "stated")
-        pairs = [(method, held or certified_order(method, problem)) for method in chosen]
-        progress("compiling")
-        runners = [
-            (runner(problem, method, target or DEFAULT, digits, order), order) for method, order in pairs
-        ]
-        progress("reference solution")
+    coordinates = find_form(problem, form) if form not in (None, PRINTED) else None
+    equations = problem if coordinates is None else coordinates.problem
+    chosen = [parse(name, families_for(equations)) for name in methods]
+    check_target(target or DEFAULT, digits)
+    with working("reference solution"):
         exact = cached_reference(problem)
-    results: list[Convergence] = []
-    for run, order in runners:
-        with working(f"running {run.compiled.method.label}"):
-            results.append(converge(run, order, exact, steps=prescribed))
+    held = None if stated is None else CertifiedOrder(stated, "stated")
+    results: list[Convergence | NotEmitted] = []
+    for method in chosen:
+        with working(f"compiling {method.label}") as progress:
+            try:
+                order = held or certified_order(method, equations)
+                run = runner(equations, method, target or DEFAULT, digits, order)
+                progress(f"running {method.label}")
+                results.append(converge(run, order, exact, steps=prescribed, form=coordinates))
+            except (InputError, ArithmeticError) as error:
+                results.append(NotEmitted(problem.name, method.label, target or DEFAULT, str(error)))
         if not as_json:
             show(results[-1], first=len(results) == 1)
     return results
 
 
-def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) -> list[Convergence]:
+def _by_protocol(
+    methods: tuple[str, ...], stated: int | None, as_json: bool
+) -> list[Convergence | NotEmitted]:
     from codegen.lab.orders.strict_protocol import stated_order, strict
     from codegen.lower import names
     from codegen.method import parse
 
-    results: list[Convergence] = []
+    results: list[Convergence | NotEmitted] = []
     for method in [parse(name, names()) for name in methods]:
         with counting(f"{method.label}") as done:
             for result in strict(method, stated_order(method, stated), done):
@@ -115,7 +129,8 @@ def _by_protocol(methods: tuple[str, ...], stated: int | None, as_json: bool) ->
 
 
 def read_steps(texts: tuple[str, ...]) -> list[int]:
-    """Return the numbers of steps in comma lists, sorted; raise :class:`InputError` for any other text.
+    """Return the numbers of steps in texts such as ``20,40,80``, sorted; raise :class:`InputError` for any
+    other text.
 
     >>> read_steps(("40,20", "80"))
     [20, 40, 80]
@@ -128,11 +143,16 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
     return sorted({int(word) for word in words})
 
 
-def show(result: Convergence, first: bool) -> None:
+def show(result: Convergence | NotEmitted, first: bool) -> None:
     """Print the runs as a table with the verdict below it."""
+    from codegen.lab.orders.convergence import NotEmitted
+
     if not first:
         click.echo()
     click.echo(f"{result.method} on {result.scene}, {result.target}")
+    if isinstance(result, NotEmitted):
+        click.echo(f"  {result.sentence()}")
+        return
     runs, clean = result.refinement.runs, result.refinement.clean
     slopes = dict(zip((r.steps for r in clean[1:]), result.refinement.slopes, strict=True))
     rows = [

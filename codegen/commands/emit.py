@@ -29,7 +29,9 @@ if TYPE_CHECKING:
     help="A target (orderconds list targets), by default c; may be repeated.",
 )
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
-@click.option("--prefix", default="", help="Prefix of every external name; by default scene and method.")
+@click.option(
+    "--prefix", default="", help="Prefix of every external name; by default the names of scene and method."
+)
 @click.option(
     "--parameter",
     "-p",
@@ -39,6 +41,11 @@ if TYPE_CHECKING:
 )
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
+@click.option(
+    "--form",
+    default="printed",
+    help="Form of the equations: printed (the default), body-matrix, quaternion; see the header of the file.",
+)
 @click.option(
     "--jacobian", is_flag=True, help="Also emit the derivative of a step with respect to the state."
 )
@@ -58,7 +65,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each pass, and the operations that were left out.",
+    help="Print the program after each pass, and the operations that the step does not need.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -70,6 +77,7 @@ def command(
     parameters: tuple[str, ...],
     inputs: tuple[str, ...],
     frame: str,
+    form: str,
     jacobian: bool,
     adaptive: bool,
     precision: str,
@@ -79,6 +87,7 @@ def command(
 ) -> int:
     """Write an integrator specialised to SCENE, a name of the gallery or the path of a Python file.
 
+    A warning is printed if no solver of an implicit method converges in the first steps of the example.
     Without -o no file is written; --explain or --json is then required and prints a description of the
     module.
     """
@@ -93,8 +102,9 @@ def command(
         known_target(name)
     known_precision(precision)
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian
+        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
+    _warn(compiled, scene, method)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, object]] = []
     if explain and not as_json:
@@ -117,6 +127,13 @@ def command(
                 record["compared"] = [list(choice.compared) for choice in compiled.solvers]
         screen.print_json(records)
     return 0
+
+
+def _warn(compiled: Compiled, scene: str, method: str) -> None:
+    """Print a warning for each implicit block that no solver solves in the first steps of the example."""
+    for choice in compiled.solvers:
+        if not choice.converges:
+            click.echo(f"warning: {scene}, {method}: {choice.text()}", err=True)
 
 
 def explanation(compiled: Compiled) -> str:
@@ -144,7 +161,7 @@ def explanation(compiled: Compiled) -> str:
 
 
 def solvers_of(compiled: Compiled) -> list[str]:
-    """Return the solver of each block, followed by a line on every solver that was considered."""
+    """Return the text of the solver of each block, followed by one line for each solver that was compared."""
     return [
         line for choice in compiled.solvers for line in (choice.text(), *map("  {}".format, choice.compared))
     ]

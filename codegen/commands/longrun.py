@@ -44,7 +44,7 @@ def command(
 ) -> int:
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
-    Deviations are relative to the size of the quantity. The column "law" contains "lost" if the deviation
+    The deviation of a quantity is relative to its size. The column "law" contains "lost" if the deviation
     reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if it grows
     but the confidence interval of the slope contains zero. For quantities that a method conserves exactly,
     the growth of rounding errors is measured: their root mean square over several initial states, and its
@@ -58,7 +58,7 @@ def command(
 
     problem = scenes.load(scene)
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
-    if not 1e-300 <= abs(h) <= 1e300:  # also true for NaN
+    if not 1e-300 <= abs(h) <= 1e300:  # the condition is negated, so that NaN is refused
         raise InputError(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
         )
@@ -88,7 +88,7 @@ def show(run: LongRun) -> None:
             f"{kept.drift.largest:.2e}",
             f"{kept.drift.slope:+.1e} ± {kept.drift.half_width:.0e}",
             f"{kept.drift.exponent:.2f}",
-            kept.drift.law,
+            kept.drift.law + ("" if (t := kept.drift.until) is None else f", saturates at t = {t:.3g}"),
         ]
         for kept in run.kept
     ]
@@ -109,6 +109,8 @@ def show(run: LongRun) -> None:
         click.echo(f"  rounding over {run.rounding[0].steps[-1]} steps, in exactly conserved quantities")
         print_table(["quantity", "steps", "rms", "steps^p", "law"], rows, indent=4)
     if run.symplectic is not None:
-        click.echo(f"  symplectic defect of a step: {run.symplectic:.1e}")
+        click.echo(f"  largest symplectic defect of a step: {run.symplectic:.1e}")
+    if run.unmeasured:
+        click.echo(f"  symplectic defect: not measured: {run.unmeasured}")
     if run.failure:
         click.echo(f"  stopped: {run.failure}")

@@ -13,7 +13,7 @@ from orderconds.commands.variadic import Variadic
 from orderconds.processes import in_processes
 
 if TYPE_CHECKING:
-    from codegen.lab.stability.stability_study import Stability
+    from codegen.lab.stability.stability_study import NotTested, Stability
 
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
 """Scene, methods, and whether to include endurance runs."""
@@ -30,7 +30,7 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
     step.
 
     Each case must be accurate, or the emitted code must return an error status. The exit status is 1 if a
-    case fails this test.
+    case fails this test, or if a method cannot be emitted for the scene.
     """
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
@@ -39,8 +39,8 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
         raise click.UsageError("name one SCENE, or give --all")
     names = scenes.GALLERY if scene is None else (scene,)
     for name in names:
-        methods_for(scenes.load(name), methods)  # raises InputError before the work begins
-    all_results: list[Stability] = []
+        methods_for(scenes.load(name), methods)  # This call raises InputError before the work begins.
+    all_results: list[Stability | NotTested] = []
     with counting("stability") as done:
         work = _alone if len(names) > 1 else partial(_run, progress=done)
         for name, results in zip(
@@ -56,7 +56,7 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
     return 0 if all(result.held for result in all_results) else 1
 
 
-def _run(job: Job, progress: Callable[[str], object]) -> list[Stability]:
+def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
     """Return the stability of methods on a scene."""
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
@@ -67,16 +67,20 @@ def _run(job: Job, progress: Callable[[str], object]) -> list[Stability]:
     return list(stability(problem, methods_for(problem, methods), progress, endurance=endurance))
 
 
-def _alone(job: Job) -> list[Stability]:
-    """Return the results of a job; it runs in a separate process, without a progress display."""
+def _alone(job: Job) -> list[Stability | NotTested]:
+    """Return the results of a job. This function runs in a separate process, so it shows no progress."""
     return _run(job, str)
 
 
-def show(result: Stability) -> None:
-    """Print the tables of one method on one scene."""
+def show(result: Stability | NotTested) -> None:
+    """Print the tables of one method on one scene, or the reason why it was not tested."""
     from codegen.lab.measurements.stability import endurance_text
+    from codegen.lab.stability.stability_study import NotTested
 
     click.echo(f"{result.method} on {result.scene}")
+    if isinstance(result, NotTested):
+        click.echo(f"  fails: {result.failure}\n")
+        return
     if result.region is not None:
         lengths = [interval(x) for x in (result.region.real, result.region.imaginary)]
         click.echo(f"  linear stability: real axis {lengths[0]}, imaginary axis {lengths[1]}")

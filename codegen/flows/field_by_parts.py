@@ -1,8 +1,8 @@
 """The field of a Hamiltonian as the sum of the fields of its parts, if the sum needs fewer operations.
 
-The sum is exact on the group. The field by differentiation contains the entries of q. A recognised part has a
-shorter formula for its field, which is equal because q is an element of the group. For the symmetric top the
-formula is mu/I_1 + s (mu.d) d; it reads only those entries of q that form the axis d.
+The field that is computed by differentiation contains many entries of q. For a recognised part there is a
+shorter formula, which has the same values because q is an element of the group. For the symmetric top the
+shorter formula of xi is mu/I_1 + s (mu.d) d, which contains only the entries of q that form the axis d.
 """
 
 from __future__ import annotations

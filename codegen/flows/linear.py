@@ -87,8 +87,8 @@ def recognise(formula: Formula) -> Part | None:
 
 
 def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequence[str]) -> Expr:
-    """Return row.z + constant as an expression in the expression space of s; ``names`` are the symbols of
-    z.
+    """Return row.z + constant as an expression of the space to which ``s`` belongs; ``names`` are the symbols
+    of z.
     """
     space = s.space
     total = space.const(Number.rational(*constant.as_integer_ratio()))
@@ -98,7 +98,7 @@ def _affine(s: Expr, row: Sequence[Fraction], constant: Fraction, names: Sequenc
 
 
 def _times_stumpff(d: Domain, factor: S, k: int, argument: S | None) -> S:
-    """Return factor times c_k(argument); ``argument`` None means zero, where c_k = 1/k!."""
+    """Return factor times c_k(argument). If ``argument`` is None, it means zero, where c_k = 1/k!."""
     value: S = d.rational(1, max(k, 1)) if argument is None else d.call(f"stumpff{k}", argument)
     return factor * value
 

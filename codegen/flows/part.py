@@ -55,7 +55,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Formula:
-    """The formula of one part, which the kinds of flow examine."""
+    """The formula of one part, in which each kind of flow looks for a closed form."""
 
     problem: Problem
     name: str
@@ -66,7 +66,7 @@ class Formula:
         return Part(self.name, (Summand(((self.name, flow),)),))
 
     def refused(self, reason: str) -> Part:
-        """Return the part without flows."""
+        """Return the part without flows, with the reason."""
         return Part(self.name, (), reason)
 
     @property
@@ -112,6 +112,7 @@ class Formula:
         return [Number(QQ, x.coefficients[0]).fraction() for x in values]
 
     def matrix(self, slopes: Sequence[Expr], names: Sequence[str], q: Vector[Element]) -> Matrix | None:
-        """Return the derivatives of formulas by symbols at (q, mu = 0); None if they are not rational."""
+        """Return the derivatives of formulas with respect to symbols at (q, mu = 0); None if they are not
+        rational numbers."""
         rows = [self.constants(gradient(slope, names), q) for slope in slopes]
         return None if any(row is None for row in rows) else [row for row in rows if row is not None]

@@ -1,10 +1,10 @@
 """Recognition: the exact flows of a Hamiltonian's parts, from their formulas alone.
 
-Each kind of flow examines a part. The result is a part with its flows, a part with the reason why it has no
-flows, or None if another kind of flow may apply. V(q) is a kick. On T*R^n a function of the momentum alone is
-a drift, and a quadratic function of both is a linear flow if the square of its matrix is diagonal. On other
-groups a quadratic function of the momentum in the body or in space is a sum of rotations
-(:mod:`codegen.flows.top`).
+Each kind of flow has a function that examines the formula of a part. It returns the part with its flows, the
+part with the reason why no flow is known, or None if another kind of flow may apply. V(q) is a kick. On T*R^n
+a function of the momentum alone is a drift, and a quadratic function of both is a linear flow if the square
+of its matrix is diagonal. On other groups a quadratic function of the momentum in the body or in space is a
+sum of rotations (:mod:`codegen.flows.top`).
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """Refuse a part that depends on the time; only kicks, and flows that the scene states, may depend on
-    time."""
+    """Return a part that depends on the time without flows, and None for any other part. The functions before
+    this one accept parts that depend on time: kicks, and flows that the scene gives as formulas."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 
 

@@ -16,7 +16,7 @@ from codegen.scene.hamiltonian_scene import TAU
 
 @dataclass(frozen=True)
 class Stated(Flow):
-    """Formulas of (q, mu) after the time tau, checked when the scene was read."""
+    """Formulas of (q, mu) after the time tau. They were checked when the scene was read."""
 
     formulas: tuple[Expr, ...]
 
@@ -30,7 +30,7 @@ class Stated(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Raise ArithmeticError, because the formulas describe the flow and not its field."""
+        """Raise ArithmeticError, because the scene gives formulas for the flow and not for its field."""
         raise ArithmeticError("a stated flow has no field of its own")
 
     def text(self) -> str:

@@ -1,10 +1,10 @@
 """Tops: quadratic functions of the momentum in the body or in space, split into rotations.
 
 P is the momentum: P = Ad*_q mu in the body, P = mu in space. The split is exact: P.BP/2 = a P.P/2 + sum_k d_k
-(e_k.P)^2/2. If Ad preserves the inner product, the first term is a rotation about the momentum, which
-commutes with all other terms. Each other term is a turn about a fixed axis. With at most one turn the flow of
-the part is exact, as for a symmetric top. With more turns the part is a sum of several summands, which do not
-commute, as for an asymmetric top.
+(e_k.P)^2/2. If Ad preserves the inner product, the flow of the first term is a rotation about the momentum,
+which commutes with the flows of all other terms. The flow of each other term is a turn about a fixed axis.
+With at most one turn the flow of the part is exact, as for a symmetric top. With more turns the part is a sum
+of several summands, which do not commute, as for an asymmetric top.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def _invariant(group: LieGroup) -> bool:
 
 
 def _with_offset(turns: list[Turn], w: list[Fraction], body: bool) -> list[Turn]:
-    """Add w.P to the turn whose axis is parallel to w, or add a separate turn for it."""
+    """Add w.P to the turn whose axis is parallel to w; if there is none, add a separate turn for w.P."""
     for k, turn in enumerate(turns):
         i = next(i for i, x in enumerate(turn.axis) if x)
         ratio = w[i] / turn.axis[i]

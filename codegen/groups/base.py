@@ -1,7 +1,7 @@
 """The base class of Lie groups: the operations that every group has.
 
 An element of the group is a flat tuple of ``size`` scalars, an element of the Lie algebra or of its dual is a
-flat tuple of ``dim`` scalars. The class docstring of a group says which coordinates these are. Conventions:
+flat tuple of ``dim`` scalars. The docstring of each group class describes these coordinates. Conventions:
 left action, right trivialisation, [A, B] = AB - BA (see :mod:`orderconds`).
 
 The first argument of each operation is a domain d (:mod:`codegen.ir.domain`). An operation uses ``+ - * /``
@@ -36,7 +36,7 @@ class LieGroup(ABC):
     """A Lie group in coordinates.
 
     ``name`` is printed in messages and headers, ``dim`` is the dimension of the algebra, ``size`` is the
-    number of coordinates of an element. ``abelian`` promises that all brackets vanish. ``layout`` describes
+    number of coordinates of an element. ``abelian`` is true only if all brackets vanish. ``layout`` describes
     the order of the coordinates, for example ``, row by row``. It is printed after the name in the
     description of the state.
     """
@@ -46,9 +46,11 @@ class LieGroup(ABC):
     size: int
     abelian: bool = False
     layout: str = ""
+    coordinates: ClassVar[str] = "coordinates"
+    """A noun for the coordinates of an element. It is part of the names of classical forms of a scene."""
     provides: ClassVar[str] = "group operations"
-    """A noun for the operations that a capability adds; the message about a group without the capability
-    contains it."""
+    """A noun for the operations that a capability adds. It is part of the error message for a group without
+    the capability."""
 
     @abstractmethod
     def identity(self, d: Domain) -> Vector[S]:

@@ -1,4 +1,4 @@
-"""Bernoulli sums: dexp^{-1} = sum of B_k/k! ad^k, truncated after a number of brackets."""
+"""Bernoulli sums: dexp^{-1} = sum over k of B_k/k! ad^k, truncated after a number of brackets."""
 
 from __future__ import annotations
 

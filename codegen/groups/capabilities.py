@@ -61,11 +61,11 @@ class Coadjoint(LieGroup):
         return bernoulli_sum(d, lambda power: self.adt(d, x, power), mu, order)
 
     def P(self, d: Domain, x: Vector[S], y: Vector[S], mu: Vector[S], order: int) -> Vector[S]:
-        """Return P*_(order)(x, y) mu: <P*(x, y) mu, z> = <mu, derivative of dexpinv_x y along z>.
+        """Return P*_(order)(x, y) mu: <P*(x, y) mu, z> = <mu, d/deps dexpinv_{x + eps z} y at eps = 0>.
 
         The result is -sum over 1 <= k <= order of B_k/k! sum_{i<k} ad*_{ad_x^{k-1-i} y} (ad*_x)^i mu (eq.
-        3.16 of H. Marthinsen's thesis). ad* is linear in its subscript, so the subscripts are summed over k
-        first.
+        3.16 of H. Marthinsen's thesis). Since ad*_v is linear in v, the elements ad_x^{k-1-i} y with the same
+        i are summed over k first.
         """
         last = last_term(order)
         brackets, powers = [y], [mu]
@@ -98,10 +98,11 @@ class RightTrivialisation(LieGroup):
         """Return x in the algebra with v = x.g, for a tangent vector v at g: rate(velocity(x, g), g) = x."""
 
 
-class BodyFrame(Coadjoint):
-    """Left translations and the equations of the group; a Hamiltonian in the body frame needs both."""
+class LeftTranslation(Coadjoint):
+    """Left translations and the equations of the group; velocities and momenta in the body frame need
+    both."""
 
-    provides: ClassVar[str] = "body frame"
+    provides: ClassVar[str] = "left translation of velocities"
 
     @abstractmethod
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
@@ -112,12 +113,19 @@ class BodyFrame(Coadjoint):
         """Return g.x, the derivative of g exp(eps x) at eps = 0: velocity(Ad_g x, g)."""
 
     @abstractmethod
-    def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x), each row computed from the same row of g, so that unused rows can be left out."""
-
-    @abstractmethod
     def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return Ad_{g^-1} x, the inverse of Ad_g."""
+
+
+class BodyFrame(LeftTranslation):
+    """Steps in the body frame, q exp(x); the passes of the compiler that derive them need this capability."""
+
+    provides: ClassVar[str] = "body frame"
+
+    @abstractmethod
+    def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g exp(x). Each row is computed from the same row of g, so that rows that nothing reads need
+        not be computed."""
 
 
 class ClosedFormSeries(Coadjoint):
@@ -139,11 +147,11 @@ class ClosedFormSeries(Coadjoint):
         x: Vector[S],
         total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
     ) -> Vector[S]:
-        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v), in fewer brackets than by calls of
-        :meth:`series`.
+        """Return the sum of f W(ad_x) v over ``terms`` (f, W, v), with fewer brackets than one call of
+        :meth:`series` for each term.
 
-        ``total(numbers)`` returns the sum of f v over the terms with these numbers. A caller that has a
-        shorter formula for such sums may pass it.
+        ``total(indices)`` returns the sum of f v over the terms with these indices. A caller that has a
+        shorter formula for these sums may pass it as ``total``.
         """
 
 
@@ -161,8 +169,8 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`, and a linear
-        map."""
+        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`. It must be a
+        linear map."""
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
@@ -176,10 +184,11 @@ class MatrixRepresentation(LieGroup):
 class MatrixElements(MatrixRepresentation):
     """Elements are n x n matrices row by row, size = n^2; the matrices act on columns of n scalars.
 
-    The representation is the identity: velocity(x, g) = hat(x) g.
+    The matrix of an element is the element itself, so velocity(x, g) = hat(x) g.
     """
 
     provides: ClassVar[str] = "matrix elements"
+    coordinates: ClassVar[str] = "matrix"
 
     def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g."""
@@ -206,6 +215,50 @@ class MatrixElements(MatrixRepresentation):
         from sympy import Matrix
 
         return Matrix(self.order, self.order, self.symbols(name))
+
+
+class Covered(LieGroup):
+    """The group is covered by another group, its ``cover``, whose elements have fewer coordinates.
+
+    The covering map is a homomorphism and a local diffeomorphism, so the equations of the group lift to the
+    cover. ``covering_formula`` states the covering map for the header of emitted code; q is an element of the
+    cover, g the element of the group.
+    """
+
+    provides: ClassVar[str] = "covering group"
+    covering_formula: ClassVar[str]
+
+    @property
+    @abstractmethod
+    def cover(self) -> LeftTranslation:
+        """The covering group."""
+
+    @abstractmethod
+    def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the image of q under the covering map, by the shortest polynomials. They are valid for q
+        that satisfies the equations of the cover."""
+
+    @abstractmethod
+    def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the image, under the covering map, of q projected onto the cover. It satisfies the equations
+        of the group exactly."""
+
+    @abstractmethod
+    def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the element of the cover's algebra that the derivative of the covering map at e maps to
+        x."""
+
+    @abstractmethod
+    def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return a number for each formula of :meth:`lift`: the formula is valid where its number is
+        positive.
+
+        Every g has a positive pivot, and the formula with the largest pivot has the smallest rounding error.
+        """
+
+    @abstractmethod
+    def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
+        """Return an element of the cover that the covering map maps to g, by the formula with this index."""
 
 
 class Rotations(MatrixElements):
@@ -266,15 +319,15 @@ class Projection(LieGroup):
 
     @abstractmethod
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g moved towards the group: an element stays fixed, and a defect of size eps becomes
-        O(eps^2).
+        """Return coordinates closer to the group than g. An element of the group is not changed. If g
+        violates the equations of the group by eps, the result violates them by O(eps^2).
         """
 
 
 class DependentCoordinates(LieGroup):
-    """Some coordinates of an element are functions of the others."""
+    """Some coordinates of an element are functions of its other coordinates."""
 
-    provides: ClassVar[str] = "coordinates that the others determine"
+    provides: ClassVar[str] = "coordinates that its other coordinates determine"
 
     @abstractmethod
     def determined(self) -> tuple[tuple[int, ...], ...]:
@@ -282,8 +335,8 @@ class DependentCoordinates(LieGroup):
 
     @abstractmethod
     def complete(self, d: Domain, g: Vector[S], missing: tuple[int, ...]) -> Vector[S]:
-        """Return g with the coordinates of one set computed from the others; their old values are not
-        read."""
+        """Return g, where the coordinates in ``missing`` are computed from all other coordinates; the old
+        values of ``missing`` are not read."""
 
 
 def _combination(d: Domain, terms: Sequence[tuple[Fraction, Vector[S]]]) -> Vector[S]:

@@ -11,7 +11,8 @@ from codegen.ir.domain import Domain
 
 
 class Cotangent(CotangentBundle, Projection):
-    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu), where momenta follow the elements of G.
+    """T*G with product (g, mu)(k, nu) = (g k, mu + Ad*_{g^-1} nu); the coordinates of g come before the
+    coordinates of mu.
 
     With f(q, mu) = (xi, n) the flow is q' = xi.q, mu' = n - ad*_xi mu, that is z' = f(z).z (Arnold and Khesin
     I.10.B; eq. 2.27 of H. Marthinsen's thesis). Hence exp(xi, n) = (exp xi, dexp*_{-xi} n) and [(x, m), (y,
@@ -20,7 +21,7 @@ class Cotangent(CotangentBundle, Projection):
 
     def __init__(self, base: LieGroup) -> None:
         self.base = base.require(Coadjoint)
-        # Parentheses keep T*(G x H) apart from T*G x H.
+        # Parentheses distinguish T*(G x H) from T*G x H.
         self.name = f"T*({base.name})" if " x " in base.name else f"T*{base.name}"
         ordered = base.layout if base.layout.startswith(":") else f": {base.name}{base.layout}"
         self.layout = f"{ordered}; the right-trivialised momentum"
@@ -28,8 +29,8 @@ class Cotangent(CotangentBundle, Projection):
         self.abelian = base.abelian
 
     def _split(self, x: Vector[S]) -> tuple[Vector[S], Vector[S]]:
-        """Return the two parts of an element of the group or of the algebra; the length distinguishes the
-        two."""
+        """Return the two parts of an element of the group or of the algebra. The length of x decides whether
+        x is split as an element of the group or of the algebra."""
         at = self.base.size if len(x) == self.size else self.base.dim
         return tuple(x[:at]), tuple(x[at:])
 
@@ -76,17 +77,18 @@ class Cotangent(CotangentBundle, Projection):
         return b + tuple(x - y for x, y in pairs)
 
     def offers(self, capability: type[C]) -> C | None:
-        """Return this group as a group with a capability; a projection needs one of the base."""
+        """Return this group as a group with a capability; it has a projection only if the base group has
+        one."""
         own = super().offers(capability)
         return None if capability is Projection and self.base.offers(Projection) is None else own
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g with its first part projected onto the base."""
+        """Return the pair g = (q, mu) with q projected onto the base group."""
         q, mu = self._split(g)
         return self.base.require(Projection).project(d, q) + mu
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the laws of the base; the momentum may be any covector."""
+        """Return the equations of the base group; the momentum may be any covector."""
         return self.base.laws(d, self._split(g)[0])
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:

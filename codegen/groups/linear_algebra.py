@@ -14,7 +14,8 @@ from codegen.ir.domain import Domain
 
 
 class Scalar(Protocol):
-    """A number of a domain (:mod:`codegen.ir.domain`); both operands must be of the same domain."""
+    """A number of a domain (:mod:`codegen.ir.domain`); the operands of an operation must be of the same
+    domain."""
 
     def __add__(self, other: Self, /) -> Self:
         """Return the sum."""
@@ -40,7 +41,7 @@ Vector = tuple[S, ...]
 
 
 def dot(a: Vector[S], b: Vector[S]) -> S:
-    """Return sum a_i b_i, added from the left."""
+    """Return sum a_i b_i; the terms are added in order."""
     total = a[0] * b[0]
     for x, y in zip(a[1:], b[1:], strict=True):
         total = total + x * y
@@ -50,7 +51,8 @@ def dot(a: Vector[S], b: Vector[S]) -> S:
 def rescaled(d: Domain, v: Vector[S], e: S) -> Vector[S]:
     """Return v (1 + e/2 + 3 e^2/8), which is v/sqrt(1 - e) up to O(e^3)."""
     excess: S = e * (d.rational(1, 2) + d.rational(3, 8) * e)
-    # Numbers below 1 are twice as dense as above, so rounding 1 + excess would shrink v in each step.
+    # Floating-point numbers just below 1 are closer together than those above 1. Rounding 1 + excess would
+    # therefore make v shorter in each step, on average.
     return tuple(a + excess * a for a in v)
 
 

@@ -142,7 +142,7 @@ def _weighted(d: Domain, weights: Sequence[Fraction], values: Sequence[S]) -> S:
 
 
 def _added(d: Domain, total: S, w: Fraction, x: S) -> S:
-    """Return total + w x, without a product where w is 1 or -1."""
+    """Return total + w x; if w is 1 or -1, no product is computed."""
     if w == 1:
         return total + x
     if w == -1:
@@ -152,12 +152,12 @@ def _added(d: Domain, total: S, w: Fraction, x: S) -> S:
 
 
 def _entire(d: Domain, first: Vector[S], advance: Callable[[Vector[S]], Vector[S]], shift: int) -> Vector[S]:
-    """Return the sum over k of advance^k(first) shift!/(k + shift)!, up to the first term that changes
-    nothing.
+    """Return the sum over k >= 0 of advance^k(first) shift!/(k + shift)!, up to the first term that does not
+    change the sum.
 
-    ArithmeticError is raised if every term changes the sum: for numbers that are not finite, and for
-    expressions whose powers do not vanish. The powers of a nilpotent matrix or bracket vanish within its
-    size.
+    ArithmeticError is raised if every term changes the sum. This happens for numbers that are not finite. It
+    also happens over expressions if ``advance`` is not nilpotent; a nilpotent ``advance`` applied len(first)
+    times gives zero.
     """
     total, term = first, first
     longest = 2 * len(first) if isinstance(d, ExprDomain) else LONGEST

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
 from codegen.groups.base import C, LieGroup
-from codegen.groups.capabilities import Coadjoint, DirectProduct, Projection, RightTrivialisation
+from codegen.groups.capabilities import (
+    Coadjoint,
+    DirectProduct,
+    LeftTranslation,
+    Projection,
+    RightTrivialisation,
+)
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
+from codegen.ir.normal_form import Relation
 
 if TYPE_CHECKING:
     import sympy
 
 
-class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
+class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
     """G1 x G2 x ...: the coordinates of the factors follow one another, and every operation acts on each
     factor.
 
@@ -47,12 +54,13 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
     def offers(self, capability: type[C]) -> C | None:
         """Return this product as a group with a capability; None if a factor lacks the capability."""
         own = super().offers(capability)
-        if issubclass(DirectProduct, capability):  # this capability depends on no factor
+        if issubclass(DirectProduct, capability):  # the product has this capability, whatever its factors are
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 
     def _each(self, capability: type[C], operation: Callable[..., Vector[S]], *args: Vector[S]) -> Vector[S]:
-        """Return operation(factor, its own arguments) for all factors, one after the other."""
+        """Return the results of operation(factor, the factor's arguments) for all factors in order, joined to
+        one tuple."""
         rows = zip((f.require(capability) for f in self.factors), *map(self.parts, args), strict=True)
         return tuple(x for factor, *own in rows for x in operation(factor, *own))
 
@@ -92,6 +100,23 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
         """Return Ad*_{g^-1} mu of each factor."""
         return self._each(Coadjoint, lambda f, a, m: f.Adtinv(d, a, m), g, mu)
 
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return Ad_{g^-1} x of each factor."""
+        return self._each(LeftTranslation, lambda f, a, b: f.Adinv(d, a, b), g, x)
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g.x of each factor."""
+        return self._each(LeftTranslation, lambda f, a, b: f.left_velocity(d, a, b), g, x)
+
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return the relations of every factor."""
+        ends = accumulate(f.size for f in self.factors)
+        return tuple(
+            relation
+            for f, end in zip(self.factors, ends, strict=True)
+            for relation in f.require(LeftTranslation).relations(q[end - f.size : end])
+        )
+
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu of each factor."""
         return self._each(Coadjoint, lambda f, a, m: f.dexpt(d, a, m), x, mu)
@@ -105,7 +130,7 @@ class Product(DirectProduct, Coadjoint, RightTrivialisation, Projection):
         return self._each(RightTrivialisation, lambda f, a, b: f.rate(d, a, b), v, g)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
-        """Return the laws of every factor."""
+        """Return the equations of every factor."""
         pairs = zip(self.factors, self.parts(g), strict=True)
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 

@@ -43,7 +43,8 @@ class Registry(Generic[T]):
         self._added[name] = cls
 
     def remove(self, cls: type[T]) -> None:
-        """Remove an added class; a class that was not added, or was replaced, is ignored."""
+        """Remove an added class. Nothing happens if the class was not added, or if another class has replaced
+        it."""
         if self._added.get(cls.__name__) is cls:
             del self._added[cls.__name__]
 

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from codegen.groups.capabilities import Coadjoint, MatrixRepresentation, Projection, RightTrivialisation
+from collections.abc import Sequence
+
+from codegen.groups.capabilities import (
+    LeftTranslation,
+    MatrixRepresentation,
+    Projection,
+    RightTrivialisation,
+)
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
+from codegen.ir.normal_form import Relation
 
 
-class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation, Projection):
+class Rn(LeftTranslation, RightTrivialisation, MatrixRepresentation, Projection):
     """The abelian group (R^n, +): exp is the identity map and every bracket vanishes.
 
     On R^n, RKMK, CG and CF methods are Runge-Kutta methods, and variational methods are symplectic
@@ -59,6 +67,18 @@ class Rn(Coadjoint, RightTrivialisation, MatrixRepresentation, Projection):
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x."""
         return x
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return no relations, because the coordinates are independent."""
+        return ()
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return v."""

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from codegen.groups.capabilities import Coadjoint, Projection, RightTrivialisation
+from collections.abc import Sequence
+
+from codegen.groups.capabilities import LeftTranslation, Projection, RightTrivialisation
 from codegen.groups.linear_algebra import S, Vector, cross, dot, rescaled
 from codegen.ir.domain import Domain
+from codegen.ir.normal_form import Relation
+from codegen.ir.number import Number
 
 
-class S3(Coadjoint, RightTrivialisation, Projection):
+class S3(LeftTranslation, RightTrivialisation, Projection):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
     The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x = 2 x
@@ -18,6 +22,7 @@ class S3(Coadjoint, RightTrivialisation, Projection):
 
     name, layout = "S^3", ", real part first"
     dim, size = 3, 4
+    coordinates = "unit quaternion"
 
     def identity(self, d: Domain) -> Vector[S]:
         """Return (1, 0, 0, 0)."""
@@ -74,13 +79,27 @@ class S3(Coadjoint, RightTrivialisation, Projection):
         pairs = zip(x, cross(x, g[1:]), strict=True)
         return (-dot(x, g[1:]), *(g[0] * a + b for a, b in pairs))
 
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return g^c x g."""
+        return self._rotated(d, -g[0], g[1:], x)
+
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return q.q = 1 as a replacement of the square of the real part."""
+        minus = Number.rational(-1)
+        return (((q[0], q[0]), ((Number.rational(1), ()), *((minus, (a, a)) for a in q[1:]))),)
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return the quaternion product g (0, x)."""
+        pairs = zip(x, cross(g[1:], x), strict=True)
+        return (-dot(g[1:], x), *(g[0] * a + b for a, b in pairs))
+
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return x where v = x.g: the imaginary part of v times the conjugate of g."""
         turned = cross(v[1:], g[1:])
         return tuple(g[0] * a - v[0] * b - c for a, b, c in zip(v[1:], g[1:], turned, strict=True))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g times 1 + e/2 + 3 e^2/8 with e = 1 - |g|^2, which leaves a defect O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - |g|^2; the error of the length is then O(e^3)."""
         return rescaled(d, g, d.rational(1) - dot(g, g))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

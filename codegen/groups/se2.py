@@ -37,7 +37,7 @@ class SE2(Coadjoint, PointMotions, Projection):
         return (c0, w * c1, c1 * u - turned * v, c1 * v + turned * u)
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
-        """Return the motion k followed by g."""
+        """Return the product g k: the motion k, followed by the motion g."""
         c, s = g[:2]
         return (c * k[0] - s * k[1], s * k[0] + c * k[1], *self.move(d, g, k[2:]))
 
@@ -92,7 +92,8 @@ class SE2(Coadjoint, PointMotions, Projection):
         return (-(w * g[1]), w * g[0], *self.point_velocity(d, x, g[2:]))
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g with (c, s) times 1 + e/2 + 3 e^2/8, e = 1 - c^2 - s^2, which leaves a defect O(e^3)."""
+        """Return g with (c, s) multiplied by 1 + e/2 + 3 e^2/8, where e = 1 - c^2 - s^2; the error of c^2 +
+        s^2 = 1 is then O(e^3)."""
         return (*rescaled(d, g[:2], d.rational(1) - (g[0] * g[0] + g[1] * g[1])), *g[2:])
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

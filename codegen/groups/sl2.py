@@ -41,7 +41,7 @@ class SL2(MatrixGroup, Projection):
         return self.Adt(d, _adjugate(g), mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
-        """Return g times 1 + e/2 + 3 e^2/8 with e = 1 - det g, which leaves a defect O(e^3)."""
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the error of the determinant is then O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:

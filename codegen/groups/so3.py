@@ -8,6 +8,7 @@ from codegen.groups.ad_polynomial import ad_polynomial
 from codegen.groups.capabilities import (
     BodyFrame,
     ClosedFormSeries,
+    Covered,
     DependentCoordinates,
     Projection,
     RightTrivialisation,
@@ -15,13 +16,22 @@ from codegen.groups.capabilities import (
     Term,
 )
 from codegen.groups.linear_algebra import S, Vector, cross, dot, matmul, matvec
+from codegen.groups.s3 import S3
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
 
 
-class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projection, DependentCoordinates):
+class SO3(
+    Rotations,
+    BodyFrame,
+    Covered,
+    ClosedFormSeries,
+    RightTrivialisation,
+    Projection,
+    DependentCoordinates,
+):
     """Rotations of R^3: a matrix row by row; the hat map and the dot product identify so(3) and so(3)* with
     R^3.
 
@@ -35,13 +45,14 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
 
     name, layout = "SO(3)", ", row by row"
     dim, size = 3, 9
+    covering_formula = "g x = q (0, x) q^c / |q|^2 for a quaternion q, real part first, and its conjugate q^c"
 
     def __init__(self, dependent: int | None = None) -> None:
         self.dependent = dependent
 
     def variants(self) -> Sequence[SO3]:
-        """Return the group without a dependent column, then the group with each of the three columns
-        dependent."""
+        """Return four implementations: without a dependent column, and with column 0, 1 or 2 as the dependent
+        column."""
         return (self, *(SO3(column) for column in range(3)))
 
     def identity(self, d: Domain) -> Vector[S]:
@@ -104,7 +115,7 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         """Return the product of functions of ad_x, or of ad*_x = -ad_x, applied to v.
 
         As ad_x^3 = -z ad_x with z = x.x, each function is 1 + b ad_x + c ad_x^2, and products and inverses
-        have this form, too.
+        also have this form.
         """
         b, c = ad_polynomial(d, word, dot(x, x))
         first = cross(x, v)
@@ -124,8 +135,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + x cross (B + x cross C).
 
         Terms with the same coefficient of ad_x, or of ad_x^2, are added first, and their sum is multiplied
-        once. ``total(numbers)`` returns the sum of f v over the terms with these numbers; a caller that has a
-        shorter formula may pass it.
+        once. ``total(indices)`` returns the sum of f v over the terms with these indices; a caller that has a
+        shorter formula for these sums may pass it as ``total``.
         """
 
         def added(numbers: tuple[int, ...]) -> Vector[S]:
@@ -149,21 +160,23 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         return tuple(p + q for p, q in zip(plain, cross(x, inner), strict=True))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return hat(x) g: x cross every column."""
+        """Return hat(x) g: the cross product of x with every column of g."""
         columns = [cross(x, g[j::3]) for j in range(3)]
         return tuple(columns[j][i] for i in range(3) for j in range(3))
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x where v = x.g: the entries of x are those of v g^T below and above the diagonal."""
+        """Return x where v = x.g. The entries of x are off-diagonal entries of the skew matrix v g^T =
+        hat(x)."""
         return tuple(dot(v[3 * i : 3 * i + 3], g[3 * j : 3 * j + 3]) for i, j in ((2, 1), (0, 2), (1, 0)))
 
     def mulexp(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g exp(x): each row of g rotated by -x."""
+        """Return g exp(x): each row of g is rotated about x by the angle -|x|."""
         back = tuple(-a for a in x)
         return tuple(a for i in (0, 3, 6) for a in self.rotate(d, back, g[i : i + 3]))
 
     def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
-        """Return g hat(x), the derivative of g exp(eps x) at eps = 0: every row cross x."""
+        """Return g hat(x), the derivative of g exp(eps x) at eps = 0: the cross product of every row of g
+        with x."""
         return tuple(a for i in (0, 3, 6) for a in cross(g[i : i + 3], x))
 
     def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
@@ -220,7 +233,8 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
         return matmul(g, defect, 3)
 
     def determined(self) -> tuple[tuple[int, ...], ...]:
-        """Return the rows and the columns: each is the cross product of the next two."""
+        """Return the indices of the rows and of the columns. Each row is the cross product of the next two
+        rows, in cyclic order, and each column of the next two columns."""
         rows = tuple((3 * i, 3 * i + 1, 3 * i + 2) for i in range(3))
         return (*rows, *((j, 3 + j, 6 + j) for j in range(3)))
 
@@ -242,3 +256,54 @@ class SO3(Rotations, BodyFrame, ClosedFormSeries, RightTrivialisation, Projectio
     def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
         """Return the vector of a skew matrix."""
         return (matrix[7], matrix[2], matrix[3])
+
+    @property
+    def cover(self) -> S3:
+        """The unit quaternions."""
+        return S3()
+
+    def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the matrix of x -> q (0, x) q^c for a unit quaternion q."""
+        one, double = d.rational(1), tuple(d.rational(2) * a for a in q[1:])
+        squares = tuple(a * b for a, b in zip(double, q[1:], strict=True))
+        diagonal = (one - (squares[1] + squares[2]), one - (squares[0] + squares[2]))
+        return self._covering((*diagonal, one - (squares[0] + squares[1])), q, double)
+
+    def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the matrix of x -> q (0, x) q^c / |q|^2."""
+        (w, x, y, z), length = (a * a for a in q), dot(q, q)
+        diagonal = ((w + x) - (y + z), (w + y) - (x + z), (w + z) - (x + y))
+        return tuple(a / length for a in self._covering(diagonal, q, tuple(d.rational(2) * a for a in q[1:])))
+
+    def _covering(self, diagonal: Vector[S], q: Vector[S], double: Vector[S]) -> Vector[S]:
+        """Return the rotation matrix of q with the given diagonal; ``double`` is twice the imaginary part of
+        q."""
+        (w, x, y, _), (a, b, c) = q, double
+        xy, xz, yz, wx, wy, wz = x * b, x * c, y * c, w * a, w * b, w * c
+        return (diagonal[0], xy - wz, xz + wy, xy + wz, diagonal[1], yz - wx, xz - wy, yz + wx, diagonal[2])
+
+    def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return x/2: exp(x/2) is a quaternion of half the angle."""
+        return tuple(d.rational(1, 2) * a for a in x)
+
+    def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return 4 w^2, 4 x^2, 4 y^2 and 4 z^2, where (w, x, y, z) is a unit quaternion whose rotation is
+        g."""
+        one = d.rational(1)
+        return (
+            one + (g[0] + g[4] + g[8]),
+            one + (g[0] - g[4] - g[8]),
+            one + (g[4] - g[0] - g[8]),
+            one + (g[8] - g[0] - g[4]),
+        )
+
+    def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
+        """Return the unit quaternion whose rotation is g and whose component with the index ``formula`` is
+        positive."""
+        root: S = d.call("sqrt", self.pivots(d, g)[formula])
+        half = d.rational(1, 2)
+        wx, wy, wz = g[7] - g[5], g[2] - g[6], g[3] - g[1]
+        xy, xz, yz = g[1] + g[3], g[2] + g[6], g[5] + g[7]
+        products: tuple[Vector[S], ...] = ((wx, wy, wz), (wx, xy, xz), (wy, xy, yz), (wz, xz, yz))
+        others = tuple(half * a / root for a in products[formula])
+        return (*others[:formula], half * root, *others[formula:])

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 
-# Factors have an order, because a simplified word is sorted: equal products must become equal tuples.
+# Factors can be compared by <, because a simplified word is sorted: equal products must become equal tuples.
 @dataclass(frozen=True, order=True)
 class Factor:
     """phi(scale t)^power, where phi is exp, dexp = (e^t - 1)/t, or dexpinv: the series of 1/dexp truncated
@@ -28,8 +28,8 @@ class Factor:
         return f"{'1/' if self.power < 0 else ''}{self.function}{order}({scale}t)"
 
     def scaled(self, by: Fraction) -> Factor:
-        """Return phi(by scale t)^power: the factor with ``by`` t in place of t."""
-        # phi(s t) with t = by t' is phi(s by t'): only the scale changes.
+        """Return phi(by*scale*t)^power: the factor with ``by`` times t in place of t."""
+        # phi(scale*t) with t = by*t' is phi(scale*by*t'): only the scale changes.
         return Factor(self.function, self.scale * by, self.order, self.power)
 
     def inverse(self) -> Factor:
@@ -45,7 +45,7 @@ UNIT = Fraction(1)
 def simplified(word: Word) -> Word:
     """Return a word with its exponentials joined and without factors that cancel.
 
-    The rule exp(-s t) dexp(s t) = dexp(-s t) is applied, too.
+    The rule exp(-s t) dexp(s t) = dexp(-s t) is also applied.
 
     >>> simplified((Factor("dexp", Fraction(1)), Factor("exp", Fraction(-1))))[0].text()
     'dexp(-t)'
@@ -60,8 +60,8 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # The loop runs over a copy, because the rule adds keys. The rule applies at most once, because it uses up
-    # the exponential.
+    # The loop runs over a copy, because the rule adds keys. The rule is applied at most once, because it
+    # removes the only exponential.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
         if function == "dexp" and n > 0 and rate == -scale:

@@ -26,7 +26,8 @@ def chain(kernel: Kernel) -> int:
     >>> chain(Kernel("step", (), ("h",), body, (space.sym("y"),)))
     2
     """
-    # A loop repeats until its equations hold to rounding, so it does not multiply earlier rounding errors.
+    # A loop repeats until its equations hold to rounding accuracy, so its solution does not multiply earlier
+    # rounding errors.
     if kernel.loops or kernel.deferred is not None:
         return 1
     # A kernel is single assignment and ordered, so the depth of a name is known before the name is read.
@@ -45,10 +46,10 @@ def _depth(root: Expr, depths: Mapping[str, int]) -> int:
     for node in walk([root]):
         # walk yields the arguments of a node before the node.
         below = max((by_node[a.id] for a in node.args), default=0)
-        # Inputs have depth 0: the state is taken to be exact.
+        # Inputs have depth 0, because the state is assumed to be exact.
         if node.op == "sym":
             below = depths.get(node.payload, 0)
-        # The signed Stumpff functions count, too. The slope functions do not count, because they occur only
-        # in derivatives, next to Stumpff functions of the same angle.
+        # The signed Stumpff functions also count. The slope functions do not count, because they occur only
+        # in derivatives that also contain Stumpff functions of the same angle.
         by_node[node.id] = below + (node.op == "call" and "stumpff" in node.payload)
     return by_node[root.id]

@@ -15,8 +15,8 @@ from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 Sum = dict[int, tuple[Number, Expr]]
-"""A linear combination: the number of each expression maps to its coefficient and the expression. A constant
-term has the expression 1."""
+"""A linear combination: it maps the node number of each expression to the pair (coefficient, expression). A
+constant term has the expression 1."""
 
 
 def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ...]:
@@ -34,18 +34,18 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     if not roots:
         return ()
     bare = [_bare(node) for node in kept]
-    # Only the node without its numeric factor is kept, because the factor may still be combined with other
-    # numbers.
+    # The node without its numeric factor is kept, so that the factor can be combined with other numbers.
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # A kept node is entered as an atom: one times itself.
+            # A kept node is an atom: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
-    # Recorded before whole() extends the sums. Kept nodes are not counted, because they cost the same in both
-    # forms.
+    # These are the numbers of the kept nodes, recorded before whole() adds other nodes to sums. Kept nodes
+    # are not counted, because they cost the same in both forms.
     still = set(work.sums)
     collected = tuple(work.whole(root) for root in roots)
-    # Expanding can destroy sharing. A tie keeps the given form, which earlier passes have chosen.
+    # Expanding sums may leave fewer shared subexpressions. If both forms cost the same, the given form is
+    # kept, because earlier passes have chosen it.
     return collected if _operations(collected, still) < _operations(roots, still) else tuple(roots)
 
 
@@ -59,7 +59,7 @@ def _bare(node: Expr) -> Expr:
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
-    # Signs are free, because a sum absorbs them.
+    # A sign costs nothing, because the sum that contains the node becomes a difference.
     products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
@@ -73,7 +73,7 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
     """
     still = {node.id for node in walk(kept)}
     ranks: dict[int, tuple[int, int]] = {}
-    # Pairs of a node and its reader; a result is read by the caller, so its reader is None.
+    # Pairs of a node and an expression that reads it. The caller reads the results, so their reader is None.
     used: list[tuple[Expr, Expr | None]] = [(root, None) for root in roots]
     for node in walk(roots):
         used += [(a, node) for a in node.args]
@@ -85,9 +85,10 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
         elif _is_power(node, inside):
             exponent = sum(n for _, n in inside)
             ranks[node.id] = (inside[0][0], exponent * (node.payload or 1))
-    # Only powers that are read outside other powers of y count: y^2 inside y^3 is an intermediate value.
+    # A power of y counts only if an expression that is not a power of y reads it: y^2 inside y^3 is an
+    # intermediate value.
     read = {ranks[x.id] for x, by in used if x.id in ranks and (by is None or by.id not in ranks)}
-    # If y itself is read, y is computed in any case, and all powers of y share the division in y.
+    # If y = 1/sqrt(x) itself is read, it must be computed anyway, and all its powers share its division.
     bases = {base for base, n in read if n == 1 or n % 2 == 0}
     return {key: pair for key, pair in ranks.items() if pair[0] not in bases}
 
@@ -100,7 +101,7 @@ def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
 
 
 def _is_inverse(node: Expr) -> bool:
-    # Equal expressions are interned as one object, so the test by identity is exact.
+    # Equal expressions are the same object, so the operator ``is`` compares them.
     return node.op == "div" and node.args[0] is node.space.one
 
 
@@ -116,7 +117,7 @@ class _Gathering:
         # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # Each node is expanded once: all readers of a shared node use the same combination.
+                # Each node is expanded only once, and all nodes that contain it use the same combination.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
@@ -124,7 +125,7 @@ class _Gathering:
         """Return a node's linear combination as an expression. An inverse 1/y gets the coefficient of its
         first reader as numerator."""
         if node.id not in self.written:
-            # The expression is formed at the first reading and then reused, so sharing survives.
+            # The expression is built when it is first read and then reused, so it stays shared.
             total = [self._inverse(c, atom) for c, atom in self.sums[node.id].values()]
             self.written[node.id] = _expression(total, node.space)
         return self.written[node.id]
@@ -134,14 +135,15 @@ class _Gathering:
         if not _is_inverse(atom):
             return c, atom
         # A numerator other than 1 costs nothing, and it replaces the first reader's product. Later readers
-        # share the division and multiply by the ratio of the coefficients, which is often 1.
+        # share the division: they multiply d by the ratio of their coefficient to the first one, which is
+        # often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
     def _sum(self, node: Expr) -> Sum:
         space, one = node.space, Number.rational(1)
-        # Irrational constants are atoms: constants of two fields cannot be added, and a ball must be rounded
-        # only once.
+        # Irrational constants are atoms, because constants of two different fields cannot be added, and
+        # because a constant that is a ball must be rounded only once.
         if node.op == "const" and node.payload.is_rational:
             return {} if node.payload.is_zero else {space.one.id: (node.payload, space.one)}
         if node.op == "neg":
@@ -153,8 +155,8 @@ class _Gathering:
                 other if node.op == "add" else _scaled(other, Number.rational(-1))
             ).items():
                 total[key] = (total[key][0] + c if key in total else c, atom)
-            # Terms that cancel are removed, because a combination of only one term is a multiple of an
-            # expression, and its factor can move out of a product.
+            # Terms that cancel are removed. If one term remains, the combination is a multiple of an
+            # expression, and its coefficient can be moved out of a product.
             return {key: pair for key, pair in total.items() if not pair[0].is_zero}
         if node.op in ("mul", "pow") and node.id in self.powers and node.args[0].op != "const":
             return self._power(node)
@@ -164,7 +166,8 @@ class _Gathering:
             for a, b in (node.args, node.args[::-1]):
                 if a.op == "const" and a.payload.is_rational:
                     return _scaled(self.sums[b.id], a.payload)
-            # (c x)(d y) = (c d)(x y): both numbers leave the product and join the number in front of it.
+            # (c x)(d y) = (c d)(x y): both numbers are taken out of the product and multiplied into its
+            # coefficient.
             (c, x), (d, y) = self._content(node.args[0]), self._content(node.args[1])
             atom = x * y
             return {atom.id: (c * d, atom)}
@@ -174,8 +177,8 @@ class _Gathering:
             for _ in range(node.payload):
                 power = power * c
             return {atom.id: (power, atom)}
-        # Space's own methods are not used: they would simplify again, and might turn the atom into a
-        # combination.
+        # The methods of Space are not called, because they would simplify the node again, and the result
+        # might no longer be an atom.
         atom = space._make(node.op, tuple(map(self._spell, node.args)), node.payload)
         return {atom.id: (one, atom)}
 
@@ -183,7 +186,8 @@ class _Gathering:
         """Return (1/sqrt x)^n as 1/x^m for n = 2 m, or as 1/(x^m sqrt x) for n = 2 m + 1."""
         base, exponent = self.powers[node.id]
         ((_, inverse),) = self.sums[base].values()
-        # With y = 1/sqrt x: c collects the numeric factors of y^n, so the power that remains has none.
+        # Let y = 1/sqrt x. The variable c collects the numeric factors of y^n, so the power that remains has
+        # no numeric factor.
         c = Number.rational(1)
         for arg in node.args * (node.payload or 1):
             ((factor, _),) = self.sums[arg.id].values()
@@ -196,10 +200,11 @@ class _Gathering:
         return {atom.id: (c, atom)}
 
     def _content(self, node: Expr) -> tuple[Number, Expr]:
-        """Return c and x with the node equal to c x; c is 1 unless the node is a multiple of one
+        """Return (c, x) such that the node equals c x; c is 1 unless the node is a multiple of one
         expression."""
         total = self.sums[node.id]
-        if len(total) != 1:  # numbers stay inside a sum, which may have other readers
+        # A number is not taken out of a sum, because other expressions may also contain the sum.
+        if len(total) != 1:
             return Number.rational(1), self._spell(node)
         ((c, atom),) = total.values()
         return self._inverse(c, atom)

@@ -14,20 +14,22 @@ class NotDifferentiable(ValueError):
 
 
 def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
-    """Return the partial derivatives of root by the named symbols, in order.
+    """Return the partial derivatives of root with respect to the named symbols, in order.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x = s.sym("x")
     >>> gradient(x * x * x, ["x", "y"])[1]
     0
     """
-    # The adjoint of a node is the derivative of root by the node, so the adjoint of root is 1.
+    # The adjoint of a node is the derivative of root with respect to the node, so the adjoint of root is 1.
     space = root.space
     bars: dict[int, Expr] = {root.id: space.one}
-    # In this order a node passes its adjoint on only after all users of the node have added to the adjoint.
+    # The order is from root to the symbols: when a node is visited, all nodes that use it have added their
+    # terms to its adjoint.
     for node in reversed(list(walk([root]))):
         bar = bars.get(node.id)
-        # Contributions may cancel exactly, and a zero that is passed on would only create nodes.
+        # The terms of an adjoint may cancel exactly. A zero is skipped, because multiplying it by derivatives
+        # would create nodes without effect.
         if bar is None or bar is space.zero:
             continue
         for arg, factor in zip(node.args, partials(node), strict=True):
@@ -36,7 +38,7 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 
 
 def partials(node: Expr) -> list[Expr]:
-    """Return the derivatives of a node by its arguments, in order.
+    """Return the partial derivatives of a node with respect to its arguments, in order.
 
     The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
     raised for ``signed_stumpff1`` and the slopes.
@@ -64,20 +66,20 @@ def partials(node: Expr) -> list[Expr]:
 
 
 def _derivatives(node: Expr) -> list[Expr]:
-    """Return the derivatives of a function by its arguments; c_k' = (k c_{k+2} - c_{k+1})/2 for Stumpff
-    functions."""
+    """Return the partial derivatives of a function with respect to its arguments. For the Stumpff functions
+    c_k' = (k c_{k+2} - c_{k+1})/2."""
     space, x = node.space, node.args[0]
     half = space.const(Number.rational(1, 2))
     match node.payload:
         case "sqrt":
-            # The derivative 1/(2 sqrt x) uses the root that is computed already.
+            # The derivative 1/(2 sqrt x) contains the root, which is already computed.
             return [half * (space.one / node)]
         case "sin":
             return [space.call("cos", x)]
         case "cos":
             return [-space.call("sin", x)]
         case "exp":
-            # exp is its own derivative, so no second call is needed.
+            # The derivative of exp is the node itself, so no second call of exp is needed.
             return [node]
         case "log":
             return [space.one / x]
@@ -86,12 +88,13 @@ def _derivatives(node: Expr) -> list[Expr]:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
             return [half * (space.call("stumpff3", x) - space.call("stumpff2", x))]
-        # The rule contains c_4 and c_5, which are not available functions. The functions slope2 and slope3
-        # evaluate the whole derivative instead.
+        # For k = 2 and 3 the rule contains c_4 and c_5, for which there are no functions. The functions
+        # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
         case "quotient":
-            # 1/b must be guarded like a/b, or the derivative would be infinite where the function is 0.
+            # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
+            # infinite there.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:

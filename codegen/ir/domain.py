@@ -20,10 +20,12 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """An iteration of the interpreter reached its limit, or a number that is not finite."""
+    """The error of an iteration of the interpreter that did not converge within its limit, or computed a
+    number that is not finite."""
 
 
-# The scalars are float, mpf, series and Expr: they share operators but no base class.
+# The type is Any, because scalars are float, mpf, series or Expr, which have the same operators but no common
+# base class.
 Scalar: TypeAlias = Any
 """A number of one domain; its type depends on the domain and is known only at run time."""
 
@@ -36,8 +38,8 @@ Values: TypeAlias = tuple[Value, ...]
 
 
 class Domain(Protocol):
-    """A number system: it creates scalars and evaluates functions of scalars; ``h`` is the step size as a
-    scalar."""
+    """A number system. Its methods create scalars and evaluate functions of scalars; ``h`` is the step size
+    as a scalar of the domain."""
 
     h: Scalar
 
@@ -51,8 +53,8 @@ class Domain(Protocol):
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether an iteration has converged, and the size of its change, which is ``previous`` in the
-        next call."""
+        """Return whether an iteration has converged, and the size of its last change. The caller passes this
+        size as ``previous`` in the next call."""
 
 
 class Differenced(Domain, Protocol):
@@ -66,8 +68,8 @@ def stumpff(k: int, z: float) -> float:
     """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
-    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, and its full turns use up half of
-    the digits.
+    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, so its number of full
+    turns takes up half of the digits.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -80,7 +82,7 @@ def stumpff(k: int, z: float) -> float:
         return math.cos(math.sqrt(z))
     # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule from the smallest term; for z < 4 the first omitted term is below 1e-27.
+        # Horner's rule begins with the smallest term. For z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -145,16 +147,17 @@ class FloatDomain:
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
-        # Comparisons with a NaN are false, so without this test the iteration would go on to its limit.
+        # Comparisons with a NaN are false, so without this test the iteration would continue up to its limit
+        # of sweeps.
         if not math.isfinite(change):
             raise NotConverged("a fixed-point iteration computed a number that is not finite")
-        # The test is relative to the largest unknown: small unknowns are no more accurate than the sums that
-        # contain them.
+        # The change is compared with the largest unknown, because rounding errors in sums with large terms
+        # also affect the small unknowns.
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
-        # With the rate change/before, the remaining error is about change^2/before, which must be below half
-        # a unit in the last place. The first condition is needed, because a rate that was measured only once
-        # is not reliable.
+        # With the rate of convergence change/before, the remaining error is about change^2/before, which must
+        # be below half a unit in the last place. The rate is measured only once and may be wrong, so the
+        # change itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Changes that no longer decrease are rounding errors if they are small, and a sign of divergence if
@@ -181,7 +184,8 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # Newton's method replaces a fixed-point iteration that gains less than a third of a digit a sweep.
+        # Newton's method replaces a fixed-point iteration in which a sweep gives less than a third of a
+        # correct digit.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -237,8 +241,8 @@ class PreciseDomain:
         last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # A small change is not enough, because the next sweep may still gain digits: changes must have
-        # stopped decreasing.
+        # A small change is not sufficient, because the next sweep may give further correct digits. The
+        # changes must also have stopped decreasing.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -252,7 +256,7 @@ class SeriesDomain:
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # Coefficients are exact, so a local error that vanishes to some order does so provably.
+        # The coefficients are exact, so a local error that is zero up to some order proves the order.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
@@ -271,7 +275,8 @@ class SeriesDomain:
         """Return an entire function of a series without constant term, exactly; raise an ArithmeticError
         otherwise.
 
-        A quotient by a series of valuation v has v unknown coefficients at its end, which are set to zero.
+        In a quotient by a series whose lowest power is h^v, the last v coefficients are unknown and are set
+        to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -323,7 +328,7 @@ class SeriesDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether all unknowns are unchanged, and None: an exact comparison needs no size."""
-        # A contraction by O(h) fixes one more coefficient a sweep, so order + 1 sweeps suffice.
+        # Each sweep of a contraction by O(h) determines one further coefficient, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
@@ -334,7 +339,7 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The samples are keyed by node number: equal times are one node, because expressions are hash-consed.
+        # The node number of the time is the key of its samples, because equal times are the same node.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:
@@ -350,7 +355,7 @@ class ExprDomain:
         return self.space.call(function, *args)
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
-        """Return symbols for run-time inputs at a time; equal times get equal symbols."""
+        """Return symbols for run-time inputs at a time; the symbols are the same for equal times."""
         # Stages at the same time must read the same sample, or the inputs would be evaluated twice at that
         # time.
         if t.id not in self.samples:

@@ -1,9 +1,9 @@
 """Scalar expressions: immutable, hash-consed within a :class:`Space`, ordered by creation.
 
-A space interns every node, so equal expressions are identical objects and are stored once. Node numbers grow
-with creation and a space belongs to one build, hence operand order and emitted text depend on nothing but
-the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are never flattened,
-because flattening would destroy sharing.
+A space interns every node, so equal expressions are identical objects and are stored once. Nodes are numbered
+in the order of their creation, and each build has a new space. Hence the order of operands and the emitted
+text depend only on the input. Nodes simplify only locally (constants, zeros, ones, signs, x - x): sums are
+never flattened, because flattening would destroy sharing.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
 exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
 
 Payload: TypeAlias = Any
-"""A number for ``const``, a name for ``sym`` and ``call``, an exponent for ``pow``; None for all other
-operations."""
+"""The data of a node besides its arguments: a number for ``const``, a name for ``sym`` and ``call``, an
+exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
     "sqrt",
@@ -95,7 +95,7 @@ class Expr:
 
 
 class Space:
-    """An interning table for expressions.
+    """A table that contains each expression once.
 
     >>> s = Space(); x, y = s.sym("x"), s.sym("y")
     >>> (x + y) * 2 is (y + x) * 2
@@ -143,7 +143,8 @@ class Space:
             return self.const(-a.payload)
         if a.op == "neg":
             return a.args[0]
-        # -(a - b) = b - a holds in floating point up to the sign of zero, and saves the negation.
+        # -(a - b) is replaced by b - a, which saves the negation. In floating point both are equal up to the
+        # sign of zero.
         if a.op == "sub":
             return self._make("sub", (a.args[1], a.args[0]))
         return self._make("neg", (a,))
@@ -163,7 +164,7 @@ class Space:
         # x + x equals 2 x exactly, and the product 2 x is shared with other sums that contain it.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
-        # Addition commutes in floating point, so one order of operands is enough. It is not associative, so
+        # Floating-point addition is commutative, so a + b and b + a are one node. It is not associative, so
         # sums of three terms keep their order.
         return self._make("add", (a, b) if a.id < b.id else (b, a))
 
@@ -180,7 +181,8 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # Signs move outwards, where a surrounding sum absorbs them: -x - b = -(x + b) shares x + b.
+            # The sign is moved to the outside, because a sum that contains the result becomes a difference at
+            # no cost: -x - b = -(x + b), where x + b may be shared.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -204,8 +206,8 @@ class Space:
         if a.op == "neg":
             return self.neg(self.mul(a.args[0], b))
         if b.op == "neg":
-            # A constant absorbs the sign. Otherwise the sign moves outwards, so that x y and x (-y) share one
-            # product.
+            # If a is a constant, its sign changes. Otherwise the sign is moved to the outside of the product,
+            # so that x y and x (-y) share one product.
             return self.mul(self.neg(a), b.args[0]) if a.op == "const" else self.neg(self.mul(a, b.args[0]))
         if a is b:
             return self.pow(a, 2)
@@ -249,7 +251,8 @@ class Space:
         if a.op == "neg":
             power = self.pow(a.args[0], n)
             return self.neg(power) if n % 2 else power
-        # (sqrt x)^(2m) = x^m where the root is real, and formulas are evaluated only there.
+        # (sqrt x)^(2m) = x^m for x >= 0, and formulas are evaluated only where the arguments of their roots
+        # are not negative.
         if a.op == "call" and a.payload == "sqrt" and n % 2 == 0:
             return self.pow(a.args[0], n // 2)
         return self._make("pow", (a,), n)
@@ -257,15 +260,17 @@ class Space:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return function(args) for a function of :data:`FUNCTIONS`."""
         if function not in FUNCTIONS:
-            # An unknown name would otherwise fail in a printer, far from the cause.
+            # Without this test an unknown name would cause an error only later, in a printer.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Whether two constants can be folded into one constant: they need a common ring."""
-    # Rational numbers embed in every ring. Two different rings have no common ring.
+    """Whether the sum or product of two constants can be computed as one constant, which requires a common
+    ring."""
+    # A rational number is an element of every ring. For elements of two different other rings, no common ring
+    # is known.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
@@ -273,8 +278,8 @@ def _joinable(a: Expr, b: Expr) -> bool:
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
     """Yield each node of the expressions once, arguments before users; skip the arguments of nodes for which
     stop is true."""
-    # An explicit stack is used, because long steps nest deeper than Python's limit of recursion. The loop is
-    # written for speed: a compilation visits millions of nodes.
+    # An explicit stack is used, because the expressions of long steps are nested more deeply than Python's
+    # recursion limit allows. The loop is written for speed, because a compilation visits millions of nodes.
     seen: set[Expr] = set()
     users: list[tuple[Expr, Iterator[Expr]]] = []
     for root in roots:
@@ -291,7 +296,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The remaining arguments of the user are visited after this one.
+                    # The user of this node goes back to the stack: its remaining arguments are visited after
+                    # this one.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -320,7 +326,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
     for node in walk(roots):
-        # Arguments come first in walk, so their values exist.
+        # walk yields the arguments of a node before the node, so the values of the arguments are already
+        # known.
         args = node.args
         if node.op in _BINARY:
             value = _BINARY[node.op](result[args[0]], result[args[1]])

@@ -29,7 +29,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     import sympy
 
     try:
-        formula = sympy.sympify(expression, strict=True)  # strict: a string is no formula
+        formula = sympy.sympify(expression, strict=True)  # strict: sympify must not parse a string
     except sympy.SympifyError:
         what = f"{type(expression).__name__} {expression!r}"
         raise SceneError(what, where=where, expected="a sympy formula or a number") from None
@@ -46,8 +46,8 @@ class _Reader:
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
-        # sympy's trees share subexpressions. Without the table a nested formula could be read exponentially
-        # often.
+        # Sympy expressions share subexpressions. The table stores the result for each of them; without it the
+        # time could grow exponentially with the depth of the formula.
         if e not in self.known:
             self.known[e] = self._read(e)
         return self.known[e]
@@ -57,10 +57,11 @@ class _Reader:
 
         if isinstance(e, sympy.Symbol):
             return self.space.sym(e.name)
-        # Rational is tested before Float: a rational number stays exact, a float is refused.
+        # A rational number stays exact. A float fails this test and is refused below.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
-        # Sums are read as binary operations in sorted order, so rounding, too, depends on the formula alone.
+        # A sum is read as a chain of binary additions in sorted order, so its rounding errors also depend
+        # only on the formula.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
         if isinstance(e, sympy.Mul):
@@ -87,7 +88,8 @@ class _Reader:
                 below.append(self._power(self.node(a.base), -a.exp, a))
             else:
                 above.append(self.node(a))
-        # Numerator and divisor are separate products: x/(y z) has one division, but x y^-1 z^-1 has two.
+        # Numerator and divisor are formed as separate products, because x/(y z) has one division and x y^-1
+        # z^-1 has two.
         product = _fold(self.space.mul, above) if above else self.space.one
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
@@ -97,7 +99,7 @@ class _Reader:
             return space.pow(base, int(exponent))
         if exponent.is_Rational and exponent.q == 2:
             root, n = space.call("sqrt", base), int(exponent.p)
-            # x^(n/2) = x^(n div 2) sqrt x: all half-integer powers of one base share one root.
+            # x^(n/2) = x^(n div 2) sqrt x for odd n: all half-integer powers of one base share one root.
             value = space.mul(space.pow(base, abs(n) // 2), root)
             return value if n > 0 else space.div(space.one, value)
         raise SceneError(f"the power {e}", where=self.where, expected="an integer or half-integer exponent")
@@ -111,7 +113,8 @@ def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
 
 
 def _fold(operation: Callable[[Expr, Expr], Expr], nodes: list[Expr]) -> Expr:
-    # The sum starts at the first node and not at 0 or 1, so no node is created that simplification removes.
+    # The loop starts with the first node and not with 0 or 1, so that no node is created only to be
+    # simplified.
     total = nodes[0]
     for node in nodes[1:]:
         total = operation(total, node)

@@ -1,4 +1,5 @@
-"""The interpreter: it evaluates a step program over any domain; emitted code is tested against it."""
+"""The interpreter: it evaluates a step program over any domain. Tests compare emitted code with its
+results."""
 
 from __future__ import annotations
 
@@ -75,7 +76,8 @@ def interpret(
         if isinstance(statement, Assign):
             run(statement)
         elif near is not None:
-            # near is a queue: each block removes the first entry and appends its solution.
+            # ``near`` is a queue: each block removes the first entry, uses it as its start, and appends its
+            # solution.
             near.append(_correct(statement, env, _differenced(domain), run, limit, near.pop(0)))
         else:
             _fixed_point_first(statement, env, domain, run, limit, expected, newton)
@@ -109,7 +111,8 @@ def _fixed_point_first(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    # Every group implements the operation Ad*_q of programs, so no separate formula is needed.
+    # The operation Ad*_q of step programs computes the result, so this function needs no formula for the
+    # group.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -138,10 +141,11 @@ def _composed(
     newton: bool,
     near: list[list[Scalar]] | None,
 ) -> State:
-    """Return the new state after all substeps."""
+    """Return the new state after all substeps of the program."""
     substep, state = replace(program, substeps=()), dict(inputs)
     for step in program.substeps:
-        # A shallow copy is enough: only h differs, and the caller's domain keeps its own h.
+        # The domain is copied, so that the caller's domain keeps its h. A shallow copy is enough, because
+        # only h differs.
         shorter = copy(domain)
         shorter.h = domain.number(step.fraction) * domain.h
         if "t" in inputs:
@@ -180,7 +184,8 @@ def _iterate(
 
 
 def _differenced(domain: Domain) -> Differenced:
-    # isinstance would miss a domain that wraps another domain and forwards attributes by __getattr__.
+    # isinstance is not used, because it is false for a domain that wraps another domain and forwards
+    # attributes by __getattr__.
     assert hasattr(domain, "increment")
     return cast("Differenced", domain)
 
@@ -214,7 +219,7 @@ def _correct(
 
     rounded = getattr(domain, "rounded", list)
     now = [x for s in block.starts for x in flatten(s.kind, env[s])] if near is None else list(near)
-    # sharp is true once the corrections have converged; one more correction follows.
+    # ``sharp`` becomes true when the corrections have converged; then one further correction is computed.
     size, sharp = None, False
     for _ in range(limit):
         values = images(now)
@@ -231,16 +236,17 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # The increment is the square root of the precision. A smaller change is enough, because the next
-            # correction squares the error.
+            # A change below the increment, which is about the square root of the rounding unit, is small
+            # enough, because the next correction squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:
-            # The last run of the body was at a displaced point, so the body runs once more at the solution.
+            # The body was last evaluated at a point displaced for a difference quotient, so it is evaluated
+            # once more at the solution.
             images(now)
             if sharp:
                 return now
-            sharp = True  # one more correction, because slow convergence leaves some rounding errors
+            sharp = True  # one further correction removes rounding errors that remain after slow convergence
     raise NotConverged(f"{block.label} did not converge in {limit} sweeps; the last change was {size}")
 
 
@@ -249,13 +255,13 @@ def _solved(columns: list[list[Scalar]], right: list[Scalar]) -> list[Scalar]:
     n = len(right)
     rows = [[column[i] for column in columns] + [right[i]] for i in range(n)]
     for k in range(n):
-        # Partial pivoting is needed: the matrix is near the identity only for small h.
+        # Partial pivoting is needed, because for large h the matrix is not close to the identity.
         pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
         rows[k], rows[pivot] = rows[pivot], rows[k]
         if not rows[k][k]:
             raise NotConverged("Newton's matrix is singular")
         for i in range(k + 1, n):
-            # Entries below the pivot are not read again, so they need not become zero exactly.
+            # The entries below the pivot are not read after this step, so they need not be set to zero.
             factor = rows[i][k] / rows[k][k]
             rows[i] = [x - factor * y for x, y in zip(rows[i], rows[k], strict=True)]
     solution: list[Scalar] = []

@@ -1,12 +1,13 @@
-"""Jacobians of expressions by elimination of vertices: exact, and cheaper than to compute one column after
-the other.
+"""Jacobians of expressions by elimination of vertices. The method is exact, and it is cheaper than computing
+one column after the other.
 
 The expressions form a graph whose edges are labelled with partial derivatives. The elimination of a vertex
 multiplies the label of each incoming edge by the label of each outgoing edge. When only the variables and the
 results are left, the labels of the edges between them are the Jacobian. The order of elimination determines
-the number of products. The vertex on the fewest paths is always eliminated next (Markowitz's rule; Griewank
-and Walther, Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders,
-which are seldom the cheapest.
+the number of products. In each step the vertex with the fewest products is eliminated: the number of its
+incoming edges times the number of its outgoing edges is least (Markowitz's rule; Griewank and Walther,
+Evaluating Derivatives, ch. 10). Forward and reverse differentiation are two special orders, which are seldom
+the cheapest.
 """
 
 from __future__ import annotations
@@ -28,8 +29,8 @@ def jacobian(roots: Sequence[Expr], symbols: Sequence[str]) -> tuple[tuple[Expr,
     >>> jacobian([x * y, x + 2 * y], ["x", "y"])
     ((y, x), (1, 2))
     """
-    # Columns are found by the number of the variable's node, because a variable that no root reads has no
-    # vertex.
+    # A dictionary maps the node number of each variable to its column, because a variable that no root reads
+    # has no vertex.
     space = roots[0].space
     columns = {space.sym(name).id: j for j, name in enumerate(symbols)}
     graph = _Graph(roots, columns)
@@ -55,7 +56,7 @@ class _Graph:
         self.after: dict[int, dict[int, Expr]] = {u: {} for u in columns}
         self.inner: list[int] = []
         for node in walk(roots):
-            # A variable is a source: it keeps its edges and is never eliminated.
+            # A variable has no incoming edges and is never eliminated.
             if node.id in columns:
                 continue
             # Nodes that depend on no variable never enter the graph, because their derivatives are zero.
@@ -70,7 +71,7 @@ class _Graph:
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
-        # A vertex u without entry depends on no variable.
+        # A vertex u that is not in the table depends on no variable.
         if u not in self.after:
             return
         old = self.before[v].get(u)
@@ -85,14 +86,14 @@ class _Graph:
             self.before[v][u] = self.after[u][v] = total
 
     def _cost(self, v: int) -> int:
-        """Return the number of paths of two edges through v."""
+        """Return the number of paths of two edges whose middle vertex is v."""
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
         """Eliminate every inner vertex, the cheapest first; among equal costs the vertex nearest to the
         results."""
-        # The queue contains -v, so that among equal costs the newest vertex comes first: it is nearest to the
-        # results.
+        # The queue contains -v, so that among vertices of equal cost the vertex with the largest number comes
+        # first: it is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
         # A vertex may have several entries in the queue, of which the first valid entry counts.
@@ -116,7 +117,7 @@ class _Graph:
                     heapq.heappush(queue, (self._cost(u), -u))
 
     def _take_out(self, v: int) -> list[int]:
-        # The vertex is removed from both tables first: the products below must not find edges to the vertex.
+        # The vertex is first removed from both tables, so that the products below do not use edges to it.
         ins, outs = self.before.pop(v), self.after.pop(v)
         for u in ins:
             del self.after[u][v]

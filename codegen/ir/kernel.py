@@ -18,31 +18,35 @@ from codegen.ir.number import Number
 from codegen.ir.program import Substep
 
 LEAD = "lead.h"
-"""The symbol for the duration of the last flow of a step; the dot prevents a clash with names of users."""
+"""The symbol for the duration of the last flow of a step. Its name contains a dot, so it differs from every
+name in a scene."""
 
 ELAPSED = "elapsed.h"
 """The symbol for the total duration of the steps whose flows are deferred."""
 
 LONGEST = 256
-"""The largest number of steps for which a flow is deferred; the bound keeps the flow's angles moderate."""
+"""The largest number of steps for which a flow is deferred. The bound limits the angles of the deferred flow,
+and so their rounding errors."""
 
 FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-newton"
-"""The methods that may solve a block."""
+"""The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
-"""A lower bound for the rate of convergence: smaller measured rates are not reliable, because of rounding."""
+"""A lower bound for the measured rate of convergence: a smaller measured rate is replaced by this bound,
+because rounding errors make it unreliable."""
 
 UNIT = 2.0**-53
-"""Half a unit in the last place of the number 1."""
+"""Half the distance from 1 to the next larger double: the largest relative rounding error."""
 
 LOST = 2.0**-47
-"""A change below this fraction of the largest number in a block of the state is lost in rounding."""
+"""A change below this fraction of the largest number in a block of the state is of the size of rounding
+errors."""
 
 VARIATION = "variation"
 """The name of the state field that holds a variation."""
 
 VARIED = "the variation of "
-"""The prefix of the labels of equations for variations."""
+"""The labels of loops that solve the equations for variations begin with this prefix."""
 
 
 @dataclass(frozen=True)
@@ -62,9 +66,10 @@ class Newton:
     matrix is expanded to leading order in h, and it is computed and inverted in each step. If ``inverted`` is
     true, ``matrix`` contains the entries of the inverse matrix.
 
-    If ``residuals`` is true, the loop's images are residuals that vanish at the solution. The matrix is then
-    minus their derivative to first order in h, and its inverse is used for ``period`` steps. ``changes``
-    names the last changes of the unknowns, by which values that are read after the loop may be corrected.
+    If ``residuals`` is true, the images of the loop are residuals, which are zero at the solution. The matrix
+    is then minus their derivative to first order in h, and its inverse is used for ``period`` steps.
+    ``changes`` contains the names of the last changes of the unknowns. Values of the body that are read after
+    the loop may be corrected by these changes.
     """
 
     body: tuple[Let, ...]
@@ -81,8 +86,8 @@ class Newton:
         """The number of steps for which an inverse is used; 0 means that it is used as long as the loop
         contracts.
 
-        The inverse costs a multiple of n^3, a sweep a multiple of n. The older the inverse, the more sweeps a
-        step takes.
+        Computing the inverse of an n x n matrix costs a multiple of n^3. An old inverse is less accurate, so
+        a step takes more sweeps.
         """
         # With n = len(matrix), n/2 steps share the cost of order n^3, so each step pays a cost of order n^2.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
@@ -110,8 +115,8 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # 512 rounding units, not one: rounding alone changes the unknowns by more than one unit, and by more the
-    # more terms a sweep has.
+    # 512 rounding units. One unit is too small, because the rounding errors of all terms of a sweep change
+    # the unknowns.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -133,8 +138,8 @@ class Loop:
         change by only h L times the last change. A rate that is small enough to end the loop therefore also
         bounds the error of these values.
         """
-        # If values after the loop are recomputed from the last unknowns, their error is the rate times the
-        # last change.
+        # If only the unknowns are read after the loop, their error is the rate of convergence times the last
+        # change.
         if self.only_unknowns_read and not (self.newton is not None and self.newton.residuals):
             return 16 * self.tolerance
         first_order = self.solver == SIMPLIFIED_NEWTON or (self.newton is not None and self.newton.residuals)
@@ -166,8 +171,8 @@ class Start:
     # A start whose error is half of the change is hardly better than u1, the extrapolation of degree 0.
     ROUGH: ClassVar[float] = 0.5
     # The limit is hardly ever reached. Before the first success each try halves the step, so 100 tries reach
-    # 2^-100 h. After the first success each failure replaces the factor by its square root: nine failures in
-    # a row end the search.
+    # 2^-100 h. After the first success each failure replaces the factor by its square root: nine consecutive
+    # failures end the search.
     TRIES: ClassVar[int] = 100
     # The largest factor is 4, and 4^(1/2^9) < 1 + 2^-8: the ninth failure in a row is the last.
     SHORTEST: ClassVar[float] = 2.0**-8
@@ -175,8 +180,8 @@ class Start:
 
 @dataclass(frozen=True)
 class Field:
-    """A named block of scalars in the state, the input or the output, with the scalars' names in order and a
-    meaning."""
+    """A named block of scalars in the state, the input or the output: the names of its scalars in order, and
+    a description."""
 
     name: str
     symbols: tuple[str, ...]
@@ -232,7 +237,7 @@ class Sample:
 class Estimate:
     """The new state minus an embedded solution of lower order, component by component.
 
-    Both solutions differ from the flow by O(h^order) or less in one step.
+    After one step from the same state, both solutions differ from the exact flow by O(h^order).
     """
 
     errors: tuple[Expr, ...]
@@ -241,17 +246,19 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Expansion:
-    """The Taylor polynomial of the solution at a state: a step evaluates it, and a run may choose h from it.
+    """The Taylor polynomial of the solution at a state. A step evaluates it, and a run may choose the step
+    size h from its coefficients.
 
     The outputs of ``coefficients`` are the coefficients 1, ..., ``degree`` of the state, one order after the
-    other. It is that of other coordinates than the state where ``enter`` computes them from the state;
-    ``leave`` computes the new state from the old one, followed by the new coordinates. Both are None where
-    there is nothing to compute.
+    other. If the polynomial is in other coordinates than the state, ``enter`` computes these coordinates from
+    the state, and ``leave`` computes the new state from the old state and the new coordinates. If nothing has
+    to be computed, ``enter`` or ``leave`` is None.
 
     With ``following`` the coefficients are computed in a loop over their order n
     (:class:`codegen.ir.taylor_loop.OrderLoop`). ``coefficients`` has then two groups of outputs: values for
     all orders, and the coefficients 1. The outputs of ``following`` are the left and the right operands of
-    ``sums`` inner sums, and the coefficients n + 1. ``controlled`` asks for a run that chooses its steps.
+    ``sums`` inner sums, and the coefficients n + 1. If ``controlled`` is true, there is a run with step
+    control.
     """
 
     degree: int
@@ -268,7 +275,7 @@ class Function:
     """A function that a kernel calls in several places: it evaluates ``body`` and returns ``outputs``, both
     from ``inputs`` alone.
 
-    Its k-th result is the expression that calls ``NAME.k``. ``about`` describes the function by operations of
+    In expressions, a call of ``NAME.k`` is its k-th result. ``about`` describes the function by operations of
     a program.
     """
 
@@ -319,8 +326,10 @@ class Kernel:
 
     @property
     def start(self) -> Start | None:
-        """The common start of all loops; None if each loop has its own starts."""
-        # A kernel has at most one Start: warm starts extrapolate the unknowns of all loops as one vector.
+        """The Start of the kernel, which computes the first values of all unknowns; None if each loop has its
+        own starts."""
+        # A kernel has at most one Start, because warm starts extrapolate the unknowns of all loops as one
+        # vector.
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
@@ -341,7 +350,8 @@ class Kernel:
                 yield statement.value
                 continue
             yield from (let.value for let in statement.body)
-            # A Start has values, a Loop has starts and images, and only a Loop may have a matrix.
+            # The expressions of a Start are its values. The expressions of a Loop are its starts and images,
+            # and the entries of its Newton matrix if it has one.
             if isinstance(statement, Start):
                 yield from statement.values
                 continue

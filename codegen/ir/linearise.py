@@ -1,8 +1,8 @@
 """Jacobians of expressions to first order in h, for simplified Newton iterations.
 
-Every expression is expanded as v_0 + v_1 h, together with its derivatives by the unknowns. Higher powers of h
-are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is evaluated at h = 0. An
-iteration with this Jacobian gains two powers of h a sweep.
+Every expression is expanded as v_0 + v_1 h, together with its derivatives with respect to the unknowns.
+Higher powers of h are never formed: an exponential of h x becomes 1 + h x, and a force with a factor h is
+evaluated at h = 0. In an iteration with this Jacobian, each sweep multiplies the error by O(h^2).
 """
 
 from __future__ import annotations
@@ -36,7 +36,8 @@ class _Dual:
 
 
 class FirstOrder:
-    """Derivatives of expressions by the unknowns up to h^1; shared subexpressions are expanded once.
+    """Derivatives of expressions with respect to the unknowns, to first order in h. A shared subexpression is
+    expanded only once.
 
     >>> from codegen.ir.expr import Space
     >>> s = Space(); x, h = s.sym("x"), s.sym("h")
@@ -61,7 +62,7 @@ class FirstOrder:
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
-        # The two coefficients are joined only at the end: in the result h is a symbol again.
+        # The coefficients v_0 and v_1 are kept apart until the end; the result is the expression v_0 + v_1 h.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
@@ -77,7 +78,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             return _Dual((node, zero), {})
         case "sym":
             if node.payload == STEP:
-                # The symbol h is 0 + 1 h.
+                # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
             # Unknowns have no term of order h: the expansion is at fixed unknowns.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
@@ -91,7 +92,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "mul":
             return _product(space, args[0], args[1])
         case "div":
-            # a/b = a (1/b) needs no rule of its own, and the inverse of a shared divisor is one node.
+            # a/b is expanded as the product of a and 1/b. If several quotients have the divisor b, they share
+            # the node 1/b.
             return _product(space, args[0], _inverse(space, args[1]))
         case "pow":
             result = args[0]
@@ -155,7 +157,7 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
-        # The derivatives of a root are infinite at 0.
+        # The derivatives of sqrt(x) are infinite at x = 0.
         if low.is_zero:
             raise NotLinearised("a root at its branch point")
         at = space.call("sqrt", low)

@@ -24,7 +24,7 @@ Relation = tuple[tuple[str, str], Sequence[tuple[Number, tuple[str, ...]]]]
 
 ONE = Number.rational(1)
 MOST_TERMS = 400
-"""A polynomial with more terms than this is not expanded further.
+"""A polynomial with more terms than this number is not expanded further.
 
 The limit bounds the compile time. With 200 or 800 all emitted files stay the same (to verify this, edit the
 number and run ``orderconds regenerate --check``).
@@ -51,7 +51,8 @@ class NormalForms:
         self.known: dict[int, Polynomial] = {x.id: {((self._atom(x), 1),): ONE} for x in whole}
         self.rules: dict[tuple[int, int], Polynomial] = {}
         for (a, b), terms in relations:
-            # Monomials are sorted by node number, so the pairs that are searched for in them are sorted, too.
+            # Monomials are sorted by node number. The keys of the rules are sorted in the same way, so that
+            # they can be found in monomials.
             i, j = sorted((self._atom(space.sym(a)), self._atom(space.sym(b))))
             right: Polynomial = {}
             for factor, symbols in terms:
@@ -59,8 +60,8 @@ class NormalForms:
                 for s in symbols:
                     monomial = self._times(monomial, self._variable(space.sym(s)))
                 right = _plus(right, monomial)
-            # Right sides stay unreduced, because _reduced applies the rules to the terms of a right side,
-            # too.
+            # The right sides of rules are not reduced in advance, because _reduced also applies the rules to
+            # the terms that a right side inserts.
             self.rules[i, j] = right
 
     def __call__(self, root: Expr) -> Expr:
@@ -69,7 +70,7 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # This is not a failure: the caller compares or emits the given expression.
+            # The given expression is a valid result: the caller compares or emits it.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -106,7 +107,8 @@ class NormalForms:
                     divisor = self.space.one / self.expression(args[1])
                     value = self._times(args[0], self._variable(divisor))
                 case _:
-                    # Arguments are in normal form, so calls with equal arguments become one variable.
+                    # Arguments are in normal form, so calls of a function with equal arguments become one
+                    # variable.
                     inner = [self.expression(a) for a in args]
                     value = self._variable(self.space.call(node.payload, *inner))
             known_forms[node.id] = value
@@ -123,7 +125,7 @@ class NormalForms:
         # This is Horner's rule in several variables. Among equal counts max returns the first one: the oldest
         # node.
         best = max(sorted(count), key=lambda a: count[a], default=-1)
-        # Taking out a factor that occurs in one term only saves no product.
+        # A factor that occurs in only one term is not taken out, because this would save no product.
         if best < 0 or count[best] < 2:
             return self._sum(terms)
         inside: Polynomial = {}
@@ -135,13 +137,14 @@ class NormalForms:
                 continue
             powers[best] -= 1
             inside[tuple(sorted((a, n) for a, n in powers.items() if n))] = c
-        # Each call removes a factor from a term, so the recursion ends.
+        # The recursion ends, because each call removes a factor from a term.
         product = self.atoms[best] * self.expression(inside)
         return self.expression(outside) + product if outside else product
 
     def _sum(self, terms: Mapping[Monomial, Number]) -> Expr:
         total = self.space.zero
-        # Monomials are distinct, so the order never compares coefficients.
+        # Sorting compares the monomials of the terms and never their coefficients, because the monomials are
+        # distinct.
         for monomial, c in sorted(terms.items()):
             product = self.space.const(c)
             for atom, n in monomial:
@@ -159,15 +162,16 @@ class NormalForms:
         return {((self._atom(node), 1),): ONE}
 
     def _times(self, a: Polynomial, b: Polynomial) -> Polynomial:
-        # This test limits only the work. The result may still be short, because like terms are added.
+        # This test limits only the work in one product. The result may have fewer terms than the limit,
+        # because like terms are added.
         if len(a) * len(b) > MOST_TERMS**2:
             raise TooLong
         total: Polynomial = {}
         for m, x in a.items():
             for n, y in b.items():
                 total = _add(total, _product(m, n), x * y)
-        # This stops an expansion before it fills the memory: the length of nested products of sums grows
-        # exponentially.
+        # Without this limit an expansion could fill the memory, because the length of nested products of sums
+        # grows exponentially.
         if len(total) > MOST_TERMS:
             raise TooLong
         return total
@@ -183,13 +187,14 @@ class NormalForms:
             monomial, c = waiting.popitem()
             powers = dict(monomial)
             for (i, j), right in self.rules.items():
-                # The left side may be a square, i = j: then the exponent must be at least 2.
+                # The left side may be a square, that is i = j; the exponent must then be at least 2.
                 if powers.get(i, 0) >= 1 + (i == j) and powers.get(j, 0) >= 1:
                     powers[i] -= 1
                     powers[j] -= 1
                     rest = {tuple(sorted((a, n) for a, n in powers.items() if n)): c}
                     waiting = _plus(waiting, self._times(rest, right))
-                    # The right side may contain other leading products, so its terms wait to be reduced, too.
+                    # The terms of the right side may contain left sides of other rules, so they are appended
+                    # to the terms that are still to be reduced.
                     break
             else:
                 done = _add(done, monomial, c)
@@ -202,7 +207,8 @@ def _product(m: Monomial, n: Monomial) -> Monomial:
     """Return the product of two monomials."""
     if not m or not n:
         return m or n
-    # All nodes of one monomial may precede those of the other, then the product is sorted already.
+    # If all nodes of one monomial precede all nodes of the other monomial, the concatenation is already
+    # sorted.
     if m[-1][0] < n[0][0]:
         return m + n
     if n[-1][0] < m[0][0]:

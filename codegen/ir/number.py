@@ -43,7 +43,8 @@ class Number:
     @cached_property
     def key(self) -> tuple[object, ...]:
         """The key that decides equality: equal numbers have equal keys."""
-        # Keys make equality decidable for balls, too: equal names in a file give equal keys.
+        # Keys make equality decidable also for balls: coefficients with the same name in a file have equal
+        # keys.
         return tuple(self.ring.key(self.element))
 
     def __eq__(self, other: object) -> bool:
@@ -54,7 +55,7 @@ class Number:
 
     @classmethod
     def rational(cls, p: int, q: int = 1) -> Number:
-        """Return p/q.
+        """Return the rational number p/q.
 
         >>> Number.rational(1, 2) + Number.rational(1, 2) == Number.rational(1)
         True
@@ -72,7 +73,7 @@ class Number:
         True
         """
         try:
-            # Fraction reads 0.1 as 1/10; a float would not.
+            # Fraction converts the text 0.1 to 1/10 exactly; a conversion through float would round it.
             value = Fraction(text) if _TYPED.fullmatch(text) else None
         except ZeroDivisionError:
             value = None
@@ -104,7 +105,8 @@ class Number:
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:
         if self.ring is other.ring:
             return self.ring, self.element, other.element
-        # A rational number embeds in any ring. Two rings other than QQ have no common ring.
+        # A rational number is an element of every ring. For elements of two different rings other than QQ, no
+        # common ring is known.
         if self.ring is QQ:
             return other.ring, other.ring.rational(int(self.element.p), int(self.element.q)), other.element
         if other.ring is QQ:
@@ -114,7 +116,8 @@ class Number:
         raise TypeError(f"numbers of two different fields cannot be combined: {names}")
 
     def __add__(self, other: Number) -> Number:
-        # Rational numbers cancel exactly. Most numbers are rational, and keys take time.
+        # This case comes first, because most numbers are rational, and because rational numbers need no keys,
+        # which take time to compute.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
         # For balls the sum would be a ball around 0, which no simplification recognises.
@@ -134,7 +137,7 @@ class Number:
     def __mul__(self, other: Number) -> Number:
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element * other.element)
-        # A product by 1 would widen a ball and change its key without need.
+        # Multiplying by 1 would make a ball wider and change its key, so the other factor is returned.
         if self.is_one or other.is_one:
             return other if self.is_one else self
         ring, x, y = self._join(other)
@@ -156,7 +159,8 @@ class Number:
     def _nearest(self) -> float:
         if self.is_rational:
             return float(self.fraction())
-        # 40 digits are far more than the 17 of a double, so only the last rounding affects the result.
+        # The value is first computed to 40 digits, far more than the 17 digits of a double, so only the final
+        # rounding affects the result.
         return float(self.ring.approximate(self.element, 40))
 
     def fraction(self) -> Fraction:

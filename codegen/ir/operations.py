@@ -52,10 +52,11 @@ class Operation(ABC):
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
     """The kinds of the arguments and of the results of an operation whose parameters do not change them."""
-    # Passes may move factors and sums through a linear operation, as in ad_x(c v + w) = c ad_x v + ad_x w.
+    # Passes use linearity to move factors and sums out of an operation, for example ad_x(c v + w) = c ad_x v
+    # + ad_x w.
     linear_in_last: ClassVar[bool] = False
     """Whether the result is linear in the last argument."""
-    # A method's cost is counted in evaluations of the scene and in exponentials.
+    # The cost of a method is the number of its evaluations of the scene and of its exponentials.
     evaluates_scene: ClassVar[bool] = False
     """Whether the operation counts as one evaluation of the field or of the derivatives of the
     Hamiltonian."""
@@ -130,8 +131,8 @@ class Linear(Operation):
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
         """Whether there is one argument for each coefficient, at least one, and all have the kind of the
         result."""
-        # An empty sum is a Zero, which stores its kind. The kind of a combination is determined by its
-        # arguments.
+        # A combination has at least one argument, because its kind is the kind of its arguments. An empty sum
+        # is a Zero, which stores its kind.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
         return alike and len(arguments) == len(self.coefficients)
 
@@ -150,7 +151,7 @@ class Linear(Operation):
             groups.setdefault(c, []).append(x)
         total: Value = None
         for c, vectors in groups.items():
-            # Dictionaries keep the order of first use, so the sum is the same in each build.
+            # Dictionaries keep the order of insertion, so each build forms the sum in the same order.
             part = vectors[0]
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
@@ -222,7 +223,7 @@ class Multiply(OfGroup):
 
 @dataclass(frozen=True)
 class MultiplyExp(OfGroup):
-    """g exp(x), each row of its matrix computed separately."""
+    """g exp(x), where each row of the matrix is computed separately."""
 
     name = "mulexp"
     takes, gives = G + A, G
@@ -320,7 +321,7 @@ class InverseDexp(Operation):
     @property
     def word(self) -> Word:
         """The operation as a function of ad."""
-        # As a word the operation can be joined with neighbouring functions of the same ad.
+        # A pass joins this function and neighbouring functions of the same ad_x in one word.
         return (Factor("dexpinv", UNIT, self.order),)
 
     def text(self) -> str:
@@ -334,15 +335,16 @@ class InverseDexp(Operation):
 
     def evaluate(self, problem: Problem, domain: Domain, args: Values) -> Values:
         """Return the results for arguments of a domain."""
-        # The order is an argument, because the number of brackets depends on the method and not on the group.
+        # The order is passed to the group, because the number of brackets depends on the method and not on
+        # the group.
         return problem.apply(domain, "dexpinvt" if self.dual else "dexpinv", self.order, args)
 
 
 @dataclass(frozen=True)
 class InverseDexpSlope(Operation):
-    """P*_(order)(x, y) mu: <P* mu, z> = <mu, derivative of dexpinv_x y by x along z>.
+    """P*_(order)(x, y) mu, defined by <P* mu, z> = <mu, d/deps dexpinv_{x + eps z} y at eps = 0>.
 
-    Here dexpinv is the dexp^{-1} of :class:`InverseDexp` with the same order.
+    dexpinv is the truncated dexp^{-1} of :class:`InverseDexp` with the same order.
     """
 
     order: int

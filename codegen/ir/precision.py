@@ -1,4 +1,4 @@
-"""Floating-point formats that emitted code computes in: rounding and text of constants.
+"""The floating-point formats of emitted code: how constants are rounded and printed in each format.
 
 >>> SINGLE.text(SINGLE.round(Number.rational(1, 3))), DOUBLE.text(DOUBLE.round(Number.rational(1, 3)))
 ('0.33333334', '0.3333333333333333')
@@ -34,7 +34,7 @@ class Precision:
 
     @property
     def unit(self) -> float:
-        """Half a unit in the last place of one."""
+        """The unit roundoff: half the distance from 1 to the next larger number of the format."""
         return math.ldexp(1.0, -self.bits)
 
     @property
@@ -54,7 +54,7 @@ class Precision:
     def round(self, value: Number | Fraction | float) -> float:
         """Return the nearest number of the format, rounded once; InputError if the value is too large."""
         rounded = _double(value) if self.bits == 53 else _nearest(value, self.bits)
-        # The condition is negated, because comparisons with a NaN are false: a NaN is refused, too.
+        # The condition is negated, because comparisons with a NaN are false; a NaN is thus also refused.
         if not abs(rounded) <= self.largest:
             text = value.text() if isinstance(value, Number) else str(value)
             raise InputError(
@@ -67,12 +67,13 @@ class Precision:
         # Python's ``repr`` of a float is already the shortest text that reads back as the same double.
         if self.bits == 53:
             return repr(x)
-        # Python prints the shortest digits of a double; the shortest digits of a single are found by trial.
+        # Python prints a double with the fewest digits. For other formats the smallest number of digits is
+        # found by trial.
         for digits in range(1, self.digits + 1):
             shorter = repr(float(f"{x:.{digits}g}"))
             if struct.pack("f", float(shorter)) == struct.pack("f", x):
                 return shorter
-        raise AssertionError(x)  # ``self.digits`` digits always read back
+        raise AssertionError(x)  # A text of ``self.digits`` digits always reads back as the same number.
 
 
 def _double(value: Number | Fraction | float) -> float:
@@ -96,7 +97,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
     # The bit lengths give two candidates for the exponent; this comparison decides.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
-    # Subnormal numbers have fewer bits: the last place has a fixed exponent there.
+    # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])
     try:
         return math.ldexp(round(exact / Fraction(2) ** exponent), exponent)
@@ -111,7 +112,7 @@ PRECISIONS = {p.name: p for p in (DOUBLE, SINGLE)}
 
 
 def precision(name: str) -> Precision:
-    """Return the format of that name; UnknownName for an unknown name."""
+    """Return the format called name; raise UnknownName for an unknown name."""
     if name not in PRECISIONS:
         raise UnknownName(f"unknown precision {name}", expected=" or ".join(PRECISIONS))
     return PRECISIONS[name]

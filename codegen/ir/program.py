@@ -44,13 +44,13 @@ class Assign:
     @property
     def terms(self) -> tuple[tuple[Coefficient, Var], ...]:
         """The terms of a linear combination; () for any other operation."""
-        # For other operations the result is empty, so callers may loop over terms without testing the
+        # The result is empty for other operations, so that callers may loop over terms without testing the
         # operation.
         if not isinstance(self.operation, Linear):
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Passes treat multiples in a special way, because a number commutes with every linear map.
+    # Passes move the coefficient of a multiple, because a number commutes with every linear map.
     @property
     def is_multiple(self) -> bool:
         """Whether the operation is a combination of one term: one coefficient times one value."""
@@ -92,8 +92,8 @@ Statement = Assign | Solve
 
 
 EMBEDDED = "embedded"
-"""The name of a second new state y, of lower order, in the output of a program; it gives an error
-estimate."""
+"""The output name of the embedded solution: a second new state y of lower order, from which the error is
+estimated."""
 
 
 SPACE, BODY = "space", "body"
@@ -136,17 +136,17 @@ class Program:
         """Return the number of occurrences of each operation, sorted by name; a block counts as one sweep."""
         total: dict[str, int] = {}
         for assign in self.assigns():
-            # The number of sweeps is not known before a program runs, so the operations of a block count
-            # once.
+            # The number of sweeps of a block is not known before the program is run, so its operations are
+            # counted once.
             total[assign.operation.name] = total.get(assign.operation.name, 0) + 1
         return dict(sorted(total.items()))
 
     def text(self) -> str:
-        """Return the program as text, one statement a line."""
+        """Return the program as text, with one statement on each line."""
         # The lines have the order of execution, and the body of a block is indented.
         lines = [f"{self.name}({', '.join(f'{v.name}: {v.kind}' for v in self.inputs)})"]
         lines += [f"  for h = ({step.fraction.text()}) h:" for step in self.substeps]
-        # The frame changes the meaning of all statements, so it is shown before them.
+        # The frame changes the meaning of all statements, so the text begins with the frame.
         lines += ["  with Ad*(q, mu) for mu:"] if self.frame == BODY else []
         for statement in self.body:
             if isinstance(statement, Assign):
@@ -226,8 +226,8 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
         var = self.fresh(target, kind)
-        # Terms with coefficient zero are omitted, because passes infer from the arguments which stages depend
-        # on which.
+        # Terms with coefficient zero are omitted, because passes read the dependences between stages from the
+        # arguments.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))

@@ -84,7 +84,7 @@ class BodyForce(OfScene):
 class Legendre(OfGroup):
     """The momentum P as a function of the velocity W, both in the body frame."""
 
-    # This operation does not count as an evaluation: it is a constant matrix times a vector.
+    # This operation does not count as an evaluation, because it multiplies a vector by a constant matrix.
     name = "legendre"
     takes, gives = A, D
     noun = "Legendre transform{s}"
@@ -113,7 +113,7 @@ class Differential(OfGroup):
 class Secant(OfGroup):
     """The covector nearest to g whose pairing with x is H1 - H0; the arguments are g, x, H0, H1."""
 
-    # The secant is one operation, because its quotient is 0/0 at x = 0 and needs a guard.
+    # The formula is one operation, because it contains a quotient that is 0/0 at x = 0 and is then set to 0.
     name = "secant"
     takes, gives = D + A + R + R, D
     noun = "discrete differential{s}"
@@ -121,9 +121,10 @@ class Secant(OfGroup):
 
 @dataclass(frozen=True)
 class Bivector(OfGroup):
-    """omega_y(alpha, .); it is f(y) where alpha is the differential of H."""
+    """omega_y(alpha, .), the bivector at y applied to a covector alpha. If alpha is the differential of H at
+    y, the result is f(y)."""
 
-    # Passes may move numbers out of the covector alpha, because the result is linear in alpha.
+    # The result is linear in the covector alpha, so passes may move a factor of alpha out of the operation.
     name = "bivector"
     linear_in_last = True
     takes, gives = P + D, A
@@ -132,7 +133,8 @@ class Bivector(OfGroup):
 
 @dataclass(frozen=True)
 class TaylorStep(Operation):
-    """The Taylor polynomial of a degree at y, evaluated after the time h; where ``timed``, at (y, t)."""
+    """The Taylor polynomial of the solution that begins at y, evaluated after the time h. If ``timed`` is
+    true, the arguments are y and t."""
 
     degree: int
     timed: bool = False
@@ -155,7 +157,7 @@ class TaylorStep(Operation):
 
 @dataclass(frozen=True)
 class ToOrbit(OfGroup):
-    """y moved back to the manifold that contains the second argument."""
+    """The first argument y, projected onto the manifold that contains the second argument."""
 
     name = "to_orbit"
     takes, gives = P + P, P

@@ -27,18 +27,20 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
                 known[node.id] = seeds[node.payload]
             continue
         moving = [(k, known[a.id]) for k, a in enumerate(node.args) if a.id in known]
-        # A node that depends on no seeded symbol is not in the table: its tangent is exactly zero.
+        # If a node depends on no symbol with a seed, its tangent is exactly zero, and the table has no entry
+        # for it.
         if not moving:
             continue
-        # The derivatives are formed after the test above: functions without a derivative are allowed where
-        # all arguments are constant.
+        # Derivatives are formed only after this test, because a function without a derivative is allowed if
+        # all its arguments are constant.
         slopes = partials(node)
         total = node.space.zero
-        # The chain rule along one direction takes one product for each argument that is not constant,
-        # whatever the number of seeds.
+        # In one direction the chain rule needs one product for each argument that is not constant, whatever
+        # the number of seeds.
         for k, rate in moving:
             total = total + slopes[k] * rate
-        # Terms may cancel. A zero is not entered in the table, so that the users of the node skip it, too.
+        # Terms may cancel. A zero is not entered in the table, so that nodes that contain this node treat it
+        # as constant.
         if not total.is_zero:
             known[node.id] = total
     return tuple(known.get(root.id, root.space.zero) for root in roots)

@@ -1,8 +1,8 @@
 """The recurrence of Taylor coefficients as a loop over their order, for fields whose unrolled code is long.
 
 Coefficient n of a product is a_0 b_n + a_n b_0 and the sum of a_j b_{n-j} over 0 < j < n. These inner sums
-need coefficients of lower orders alone. The loop computes the inner sums of all operations first, side by
-side, and then coefficient n of each expression in turn. The code of one order serves all of them.
+contain only coefficients of lower orders. The loop first computes the inner sums of all operations together,
+and then coefficient n of one expression after the other. The same code is executed for every order n.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ from codegen.ir.taylor_series import (
 )
 
 ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
-"""The symbols of n, 1/n, 1/(n + 1), and of the coefficient n of the time, in the code of one order."""
+"""The symbols of n, 1/n, 1/(n + 1), and of coefficient n of the time, in the code of order n."""
 
 PROBED = 3
-"""Orders that are computed to find the series that are constant in time."""
+"""The number of orders that are computed in order to find the series that are constant in time."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
         x = work.of(slope)
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list grows: an operand that no derivative reads, as the cosine in a sine, may need sums of its own.
+    # The list grows in the loop, because an operand that no derivative contains, such as the cosine for a
+    # sine, may need further sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
@@ -124,7 +125,7 @@ class _Loop:
                 missing = [x for x in _operands(series) if id(x) not in self.known]
                 waiting += missing
                 if not missing:
-                    self.known[id(series)] = self.made(series)
+                    self.known[id(series)] = self.built(series)
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
@@ -132,7 +133,7 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return a value of order 0 as a symbol of the code of order n; numbers stay themselves."""
+        """Return a value of order 0 as a symbol of the code of order n; a number is returned unchanged."""
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -160,8 +161,8 @@ class _Loop:
         """Return the sum of a_j b_{n-j} over 0 < j <= n, for a series b whose coefficient n is not known."""
         return self.inner(a, b) + _known(self.known[id(a)]) * self.value(b.term(0))
 
-    def made(self, series: Series) -> Expr:
-        """Return coefficient n of a series from those of its operands."""
+    def built(self, series: Series) -> Expr:
+        """Return coefficient n of a series, computed from the coefficients of its operands."""
         space = self.space
         match series:
             case Sum(a=a, b=b, minus=minus):
@@ -210,7 +211,7 @@ class _Loop:
 
 
 def _operands(series: Series) -> Sequence[Series]:
-    """Return the series whose coefficient n is needed for that of a series."""
+    """Return the series whose coefficients n are needed to compute coefficient n of a series."""
     match series:
         case Sum(a=a, b=b) | Convolution(a=a, b=b) | Quotient(a=a, b=b):
             return a, b

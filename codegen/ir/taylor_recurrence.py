@@ -38,7 +38,7 @@ TIME = "t"
 
 @dataclass
 class _Builder:
-    """The series of expressions; ``values`` are those of symbols that are constant in time."""
+    """The series of expressions; ``values`` are the values of the symbols that are constant in time."""
 
     domain: Domain
     series: dict[str, Series]
@@ -49,7 +49,7 @@ class _Builder:
 
     def of(self, root: Expr) -> Series:
         """Return the series of an expression."""
-        # The stack replaces recursion: expressions are deeper than Python's limit.
+        # A stack is used, because expressions may be nested more deeply than Python's recursion limit allows.
         waiting = [root]
         while waiting:
             node = waiting[-1]
@@ -58,12 +58,12 @@ class _Builder:
                 waiting += missing
                 continue
             if node.id not in self.known:
-                self.known[node.id] = self.made(node)
+                self.known[node.id] = self.built(node)
             waiting.pop()
         return self.known[root.id]
 
     def operands(self, node: Expr) -> tuple[Expr, ...]:
-        """Return the expressions whose series the series of a node reads."""
+        """Return the expressions whose series are needed for the series of a node."""
         _, base, _ = self.monomial(node)
         if base is not node:
             return (base,)
@@ -73,7 +73,8 @@ class _Builder:
         return node.args
 
     def monomial(self, root: Expr) -> tuple[Number, Expr, Fraction]:
-        """Return c, x, e with the node equal to c x^e, where e is no positive integer, or x is the node."""
+        """Return (c, x, e) such that the node equals c x^e. Either e is not a positive integer, or x is the
+        node itself."""
         for node in walk([root], lambda n: n.id in self.monomials):
             if node.id not in self.monomials:
                 self.monomials[node.id] = self._monomial(node)
@@ -109,11 +110,12 @@ class _Builder:
                 result = (c * d, x, e + f) if node.op == "mul" else (c / d, x, e - f)
             case _:
                 return plain
-        # A positive integer is left to products, as their coefficients need no division by x.
+        # Powers with positive integer exponents are computed by products, because the coefficients of
+        # products need no division by x.
         return plain if result[2].denominator == 1 and result[2] >= 0 and result[2] != 1 else result
 
-    def made(self, node: Expr) -> Series:
-        """Return the series of a node whose operands have theirs."""
+    def built(self, node: Expr) -> Series:
+        """Return the series of a node; the series of its operands must already exist."""
         domain = self.domain
         number, base, exponent = self.monomial(node)
         if base is not node:
@@ -126,8 +128,8 @@ class _Builder:
             case "const":
                 return Given(domain, domain.number(node.payload))
             case "sym":
-                found = self.series.get(node.payload)
-                return found if found is not None else Given(domain, self.values[node.payload])
+                known = self.series.get(node.payload)
+                return known if known is not None else Given(domain, self.values[node.payload])
             case "add" | "sub":
                 return Sum(domain, arg(0), arg(1), node.op == "sub")
             case "mul":
@@ -149,7 +151,7 @@ class _Builder:
         return a if number.is_one else Multiple(self.domain, number, a)
 
     def power(self, a: Series, base: Expr, exponent: Fraction) -> Series:
-        """Return the series of a power; equal powers of one expression are one series."""
+        """Return the series of a power; equal powers of one expression share one series."""
         if exponent == 1:
             return a
         key = "power", base.id, exponent
@@ -185,7 +187,8 @@ class _Builder:
             case "log":
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
-                # The recurrences of sine and cosine read one another.
+                # The recurrence of the sine contains coefficients of the cosine, and the recurrence of the
+                # cosine those of the sine.
                 sine, cosine = (
                     Circular(domain, "sin", a, slope, False),
                     Circular(domain, "cos", a, slope, True),
@@ -204,8 +207,8 @@ class _Builder:
 class Recurrence:
     """The series of the coordinates of y(t + s scale), in powers of s, and of their derivatives.
 
-    ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are those of the other
-    symbols, the time ``t`` among them. A numeric factor of a derivative is kept apart from its series.
+    ``roots`` are the derivatives of the coordinates called ``symbols``; ``values`` are the values of all
+    other symbols, including the time ``t``. The numeric factor of a derivative is not part of its series.
     """
 
     def __init__(
@@ -225,12 +228,13 @@ class Recurrence:
         self.slopes = [_apart(builder.of(root)) for root in roots]
 
     def extend(self, degree: int) -> list[list[Coefficient]]:
-        """Return, for each coordinate, the coefficients 0, ..., degree; None if zero for all states."""
+        """Return, for each coordinate, the coefficients 0, ..., degree. A coefficient that is zero for all
+        states is None."""
         for n in range(len(self.coordinates[0].terms) - 1, degree):
             factors: dict[object, Scalar] = {}
             new = []
             for number, slope in self.slopes:
-                # The numeric factor of the derivative joins the factor scale/(n + 1).
+                # The numeric factor of the derivative is multiplied into the factor scale/(n + 1).
                 number = number * Number.rational(1, n + 1)
                 if number.key not in factors:
                     factors[number.key] = self.domain.number(number) * self.scale
@@ -241,5 +245,5 @@ class Recurrence:
 
 
 def _apart(series: Series) -> tuple[Number, Series]:
-    """Return the numeric factor of a series and the rest."""
+    """Return the numeric factor of a series, and the series without this factor."""
     return (series.number, series.a) if isinstance(series, Multiple) else (Number.rational(1), series)

@@ -6,8 +6,8 @@ the recurrence of the differential equation that they satisfy (R. E. Moore, *Int
 11; A. Jorba and M. Zou, Experimental Mathematics 14 (2005) 99, section 2). The coefficients are scalars of a
 domain: over expressions, the recurrences become straight-line code.
 
-Coefficients that are zero for all states are None, and terms with them are left out. So constants, the time
-and expressions that are linear in the time cost one term in a convolution.
+Coefficients that are zero for all states are None, and terms that contain them are omitted. A convolution
+with a constant or with the time therefore has at most two terms for each coefficient.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ Coefficient: TypeAlias = Scalar
 
 
 class Series(ABC):
-    """The Taylor coefficients of one expression; ``terms`` are those that are known."""
+    """The Taylor coefficients of one expression; ``terms`` contains the coefficients that are already
+    known."""
 
     def __init__(self, domain: Domain) -> None:
         self.domain = domain
@@ -34,7 +35,8 @@ class Series(ABC):
 
     @abstractmethod
     def following(self, n: int) -> Coefficient:
-        """Return coefficient n, given those of the arguments up to n and the own ones below n."""
+        """Return coefficient n, given the coefficients 0, ..., n of the arguments and the coefficients 0,
+        ..., n - 1 of this series."""
 
     def term(self, n: int) -> Coefficient:
         """Return coefficient n."""
@@ -44,7 +46,8 @@ class Series(ABC):
 
 
 class Given(Series):
-    """Coefficients that are known or appended from outside: a constant, the time, a coordinate."""
+    """A series whose coefficients are given or appended by the caller: a constant, the time, or a
+    coordinate."""
 
     def __init__(self, domain: Domain, *terms: Scalar, closed: bool = True) -> None:
         super().__init__(domain)
@@ -52,7 +55,7 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None, as all further coefficients vanish."""
+        """Return None, because all further coefficients are zero."""
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 
@@ -146,7 +149,7 @@ class Power(Series):
             return self._first(self.a.term(0))
         terms = []
         for j in _late_last(n, range(1, n + 1)):
-            # The factor includes 1/n: the product with a_j costs as much with it as without.
+            # The factor 1/n is multiplied into the number before a_j, so it costs no further product.
             factor = (self.exponent * j - (n - j)) / n
             if factor and self.a.term(j) is not None:
                 a = _scaled(self.domain, Number.rational(*factor.as_integer_ratio()), self.a.term(j))
@@ -171,7 +174,7 @@ class Square(Series):
         self.a = a
 
     def following(self, n: int) -> Coefficient:
-        """Return sum_j a_j a_{n-j}, each pair computed once."""
+        """Return sum_j a_j a_{n-j}; the product of each pair is computed once."""
         return _square(self.domain, self.a, n)
 
 
@@ -221,7 +224,8 @@ class Logarithm(Series):
 
 
 class Circular(Series):
-    """sin(a) or cos(a), by its name; ``other`` is the other one of the same argument."""
+    """sin(a) or cos(a), according to its name; ``other`` is the series of the cosine or sine of the same
+    argument."""
 
     other: Circular
 
@@ -259,7 +263,8 @@ def _mean(domain: Domain, slope: Series, factor: Series, n: int) -> Coefficient:
 
 
 def _late_last(n: int, indices: range) -> list[int]:
-    """Return indices j of products a_j b_{n-j}, those with the newest coefficients last.
+    """Return the indices j of the products a_j b_{n-j}; products that contain the newest coefficients come
+    last.
 
     A processor then computes the first products of a sum before the newest coefficients are known.
     """

@@ -35,7 +35,7 @@ class Coefficient:
     value: Number
     power: int = 0
 
-    # "Provably" matters for balls: a ball that contains 0 or 1 need not be equal to it.
+    # "Provably" is important for balls: the number in a ball that contains 0 or 1 need not be 0 or 1.
     @property
     def is_zero(self) -> bool:
         """Whether the number is provably zero."""
@@ -54,7 +54,7 @@ class Coefficient:
     def evaluate(self, domain: Domain) -> Scalar:
         """Return the coefficient in a domain."""
         value = domain.number(self.value)
-        # h^p c is one scalar, and terms with equal coefficients share it before any vector is scaled.
+        # h^p c is computed as one scalar. Terms with equal coefficients share this scalar.
         for _ in range(self.power):
             value = domain.h * value
         return value

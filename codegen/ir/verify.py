@@ -1,4 +1,5 @@
-"""The program verifier: types, single assignment, definition before use; run after every pass."""
+"""The program verifier. It runs after every pass and checks types, single assignment, and definition before
+use."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ class _Verifier:
         self.names: set[str] = set()
 
     def run(self) -> None:
-        """Raise :class:`IllFormed` for the first rule that is broken."""
+        """Check the whole program; raise :class:`IllFormed` for the first rule that it breaks."""
         # Inputs, body and outputs are read in this order, which is the order of execution.
         for var in self.program.inputs:
             self.define(var, "the inputs")
@@ -38,21 +39,21 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # The embedded solution is a second y, and replaces no input called by its own name.
+            # The embedded solution has its own name, but its kind must be the kind of the input y.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
     def define(self, var: Var, at: str | Assign) -> None:
-        """Record a definition, and raise for a name that is defined already."""
-        # The test is by name and not by variable: one name with two kinds would be one identifier in emitted
-        # code.
+        """Record a definition; raise :class:`IllFormed` for a name that is already defined."""
+        # Names are compared and not variables, because two variables of one name and different kinds would
+        # have the same identifier in emitted code.
         if var.name in self.names:
             raise IllFormed(f"{self.program.name}: {var.name} is assigned twice, at {_place(at)}")
         self.names.add(var.name)
         self.defined.add(var)
 
     def use(self, var: Var, at: str | Assign) -> None:
-        """Raise for a value that is not defined yet."""
+        """Raise :class:`IllFormed` for a value that is not defined yet."""
         if var not in self.defined:
             what = f"{var.name}: {var.kind} is used before it is defined"
             raise IllFormed(f"{self.program.name}: {what}, at {_place(at)}")
@@ -67,8 +68,8 @@ class _Verifier:
             self.define(target, assign)
 
     def block(self, block: Solve) -> None:
-        """Check one block; its body may read the unknowns."""
-        # The shape comes first: unknowns, starts and images correspond by place.
+        """Check one block. Its body may read the unknowns of the block."""
+        # The shape is checked first, because the k-th start and the k-th image belong to the k-th unknown.
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
@@ -85,7 +86,8 @@ class _Verifier:
 
 
 def _place(at: str | Assign) -> str:
-    """Return the text of a place; it is formed only for errors, because long numbers make it slow."""
+    """Return the text of the statement in which a rule is broken. It is formed only for errors, because
+    printing long numbers is slow."""
     return at.text() if isinstance(at, Assign) else at
 
 

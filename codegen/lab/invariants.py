@@ -1,4 +1,8 @@
-"""Conserved quantities of a scene: its invariants, and the equations that define its manifold."""
+"""Conserved quantities of a scene: its invariants, and the equations that define its manifold.
+
+The magnitude of an invariant is the sum of the absolute values of its terms. It is the size that rounding
+errors refer to, and the scale of deviations where the terms cancel or the invariant is zero.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +10,8 @@ import math
 
 from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
-from codegen.ir.expr import Expr
+from codegen.ir.expr import Expr, walk
+from codegen.ir.number import Number
 from codegen.ir.values import Kind
 from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
@@ -39,6 +44,51 @@ def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
     if laws:
         roots[MANIFOLD] = laws
     return roots
+
+
+def magnitudes(scene: Problem) -> dict[str, tuple[Expr, ...]]:
+    """Return the magnitude of each invariant, as an expression in the symbols of the state."""
+    return {name: (magnitude(e),) for name, (e, *_) in expressions(scene).items() if name in scene.invariants}
+
+
+def magnitude(root: Expr) -> Expr:
+    """Return the sum of the absolute values of the terms of an expression.
+
+    >>> from codegen.ir.expr import Space
+    >>> s = Space(); x = s.sym("x")
+    >>> magnitude(2 * x - 3)
+    (3 + (2 * sqrt((x)^2)))
+    """
+    sizes: dict[int, Expr] = {}
+    for e in walk((root,)):
+        sizes[e.id] = _magnitude(e, [sizes[a.id] for a in e.args])
+    return sizes[root.id]
+
+
+def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
+    """Return the magnitude of a node from the magnitudes of its arguments."""
+    match e.op:
+        case "add" | "sub":
+            return sizes[0] + sizes[1]
+        case "mul":
+            return sizes[0] * sizes[1]
+        case "neg":
+            return sizes[0]
+        case "div":  # a divisor must not be replaced by a larger number
+            return sizes[0] / _absolute(e.args[1])
+        case "pow":
+            return sizes[0] ** int(e.payload)
+        case "call" if e.payload == "sqrt":
+            return e.space.call("sqrt", sizes[0])
+        case _:
+            return _absolute(e)
+
+
+def _absolute(e: Expr) -> Expr:
+    if e.op == "const" and e.payload.is_rational:
+        size = abs(e.payload.fraction())
+        return e.space.const(Number.rational(size.numerator, size.denominator))
+    return e.space.call("sqrt", e * e)
 
 
 def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:

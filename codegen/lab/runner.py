@@ -53,6 +53,11 @@ class Interpreted:
         return 1280 if self.digits <= DOUBLE else 320
 
     @cached_property
+    def domain(self) -> Domain:
+        """The domain of the numbers of a state."""
+        return FloatDomain(0.0) if self.digits <= DOUBLE else PreciseDomain(0, self.digits)
+
+    @cached_property
     def problem(self) -> Problem:
         """The scene in the form that the family of the method integrates."""
         return problem_for(self.compiled.scene, self.compiled.method)
@@ -98,6 +103,7 @@ class Emitted:
     target: str = printers.DEFAULT
     order: CertifiedOrder | None = None
     epsilon = 2.0**-52
+    domain = FloatDomain(0.0)
 
     @property
     def most_steps(self) -> int:
@@ -141,15 +147,8 @@ Runner = Interpreted | Emitted
 """An object that runs one compiled method; it has ``target``, ``final``, ``epsilon`` and ``most_steps``."""
 
 
-def runner(
-    scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
-) -> Runner:
-    """Return the runner for a target, or for ``interpreter``.
-
-    More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the
-    target has.
-    """
+def check_target(target: str, digits: int = DOUBLE) -> None:
+    """Raise :class:`codegen.errors.MethodError` for an unknown target, or more digits than the target has."""
     known = (*printers.names(), INTERPRETER)
     if target not in known:
         raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(known)}")
@@ -159,5 +158,16 @@ def runner(
             expected="double precision",
             hint="add --target interpreter",
         )
+
+
+def runner(
+    scene: Problem, method: Method, target: str, digits: int = DOUBLE, order: CertifiedOrder | None = None
+) -> Runner:
+    """Return the runner for a target, or for ``interpreter``.
+
+    More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
+    known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
+    """
+    check_target(target, digits)
     compiled = compile_method(scene, method)
     return Interpreted(compiled, digits) if target == INTERPRETER else Emitted(compiled, target, order)

@@ -39,7 +39,7 @@ class StraightLine:
         ``constant`` converts an exact number to this type. ``functions`` maps names such as ``sqrt`` to
         functions of this type.
         """
-        body = [f"    {name} = {text}" for name, text in self.lines]
+        body = [f"    {name} = {_multiplied(text)}" for name, text in self.lines]
         source = "\n".join(
             ["def field(y, t):", *body, f"    return ({''.join(f'{r}, ' for r in self.results)})"]
         )
@@ -52,9 +52,7 @@ class StraightLine:
     def c(self, target: str = "dy") -> list[str]:
         """Return C statements that compute the results and store them in the array ``target``."""
         lines = [f"const double c{k} = {number(x)};" for k, x in enumerate(self.constants)]
-        for name, text in self.lines:
-            base, power, exponent = text.partition(" ** ")
-            lines.append(f"const double {name} = {' * '.join([base] * int(exponent)) if power else text};")
+        lines += [f"const double {name} = {_multiplied(text)};" for name, text in self.lines]
         return lines + [f"{target}[{i}] = {result};" for i, result in enumerate(self.results)]
 
 
@@ -86,6 +84,15 @@ def straight_line(scene: Problem, roots: tuple[Expr, ...]) -> StraightLine:
                 functions.add(node.payload)
     results = tuple(names[r.id] for r in roots)
     return StraightLine(scene.name, tuple(constants), tuple(lines), results, tuple(sorted(functions)))
+
+
+def _multiplied(text: str) -> str:
+    """Return a power as a product; other texts are unchanged.
+
+    C has no power operator, and the power of a ball that contains zero is NaN in python-flint.
+    """
+    base, power, exponent = text.partition(" ** ")
+    return " * ".join([base] * int(exponent)) if power else text
 
 
 def _text(node: Expr, args: list[str]) -> str:

@@ -11,6 +11,7 @@ from typing import Generic, TypeVar
 from codegen.artifact import Artifact
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, bare, compile_method, emit_compiled, quoted
+from codegen.errors import SceneError
 from codegen.lab.default_methods import report_methods
 from codegen.lab.measurement_cache import MeasurementCache
 from codegen.lab.peers import GROUPS, find, installed
@@ -108,10 +109,20 @@ class Subject:
     results: dict[str, object] = field(default_factory=dict)
 
     @cached_property
-    def exact(self) -> Reference:
-        """The reference solution."""
+    def exact_or_reason(self) -> Reference | str:
+        """The reference solution, or the reason why there is none."""
         self.progress(f"{self.scene.name}: reference solution")
-        return cached_reference(self.scene)
+        try:
+            return cached_reference(self.scene)
+        except SceneError as error:
+            return str(error)
+
+    @property
+    def exact(self) -> Reference:
+        """The reference solution; :class:`codegen.errors.SceneError` if there is none."""
+        if isinstance(self.exact_or_reason, str):
+            raise SceneError(self.exact_or_reason)
+        return self.exact_or_reason
 
     @cached_property
     def compiled(self) -> MethodResults[CompiledMethod]:

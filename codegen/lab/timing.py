@@ -20,6 +20,10 @@ FEWER = 3
 
 LONG = 0.2
 
+CONFIRMED, MOST = 0.03, 21
+"""The least time is confirmed if a second batch takes at most CONFIRMED longer. Otherwise batches are
+repeated, up to MOST of them."""
+
 
 @dataclass(frozen=True)
 class Timing:
@@ -35,13 +39,19 @@ class Timing:
 
 
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return the CPU seconds of one call, measured in several batches long enough for the clock, sorted."""
+    """Return the CPU seconds of one call, measured in several batches long enough for the clock, sorted.
+
+    Batches of short calls are repeated until two of them agree on the least time.
+    """
     calls, first = 1, _batch(call, 1)
     while first < batch:
         calls *= 2 if first > batch / 8 else 8
         first = _batch(call, calls)
     more = (min(batches, FEWER) if first > LONG else batches) - 1
-    return tuple(sorted(s / calls for s in (first, *(_batch(call, calls) for _ in range(more)))))
+    spent = sorted([first, *(_batch(call, calls) for _ in range(more))])
+    while len(spent) < MOST and first <= LONG and spent[1] > (1 + CONFIRMED) * spent[0]:
+        spent = sorted([*spent, _batch(call, calls)])
+    return tuple(s / calls for s in spent)
 
 
 def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> float:

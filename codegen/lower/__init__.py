@@ -46,12 +46,12 @@ def problem_for(scene: Problem, method: Method) -> Problem:
             expected=objection.expected,
             hint=objection.hint or f"use one of {', '.join(families_for(scene))}",
         )
-    # The family has no objection, so any further error concerns this method only.
+    # The family accepts the scene, so any further error concerns the method and not the scene.
     return own.problem(scene, method)
 
 
 def lower(scene: Problem, method: Method) -> Program:
-    """Return the verified step program of a method on a scene, all its stages in one block."""
+    """Return the verified step program of a method on a scene, with all stages in one block."""
     return lowering(method.family).lower(problem_for(scene, method), method)
 
 
@@ -62,10 +62,11 @@ def lower_composed(scene: Problem, method: Method) -> Program | None:
     # method.
     if not lowering(method.family).repeats_substeps:
         return None
-    # The test is on the coefficients: a tableau need not be declared as a composition.
+    # The coefficients are tested, because a tableau that is a composition need not be declared as a
+    # composition.
     repetition = substeps(method)
     if repetition is None:
         return None
     base, steps = repetition
-    # The base method is lowered once: its program does not depend on the length of the substep.
+    # The shorter method is lowered once, because its program does not depend on the length of the substep.
     return replace(lower(scene, base), substeps=steps)

@@ -1,5 +1,5 @@
-"""Runge-Kutta methods in the coordinates of the state; numerical solutions leave the manifold by about the
-error of the method.
+"""Runge-Kutta methods in the coordinates of the state; the distance of numerical solutions from the manifold
+is about as large as their error.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ class Ambient(Lowering):
 
     family = "ambient"
     repeats_substeps = True
+    in_coordinates = True
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state; it has no group."""

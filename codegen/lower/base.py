@@ -25,8 +25,8 @@ class Objection:
     """The reason why a family does not accept a scene: the unsuitable property, the expected property, and a
     hint.
 
-    ``reason`` continues the sentence "FAMILY on SCENE"; without a ``hint`` the message names the families
-    that accept the scene.
+    ``reason`` is appended to "FAMILY on SCENE" in the message. Without a ``hint`` the message lists the
+    families that accept the scene.
     """
 
     reason: str
@@ -45,9 +45,11 @@ class Lowering(ABC):
     """
 
     family: ClassVar[str] = ""
-    """The name of the family in :mod:`orderconds.families` and in methods, as ``vcg:midpoint``."""
+    """The name of the family in :mod:`orderconds.families` and in names of methods such as
+    ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """Whether programs work on (q, mu) of a Hamiltonian scene, not on a point y of a vector field."""
+    """Whether the state of the programs is (q, mu) of a Hamiltonian scene, and not the point y of a vector
+    field."""
     preference: ClassVar[int] = 0
     """If a method's name contains no family, families with a higher number have priority."""
     repeats_substeps: ClassVar[bool] = False
@@ -55,6 +57,10 @@ class Lowering(ABC):
 
     This is false for a family that expands dexp^{-1} over the whole step.
     """
+
+    in_coordinates: ClassVar[bool] = False
+    """Whether the methods integrate the coordinates of the state. Such methods accept every classical form of
+    a scene (:mod:`codegen.scene.classical_forms`)."""
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
@@ -70,11 +76,11 @@ class Lowering(ABC):
 
     @abstractmethod
     def lower(self, problem: Problem, method: Method) -> Program:
-        """Return the verified step program of a method, all its stages in one block.
+        """Return the verified step program of a method, with all stages in one block.
 
         ``problem`` is the result of :meth:`problem`. :class:`codegen.errors.MethodError` is raised if the
-        family does not read the format of the tableau, :class:`orderconds.errors.ZeroWeight` if the family
-        divides by a weight that is zero.
+        family does not read the format of the tableau, :class:`orderconds.errors.ZeroWeight` if the formulas
+        of the family divide by a weight that is zero.
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
@@ -85,12 +91,13 @@ class Lowering(ABC):
         from orderconds.tableau.method_properties import symplectic
 
         tableau = method.tableau
-        # symplectic() answers None where b_i a_ij + b_j a_ji = b_i b_j is undecided. Only a proof counts as
-        # symplectic.
+        # symplectic() returns None if it cannot decide whether b_i a_ij + b_j a_ji = b_i b_j for all i, j.
+        # The method counts as symplectic only if this is proved.
         return bool(scene.group.abelian) and symplectic(tableau.abelian(), tableau.ring) is True
 
     def degree(self, method: Method) -> int:
-        """Return the degree of the Taylor polynomial that a step evaluates, 0 for other steps.
+        """Return the degree of the Taylor polynomial that a step evaluates, or 0 if a step evaluates no
+        Taylor polynomial.
 
         :class:`codegen.errors.MethodError` is raised for an adaptive method whose degree is too low.
         """
@@ -105,9 +112,9 @@ class Lowering(ABC):
         return families.get(method.family_label)
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order of a method, computed from :meth:`conditions`; it may be undecided."""
+        """Return the order of a method, computed from :meth:`conditions`; the order may be undecided."""
         from orderconds.checking import check
 
-        # The check is for one family, so the result has one order.
+        # The tableau is checked in one family, so the list of results has one entry.
         (order,) = check(method.tableau, family=self.conditions(method, scene).label()).orders
         return order

@@ -33,7 +33,8 @@ class CommutatorFreeLowering(FieldLowering):
 
 
 def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: Stage | None) -> Program:
-    """Return the program of products of exponentials; ``lower`` is the update of an embedded row."""
+    """Return the program of a method of products of exponentials; ``lower`` is the update of the embedded
+    method, if any."""
     y = Var("y", Kind.POINT)
     stages = Stages(problem, method, (y,))
     build = stages.builder
@@ -44,10 +45,11 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         # k.
         point = y if stage.start is None else points[stage.start]
         for row in stage.exponentials:
-            # All exponents of a stage are requested by one name, to which Builder appends numbers.
+            # Builder makes names unique by appending numbers, so all exponents of a stage may be requested
+            # with one name.
             x = stages.combination(f"x{name}", Kind.ALG, row, k)
-            # The factors are applied row by row: the first exponential acts first, so it is the rightmost
-            # factor.
+            # Each row gives one exponential. The first exponential is applied first, so it is the rightmost
+            # factor of the product.
             point = build.act(f"Y{name}", build.exp(f"g{name}", x), point)
         return point
 
@@ -59,19 +61,19 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         for i, stage in enumerate(tableau.stages):
             points.append(product(stage, str(i + 1), points))
             entries = [x for row in stage.exponentials for x in row]
-            # The time of a stage is the time of its starting stage plus the sum of the stage's own
-            # coefficients.
+            # The time of a stage is the time of the stage from which it starts, plus h times the sum of the
+            # coefficients in its exponents.
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The update may start from a stage, too.
+        # The update may also start from a stage.
         stage_points[:] = points
         return result
 
     stage_points: list[Var] = []
 
     def update() -> dict[str, Var]:
-        # The embedded solution needs exponentials of its own: it is not linear in the stages.
+        # The embedded solution needs further exponentials, because it is not a linear function of the stages.
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 

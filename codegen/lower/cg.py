@@ -14,7 +14,7 @@ from orderconds.tableau import CommutatorFree
 
 
 class CrouchGrossman(FieldLowering):
-    """Crouch-Grossman methods, which have Butcher tableaux only."""
+    """Crouch-Grossman methods; they are given by Butcher tableaux."""
 
     family = "cg"
     repeats_substeps = True

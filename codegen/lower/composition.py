@@ -1,5 +1,5 @@
-"""Compositions of a second-order step: Strang's step of the parts' flows is repeated with several step
-lengths."""
+"""Compositions of a second-order step: Strang's step, a product of the flows of the parts, is repeated with
+several step lengths."""
 
 from __future__ import annotations
 
@@ -27,5 +27,6 @@ class CompositionLowering(FlowLowering):
         # Strang's step of length gamma is Phi_{gamma/2} after Phi*_{gamma/2}: a composition of Phi and Phi*
         # with beta = alpha = gamma/2.
         halves = [method.number(x) * HALF for x in tableau.gamma]
-        # Kicks are at both ends, because neighbouring steps then join two kicks into one flow.
+        # Each step begins and ends with a kick, because the last kick of a step and the first kick of the
+        # next step can then be joined into one flow.
         return pairs(kicks_first(parts.summands), [(x, x) for x in halves]), self.family

@@ -67,7 +67,8 @@ def _program(scene: Problem, method: Method) -> Program:
     xi = build.fresh("xi", Kind.ALG)
     shared: dict[str, Var] = {}
 
-    # Returns exp(h part velocity).y: all points of the step are on one curve through y.
+    # The function returns exp(part*h*velocity).y. All points of the step are on the curve exp(s*velocity).y
+    # through y.
     def moved(name: str, part: Number, velocity: Var) -> Var:
         x = build.lin(f"x{name}", Kind.ALG, [(stages.times_h(part), velocity)])
         return build.act(f"Y{name}", build.exp(f"g{name}", x), y)
@@ -79,8 +80,8 @@ def _program(scene: Problem, method: Method) -> Program:
             (Coefficient(stages.number(b)), build.add(Differential(), f"d{i + 1}", moved(f"{i + 1}", c, xi)))
             for i, (b, c) in enumerate(zip(tableau.b, map(stages.number, tableau.c), strict=True))
         ]
-        # The bivector is evaluated at the midpoint and not at y: then the order is two where sum b_i c_i =
-        # 1/2.
+        # The bivector is evaluated at the midpoint and not at y, because the order is then two if sum b_i c_i
+        # = 1/2.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
         # The energies are evaluated in the block, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
@@ -100,7 +101,8 @@ def _program(scene: Problem, method: Method) -> Program:
 
 
 def _check_bivector(scene: Problem, method: Method) -> None:
-    """Raise where the bivector does not map the differential of the energy to the field."""
+    """Raise MethodError if the bivector does not map the differential of the energy to the field at some
+    sample point."""
     # The identity is checked at points of the orbit, because the formulas need not agree elsewhere.
     orbit = orbit_of(scene)
     for point in orbit.points:

@@ -80,7 +80,8 @@ class FlowLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene with the exact flows that the method composes, by name."""
         word = self.read(scene, method).word
-        # Only flows that the word names are included: others would be emitted as unused functions.
+        # Only flows that occur in the word are included, because other flows would be emitted as unused
+        # functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
         # The flows are sorted by name, because the order of emitted functions must not depend on the word.
         return replace(scene, flows=dict(sorted(flows.items())))
@@ -125,15 +126,16 @@ class FlowLowering(Lowering):
         # summand, the carrier, so the carrier's flow advances t and all other flows keep t constant.
         time = None if problem.autonomous else Var("t", Kind.REAL)
         inputs = (q, mu) if time is None else (q, mu, time)
-        # t and h are names of emitted arguments, also in steps whose formulas do not contain them.
+        # The names t and h are reserved, because they are arguments of emitted code even if no formula
+        # contains them.
         builder = Builder({v.name for v in inputs} | {"t", "h"})
         for summand, duration in reading.word:
             step = Coefficient(duration, 1)
-            # The flows of one summand commute, so their order does not matter.
+            # The flows of one summand commute, so they may be applied in any order.
             for name, flow in summand.flows:
                 q, mu = builder.flow(name, q, mu, step, *((time,) if time is not None and flow.timed else ()))
-            # The time advances after the flow. The carrier does not depend on t, so its own flow does not
-            # read the time.
+            # The time advances after the flow of the carrier. The carrier does not depend on t, so its flow
+            # does not need the time.
             if time is not None and summand is reading.carrier:
                 time = builder.advance("t_stage", time, step)
         return verify(Program(method.label, inputs, builder.take(), (("q", q), ("mu", mu))))
@@ -187,7 +189,8 @@ def is_kick(summand: Summand) -> bool:
 
 
 def kicks_first(summands: Sequence[Summand]) -> list[Summand]:
-    """Return the summands with kicks first: kicks at the ends of neighbouring steps join into one flow."""
+    """Return the summands with kicks first, because kicks at the ends of neighbouring steps can be joined
+    into one flow."""
     # The sort is stable, so the other summands keep the order of the scene.
     return sorted(summands, key=lambda summand: not is_kick(summand))
 
@@ -230,7 +233,7 @@ def _carrier(parts: Parts) -> Summand | None:
     if parts.scene.autonomous:
         return None
     for summand in parts.summands:
-        # The carrier is the first summand without t. Any other summand without t would be correct, too,
+        # The carrier is the first summand without t. Any other summand without t would also be correct,
         # because the order conditions are those of the extended system.
         if not summand.timed:
             return summand

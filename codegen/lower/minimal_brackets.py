@@ -16,8 +16,8 @@ from orderconds.ring.protocol import Ring
 from orderconds.series.brackets import BracketProgram, Row
 
 _KNOWN: dict[tuple[Ring, tuple[str, ...]], BracketProgram] = {}
-"""Bracket programs by ring and coefficients as text: lowering and certificate need the same bracket
-program."""
+"""Bracket programs that have been computed, by ring and text of the coefficients. Lowering and certificate
+use the same bracket program."""
 
 
 def bracket_program(method: Method) -> BracketProgram:
@@ -40,7 +40,7 @@ def bracket_program(method: Method) -> BracketProgram:
             expected="an explicit tableau with exact coefficients, or a number of brackets",
             hint=f"write rkmk(2):{name}",
         )
-    # This is the classical order of the tableau, which the brackets have to keep.
+    # The classical order of the tableau is the order that the method with brackets must have.
     order = family_order(method.tableau, families.get("rk")).order
     highest = method.kind.minimal_brackets
     if order > highest:
@@ -69,7 +69,7 @@ def lower(scene: Problem, method: Method) -> Program:
     y = Var("y", Kind.POINT)
     stages = Stages(scene, method, (y,))
     build = stages.builder
-    # Stage values and brackets are in one table, because rows combine both.
+    # Stage values and brackets are in one table, because each u_i is a combination of both.
     values = {("k", i): build.fresh(f"k{i + 1}", Kind.ALG) for i in range(tableau.s)}
 
     def combination(name: str, row: Row) -> Var:

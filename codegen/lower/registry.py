@@ -12,7 +12,7 @@ _registered: dict[str, Lowering] = {}
 
 
 def _built_in() -> tuple[type[Lowering], ...]:
-    """Return the lowerings of this package, in the order of listings."""
+    """Return the lowerings of this package, in the order in which commands list them."""
     from codegen.lower.ambient import Ambient
     from codegen.lower.cf import CommutatorFreeLowering
     from codegen.lower.cg import CrouchGrossman
@@ -49,14 +49,15 @@ def _built_in() -> tuple[type[Lowering], ...]:
 def register(lowering: type[Lowering], family: type[Family] | None = None) -> type[Lowering]:
     """Register a lowering for all commands, and return it; this function may be used as a decorator.
 
-    ``family`` is the class of the order conditions. If it is given, it is registered, too
+    ``family`` is the class of the order conditions. If it is given, it is also registered
     (:func:`orderconds.families.register`), so that all commands of both packages support the family.
     :class:`codegen.errors.MethodError` is raised for a class without :attr:`Lowering.family`, and for a
     family that already has a lowering of another class.
     """
     if not lowering.family:
         raise MethodError(f"{lowering.__name__} names no family", expected='family = "NAME" in the class')
-    # A second class is refused: the meaning of a method must not depend on the order of registration.
+    # A second class for a family is refused, because the meaning of a method must not depend on the order of
+    # registration.
     known = _lowerings().get(lowering.family)
     if known is not None and type(known) is not lowering:
         raise MethodError(
@@ -72,7 +73,7 @@ def register(lowering: type[Lowering], family: type[Family] | None = None) -> ty
 def unregister(family: str) -> None:
     """Remove the lowering of a family that :func:`register` added; raise MethodError for a built-in
     family."""
-    # Built-in families stay, because the tableaux of the library refer to them.
+    # Built-in families cannot be removed, because the tableaux of the library refer to them.
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(f"family {family} is built in", expected="a family that was registered")
     _registered.pop(family, None)

@@ -28,5 +28,5 @@ class RungeKuttaLowering(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""
-        # On R^n all brackets vanish, so a program without brackets loses no order.
+        # On R^n all brackets vanish, so a program without brackets has the full order.
         return with_cutoff(problem, method, 0)

@@ -25,14 +25,15 @@ if TYPE_CHECKING:
 
 
 class MuntheKaas(FieldLowering):
-    """RKMK, with a cut-off or with the fewest brackets that keep the tableau's order."""
+    """Runge-Kutta-Munthe-Kaas methods, with a cut-off or with the fewest brackets that keep the order of the
+    tableau."""
 
     family = "rkmk"
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
-        # Without a number of brackets the bracket program is searched for, because the series of dexp^{-1} is
-        # infinite.
+        # Without a cut-off the series of dexp^{-1} is infinite, so a search determines a finite set of
+        # brackets.
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
@@ -73,8 +74,8 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
-            # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...: without the brackets the order is two at
-            # most.
+            # dexp^{-1}_u k = k - [u, k]/2 + [u, [u, k]]/12 - ...; without brackets the order of the method is
+            # at most two.
             result.append(build.dexpinv(f"w{i + 1}", u, k, cutoff))
         return result
 

@@ -51,7 +51,7 @@ def _program(scene: Problem, method: Method) -> Program:
     shared: dict[str, Var] = {}
 
     def several() -> list[Var]:
-        """Append the momenta of the stages, one or more."""
+        """Append the momenta of all stages; this works for any number of stages."""
         X = [stages.combination(f"X{i + 1}", Kind.ALG, row, xi) for i, row in enumerate(tableau.A)]
         Y = stages.combination("Y", Kind.ALG, tableau.b, xi)
         minus = build.lin("y", Kind.ALG, [(Coefficient(-ONE.value), Y)])

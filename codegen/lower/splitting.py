@@ -72,7 +72,7 @@ def _in_order(
     """
     chosen = summands
     names = [part.name for part in own.parts]
-    # Names take precedence: the order of parts in a scene says nothing about their roles.
+    # Parts are matched by name if possible, because the order of parts in a scene is arbitrary.
     if sorted(names) == sorted(tableau.parts):
         chosen = [own.parts[names.index(name)].summands[0] for name in tableau.parts]
     elif tableau.rkn is not None:
@@ -99,7 +99,7 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     nested = T
     # If T is quadratic in mu, each bracket with V lowers the degree by one, and three brackets give zero.
     for _ in range(3):
-        # The sign of each bracket does not matter: the question is whether the result is zero.
+        # The sign of a bracket is not important, because only zero and non-zero results are distinguished.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
     return orbit_of(scene).vanish([nested])
 
@@ -113,12 +113,13 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
-        # Two flows of one part in a row are joined, because the recursion needs alternating parts.
+        # Two consecutive flows of one part are joined, because the recursion requires that the parts
+        # alternate.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:
             joined.append((k, x))
-    # Which part comes first does not matter: Phi and Phi* may exchange their roles.
+    # The word may begin with either part, because Phi and Phi* may be exchanged.
     durations = [x for _, x in joined]
     # The number of flows must be odd, so that the word ends with the part with which it began. A flow of
     # duration zero is added if necessary.
@@ -130,5 +131,5 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
         alpha = inner - carried
         composed.append((carried, alpha))
         carried = outer - alpha
-    # The last value of carried is zero, because both parts have the same total duration.
+    # The last value of ``carried`` is zero, because both parts have the same total duration.
     return composed

@@ -70,8 +70,9 @@ class Stages:
         first = tuple(starts())
         before = self.builder.take()
         last = tuple(images())
-        # Explicit tableaux, too, give one block with all stages. The passes infer from the arguments in which
-        # order the stages can be solved, so a lowering states equations and no algorithm.
+        # Explicit tableaux also give one block with all stages. A lowering appends equations and no
+        # algorithm: the passes find the order in which the stages can be solved from the arguments of the
+        # equations.
         block = Solve("stages", tuple(unknowns), first, self.builder.take(), last)
         # The update comes after the block, because it reads values of the block's body at the solution.
         outputs = update()

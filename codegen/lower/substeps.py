@@ -3,9 +3,9 @@
 Suppose that the stages of a tableau fall into groups with a_ij = b_j for j in an earlier group than i, and
 a_ij = 0 for j in a later group. Then the method is the composition of the methods of the groups with steps
 gamma_k h, where gamma_k is the sum of the b_j of group k (Lemma 3.5.4 of Bogfjellmo and Marthinsen). For
-Crouch-Grossman methods the same follows from the products of exponentials. If the coefficients of every group
-divided by gamma_k are the same, all groups are one method, and one program is enough. The repeated method may
-also consist of several neighbouring groups.
+Crouch-Grossman methods the same follows from the products of exponentials. If all groups have the same
+coefficients after division by gamma_k, they are the same method with different step sizes, and one program is
+enough. The repeated method may also consist of several neighbouring groups.
 
 Only implicit methods are split, because explicit stages of neighbouring substeps share computations.
 """
@@ -51,7 +51,7 @@ def substeps(method: Method) -> tuple[Method, tuple[Substep, ...]] | None:
         repetition = _repeated(method, tableau.method)
     else:
         return None
-    # One substep is the step itself.
+    # A single substep is the step itself, so nothing is repeated.
     if repetition is None or len(repetition[1]) < 2:
         return None
     # Proof, file and embedded row belong to the whole tableau, and would be wrong for the tableau of one
@@ -73,13 +73,15 @@ def _timed(fractions: Sequence[Number]) -> Iterator[Substep]:
 
 def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number, ...]] | None:
     """Return the tableau of equal groups and the lengths of their steps, for as many groups as possible."""
-    # Numbers are used and not ring elements: they are compared by key, which is decidable for balls.
+    # The entries are Numbers and not ring elements, because Numbers are compared by keys, which is possible
+    # also for balls.
     A = [[method.number(x) for x in row] for row in rk.A]
     b = [method.number(x) for x in rk.b]
-    # The cuts are all places where the tableau separates into two tableaux. Groups are unions of the parts
-    # between cuts.
+    # The cuts are all k at which the tableau separates into two tableaux, for the stages before k and from k
+    # on. Each group consists of neighbouring parts between cuts.
     cuts = [0, *(k for k in range(1, rk.s) if _separate(A, b, k)), rk.s]
-    # A group has from one part to half of the parts. The narrowest repeated method gives the most substeps.
+    # A group consists of at least one part and at most half of the parts. Small groups are tried first,
+    # because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
         # wide divides the number of parts, so the last end is the last cut.
         ends = cuts[::wide]
@@ -126,8 +128,8 @@ def _sum(numbers: Sequence[Number]) -> Number:
 
 def _element(method: Method, x: Number) -> Element:
     """Return a number as an element of the tableau's ring."""
-    # Numbers store rational values over QQ, whatever ring they came from. All coefficients of a tableau are
-    # in one ring.
+    # A Number stores a rational value in QQ, even if the tableau has another ring. All coefficients of a
+    # tableau must be in its ring.
     if x.is_rational:
         fraction = x.fraction()
         return method.ring.rational(fraction.numerator, fraction.denominator)

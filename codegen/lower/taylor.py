@@ -1,4 +1,4 @@
-"""Taylor polynomials in the coordinates of the state, brought back to the manifold after each step."""
+"""Taylor's method in the coordinates of the state; the result of each step is projected onto the manifold."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from codegen.scene.evolution import evolution
 from codegen.scene.problem import Problem
 
 LEAST = 2
-"""The least degree for which two coefficients beyond the state are known."""
+"""The least degree for step control, which compares the last two Taylor coefficients of degree one or
+more."""
 
 if TYPE_CHECKING:
     from orderconds.checking import FamilyOrder
@@ -26,14 +27,16 @@ if TYPE_CHECKING:
 class Taylor(Lowering):
     """Taylor's method for y' = F(y) in R^n, where F is the field in the coordinates of the state.
 
-    A step on a manifold other than R^n ends with a projection. It changes the result by O(h^(P+1)), so the
-    order is the degree P.
+    A step on a manifold other than R^n ends with a projection, which changes the result by O(h^(P+1)). The
+    order is therefore the degree P.
     """
 
     family = "taylor"
+    in_coordinates = True
 
     def objection(self, scene: Problem) -> Objection | None:
-        """Return why scenes with run-time inputs are not taken."""
+        """Return the reason why a scene is not accepted: it has run-time inputs. None is returned for other
+        scenes."""
         if not scene.inputs:
             return None
         return Objection(
@@ -42,7 +45,8 @@ class Taylor(Lowering):
         )
 
     def problem(self, scene: Problem, method: Method) -> Problem:
-        """Return the scene in the coordinates of its state, with the coordinates of the polynomials."""
+        """Return the scene in the coordinates of its state. Its ``evolution`` contains the coordinates of the
+        polynomials."""
         return replace(ambient(scene), evolution=evolution(scene))
 
     def lower(self, problem: Problem, method: Method) -> Program:
@@ -61,7 +65,7 @@ class Taylor(Lowering):
         return False
 
     def degree(self, method: Method) -> int:
-        """Return the degree; step control needs two coefficients beyond the state."""
+        """Return the degree; raise MethodError if it is too low for step control."""
         degree = self.conditions(method).degree_of_step()
         if method.adaptive and degree < LEAST:
             raise MethodError(
@@ -71,7 +75,7 @@ class Taylor(Lowering):
         return degree
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the degree."""
+        """Return the order, which is the degree."""
         from orderconds.checking import FamilyOrder
 
         family = self.conditions(method)

@@ -22,7 +22,8 @@ class VariationalLowering(Lowering):
     Hamiltonian."""
 
     hamiltonian = True
-    preference = 1  # a Hamiltonian scene is usually integrated for long times, which needs symplectic steps
+    # Hamiltonian scenes are usually integrated over long times, for which symplectic methods are preferred.
+    preference = 1
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
@@ -50,27 +51,28 @@ def begin(scene: Problem, method: Method) -> tuple[Stages, RungeKutta, list[list
 
 
 def nonzero(method: Method, weights: Sequence[Number]) -> list[Number]:
-    """Return the weights, by which the step's equations divide; raise ZeroWeight for the first
+    """Return the weights b_i; the equations of the step divide by them. ZeroWeight is raised for the first
     weight that may be zero."""
     for i, weight in enumerate(weights, start=1):
-        # A small weight is no error, but no quotient by a ball that contains zero is defined.
+        # A small weight is allowed. A ball that contains zero is not allowed, because the quotient by it is
+        # not defined.
         vanishes = weight.ring.is_zero(weight.element)
         if vanishes is not False:
             raise ZeroWeight(
                 f"b_{i} = 0" if vanishes else f"b_{i} = {weight.text()}, which may be zero",
                 where=method.label,
-                expected="all b_i non-zero: the method divides by them",
+                expected="all b_i non-zero, because the formulas of the method divide by them",
                 hint="" if vanishes else "write the weight with more digits",
             )
     return list(weights)
 
 
 def brackets(method: Method) -> int:
-    """Return the cut-off of dexp^{-1}; raise MethodError without a cut-off, because a program has finitely
-    many brackets."""
+    """Return the cut-off of dexp^{-1}. MethodError is raised for a method without a cut-off, because a
+    program can contain only finitely many brackets."""
     if method.cutoff is None:
-        # The program also expands the dual of dexp^{-1} and its derivative. The search for the fewest
-        # brackets does not cover these.
+        # The program also expands the dual and the derivative of dexp^{-1}, for which there is no search for
+        # the fewest brackets.
         family, name = method.family_label, method.tableau.name
         raise MethodError(
             f"{family}:{name} without a cut-off", expected=f"a number of brackets, as {family}(2):{name}"

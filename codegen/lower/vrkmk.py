@@ -1,7 +1,7 @@
 """Variational Runge-Kutta-Munthe-Kaas methods on T*G, equation (3.16) of Marthinsen's thesis.
 
 With Q_i = exp(X_i) q0, (xi_i, n_i) = f(Q_i, M_i) and P*_(r)(x, xi) the dual of the derivative of
-dexp^{-1}_{(r),x} xi by x, the equations are
+dexp^{-1}_{(r),x} xi with respect to x, the equations are
 
     m_i = b_i Lambda + sum_j a_ji lambda_j,   M_i = (dexp^{-1}_{(r),X_i})* m_i / b_i,
     lambda_i = -h b_i dexp*_{X_i} n_i + h P*_(r)(X_i, xi_i) m_i,
@@ -55,7 +55,8 @@ class _Step(ExpandedStep):
 
     def images(self) -> list[Var]:
         """Return new values of v_i, m_i and Lambda, computed from the old values."""
-        # X_i is computed from the unknowns v_j, but Y below from the new v_j, which are one sweep ahead.
+        # X_i is computed from the unknowns v_j. Y below is computed from the new values of v_j, which are one
+        # sweep further.
         self.exponentiate(self.v)
         velocities = self._evaluated()
         self.end(velocities, self.forces)
@@ -69,8 +70,8 @@ class _Step(ExpandedStep):
         """
         build, A, b = self.build, self.A, self.b
         lagrange, velocities = dict[int, Var](), dict[int, Var]()
-        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A. If the method is explicit, it depends on
-        # later stages only.
+        # m_i = b_i Lambda + sum_j a_ji lambda_j reads column i of A. If the method is explicit, m_i depends
+        # on later stages only.
         for i in reversed(range(self.s)):
             own = self.m[i]
             # If m_i depends on later stages only, values that are already computed determine m_i. It is then
@@ -86,7 +87,7 @@ class _Step(ExpandedStep):
             # The cut-off is the same as in M_i: the step is symplectic only if both come from one discrete
             # Lagrangian.
             velocities[i] = build.dexpinv(f"u{i + 1}", self.X[i], xi, self.r)
-            # dexp^{-1}_{(r),X} depends on X, except without brackets, and its derivative by X acts as a
+            # dexp^{-1}_{(r),X} depends on X unless r = 0, and its derivative with respect to X acts as a
             # force.
             slope = build.add(InverseDexpSlope(self.r), f"P{i + 1}", self.X[i], xi, own)
             self.forces[i], self.slopes[i] = n, slope
@@ -95,7 +96,7 @@ class _Step(ExpandedStep):
             direct = build.dual_dexp(f"d{i + 1}", self.X[i], n)
             terms = [(self.stages.times_h(-b[i]), direct), (self.stages.times_h(ONE.value), slope)]
             lagrange[i] = build.lin(f"lambda{i + 1}", Kind.DUAL, terms)
-        # The velocities were computed in the opposite order of the unknowns.
+        # The v_i were computed from the last stage to the first, and are returned from the first to the last.
         return [velocities[i] for i in range(self.s)]
 
     def _multiplier(self, i: int) -> Var:
@@ -103,8 +104,9 @@ class _Step(ExpandedStep):
         build, A, b, times_h = self.build, self.A, self.b, self.stages.times_h
         terms = [(Coefficient(b[i]), build.dual_dexp("L", self.minus, self.mu))]
         for j in range(self.s):
-            # On an abelian group L and d_j both equal n_j, and the slope is zero. The coefficient of n_j is
-            # then h b_j (b_i - a_ji), as in the partitioned Runge-Kutta method.
+            # On an abelian group the transported force L and the force d_j both equal n_j, and the slope is
+            # zero. The coefficient of n_j is then h b_j (b_i - a_ji), as in the partitioned Runge-Kutta
+            # method.
             terms.append((times_h(b[i] * b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             direct = build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])
             terms.append((times_h(-(A[j][i] * b[j])), direct))

@@ -1,9 +1,9 @@
 """VRKMK with the inverse of a truncated dexp in place of dexp^{-1}: section 3.4.1 of Marthinsen's thesis.
 
-The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i =
-h sum_j a_ij v_j; so no multipliers are needed. With R*_(r)(x, v) the dual of the derivative of dexp_{(r),x} v
-by x, (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda = dexp*_{-Y}(mu0 + h sum_j b_j
-Ad*_{exp X_j} n_j),
+The unknowns v_i satisfy dexp_{(r),X_i} v_i = xi_i, where dexp_{(r),x} = sum_{k<=r} ad_x^k/(k+1)! and X_i = h
+sum_j a_ij v_j; so no multipliers are needed. With R*_(r)(x, v) the dual of the derivative of dexp_{(r),x} v
+with respect to x, (xi_i, n_i) = f(exp(X_i) q0, M_i), Y = h sum_j b_j v_j and Lambda = dexp*_{-Y}(mu0 + h
+sum_j b_j Ad*_{exp X_j} n_j),
 
     b_i dexp*_{(r),X_i} M_i = b_i Lambda - h sum_j b_j a_ji (R*_(r)(X_j, v_j) M_j + dexp*_{X_j} n_j),
     q1 = exp(Y) q0,   mu1 = Ad*_{exp(-Y)}(mu0 + h sum_j b_j Ad*_{exp X_j} n_j).
@@ -108,7 +108,8 @@ class _Step(ExpandedStep):
         # other terms.
         terms: Terms = [(ONE, build.dual_dexp("L", self.minus, self.mu)), *self.corrections[i]]
         for j in range(self.s):
-            # The force and the slope of stage j have one factor: X_j depends on v_i through h a_ji.
+            # The force and the slope of stage j have the same factor h a_ji, because X_j depends on v_i
+            # through h a_ji v_i.
             factor = times_h(-(self.b[j] * (self.A[j][i] / self.b[i])))
             terms.append((times_h(self.b[j]), build.dual_dexp("L", self.minus, self.nu[j])))
             terms.append((factor, build.dual_dexp(f"d{j + 1}", self.X[j], self.forces[j])))

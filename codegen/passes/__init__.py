@@ -48,8 +48,8 @@ def optimise(
 ) -> tuple[Program, tuple[PassReport, ...]]:
     """Return the program after all passes, and a report of each pass that changed the program.
 
-    ``scene`` is the problem that the program was lowered in; for ``framed`` and ``composed`` see
-    :class:`Optimiser`.
+    ``scene`` is the problem from which the program was lowered. :class:`Optimiser` explains ``framed`` and
+    ``composed``.
     """
     work = Optimiser(program, scene, composed)
     return work.framed() if framed else work.plain()
@@ -90,13 +90,14 @@ class Optimiser:
         for each in body_frame_passes(self.scene):
             self._run(each)
         outcome = self.program, tuple(self.reports)
-        # The plain program is restored, because the body frame does not always need fewer operations.
+        # The optimiser continues with the program in the space frame, because the program in the body frame
+        # may need more operations.
         self.program, self.reports = plain, reports
         return outcome
 
     def _run(self, each: Pass) -> None:
         old, new = self.program, verify(each.run(self.program))
-        # Many passes do not change a program, which then needs no comparison at several points.
+        # A program that the pass has not changed needs no comparison with the reference.
         if new == old:
             return
         # Each result is compared with the lowered program and not with the previous result, because small
@@ -128,17 +129,18 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # When flows are joined, the stage times of the replaced flows may become unused.
+        # After flows have been joined, nothing may read the stage times of the replaced flows.
         Pass("unused values", UNUSED, dead.run),
         # This pass follows the pass for zeros, because terms that cancel would keep a composition in one
         # large block.
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
         Pass("unused values", UNUSED, dead.run),
-        # Factoring maps with a single reader always saves maps. Maps with several readers follow below.
+        # Factoring maps with a single reader always saves maps. The next pass factors maps with several
+        # readers.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # Factoring leaves sums of a single term.
+        # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
         # This pass follows value numbering, which merges equal exponentials: only then are the readers of
@@ -161,11 +163,11 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
-        # The transform introduces inverses of maps. Such an inverse may act directly on the result of its
-        # map.
+        # The Legendre transform introduces inverses of maps. An inverse that is applied directly to the
+        # result of its map is removed.
         Pass("inverse maps", inverse, opposites.run),
-        # This pass follows the transform. Before the transform the force of a stage depends on the momentum
-        # of the stage, which closes a cycle.
+        # This pass follows the Legendre transform. Before the transform the force of a stage depends on the
+        # momentum of the stage, and this dependence is part of a cycle.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
         # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -173,8 +175,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # This pass precedes functions of ad, which need an exp(x) with one reader: it can remove a second
-        # reader.
+        # This pass precedes the pass for functions of ad, which requires that exp(x) has only one reader,
+        # because this pass can remove a second reader.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass follows functions of ad, because only now is it known in which frame momenta need fewer

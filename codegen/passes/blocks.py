@@ -1,9 +1,9 @@
 """Split each block into the strongly connected components of its dependency graph, which are solved in order.
 
-The pass is exact. An edge leads from each assignment to those that read its values. An unknown is represented
-by its image, the right-hand side of the unknown's fixed-point equation. A component without a cycle becomes
-plain assignments; a component with a cycle becomes a block with its own unknowns. Explicit methods therefore
-need no solver, and a composition tableau is solved stage by stage.
+The pass is exact. An edge leads from each assignment to every assignment that reads one of its values. An
+unknown is represented by its image, the right-hand side of the unknown's fixed-point equation. A component
+without a cycle becomes plain assignments; a component with a cycle becomes a block with its own unknowns.
+Explicit methods therefore need no solver, and a composition tableau is solved stage by stage.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     graph.add_nodes_from(range(len(block.body)))
     for k, assign in enumerate(block.body):
         for arg in assign.args:
-            # A reader of an unknown depends on its image. Values from before the block add no edges.
+            # An assignment that reads an unknown depends on the image of the unknown. Values that are
+            # computed before the block add no edges.
             source = maker.get(image.get(arg, arg))
             if source is not None:
                 graph.add_edge(source, k)

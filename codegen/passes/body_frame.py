@@ -61,8 +61,8 @@ def run(program: Program, scene: Problem) -> Program:
     if scene.body is None or (kinds.get("q"), kinds.get("mu")) != (Kind.GROUP, Kind.DUAL):
         return program
     try:
-        # There is no test in advance: whether every operation is equivariant is known only at the last
-        # operation.
+        # The program is rewritten without a test beforehand. If the rewriting finds an operation that is not
+        # equivariant, the program is not changed.
         return _Framing(program).run()
     except NotFramed:
         return program

@@ -40,13 +40,14 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # zip is not strict, because a block has one residual for each unknown, or no residuals.
     residual = dict(zip(block.unknowns, block.residuals, strict=False))
     maker = {target: assign for assign in block.body for target in assign.targets}
-    # This is a list in program order, because the iteration order of a set would change from run to run.
+    # This is a list in program order and not a set, because the order of a set would change from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
     # A live unknown needs its image, and every value that the image is computed from.
     while wanted:
         var = wanted.pop()
-        # Values of a block may depend on each other in cycles, so a value may be reached again.
+        # Values of a block may depend on each other in cycles, so the search may reach a value that it has
+        # already visited.
         if var in needed:
             continue
         needed.add(var)
@@ -57,7 +58,8 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
         elif var in maker:
             wanted.extend(maker[var].args)
     pairs = list(zip(block.unknowns, block.starts, block.images, strict=True))
-    # An unknown that no live value reads is removed with its equation, and the block stays square.
+    # An unknown that no live value reads is removed together with its equation, so the block has as many
+    # equations as unknowns.
     pairs = [p for p in pairs if p[0] in needed]
     kept = tuple(residual[u] for u in block.unknowns if u in needed and u in residual)
     body = tuple(a for a in block.body if needed.intersection(a.targets))

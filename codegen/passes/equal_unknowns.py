@@ -27,7 +27,7 @@ def run(program: Program) -> Program:
             # Later blocks and outputs may read a removed unknown, so ``same`` covers the whole program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
-            # The body reads removed unknowns, too. After renaming, value numbering can merge equal stages.
+            # Removed unknowns are also renamed in the body. Value numbering can then merge equal stages.
             inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
             statement = replace(
                 statement, unknowns=unknowns, starts=now(starts), images=now(images), body=inner
@@ -40,8 +40,10 @@ def run(program: Program) -> Program:
 
 
 def _distinct(block: Solve) -> tuple[list[tuple[Var, Var, Var]], dict[Var, Var]]:
-    """Return (unknown, start, image) for the first unknown of each image; map the other unknowns to it."""
-    # The first unknown keeps its own start; from the other starts the iteration finds the same solution.
+    """Return (unknown, start, image) for the first unknown of each image, and a dictionary from every other
+    unknown to the first unknown with the same image."""
+    # The first unknown keeps its start. The starts of the other unknowns are not needed, because the
+    # iteration finds the same solution from them.
     first: dict[Var, Var] = {}
     pairs: list[tuple[Var, Var, Var]] = []
     twins: dict[Var, Var] = {}

@@ -17,23 +17,26 @@ from codegen.ir.values import Kind, Var
 from codegen.scene.problem import Problem
 
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
-"""Step sizes to try, the largest first, because the effect of a wrong rewriting is largest there.
+"""Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
 
 Any other decreasing powers of two are possible. If the first step moves too far along a fast field, all steps
 are shortened."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
-"""Negative powers of two for steps in DIGITS decimal digits, where doubles overflow or do not converge.
+"""Steps of size 2^-k, for k in TINY_STEPS, are computed in DIGITS decimal digits if doubles overflow or do
+not converge.
 
 Even with a coefficient of 1e300 in the scene, the last of these steps is short enough."""
 
 REACH = 0.5
-"""The largest move along the field in one step: longer steps would amplify rounding.
+"""The largest value of h times the largest component of the field: longer steps would amplify rounding
+errors.
 
-The value matters little, because :data:`AGREE` is 2^15 times as large as the rounding errors that occur."""
+The exact value is not important, because :data:`AGREE` is 2^15 times as large as the rounding errors that
+occur."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
-"""Errors of an interpretation; a root of a negative number raises ValueError."""
+"""The errors that interpreting a program may raise; ValueError is raised by a root of a negative number."""
 
 SWEEPS = 24
 """The largest number of sweeps over a block: a step that needs more is too long for a comparison up to
@@ -66,16 +69,17 @@ AGREE = 2.0**-36
 """Results count as equal up to this relative difference, which is far above rounding and the tolerance of a
 block.
 
-In 170 comparisons of eight methods of the gallery the passes moved results by 2^-51 at most. A coefficient
-that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
+In 170 comparisons of eight methods on scenes of the gallery the passes changed results by at most 2^-51. A
+coefficient that is wrong by 2^-28 is found: ``tests/codegen/passes/test_equivalence.py``."""
 
 
 @dataclass(frozen=True)
 class _Step:
     """One step of the reference: the new state, and the solutions of the blocks.
 
-    ``moved`` says that the step begins beside the initial state, ``tiny`` that it is one of
-    :data:`TINY_STEPS`, whose results are compared relative to the change of the state.
+    ``moved`` says that the step begins at a point near the initial state and not at the initial state.
+    ``tiny`` says that the step is one of :data:`TINY_STEPS`; its results are compared relative to the change
+    of the state.
     """
 
     domain: Domain
@@ -87,16 +91,18 @@ class _Step:
 
 
 class _Bounded(PreciseDomain):
-    """A domain of many digits in which diverging iterations raise an error early."""
+    """Arithmetic with many digits, in which an iteration that diverges raises an error before its limit of
+    sweeps."""
 
     def call(self, function: str, *args: Scalar) -> Scalar:
-        """Return the value of a function; OverflowError for an argument with few correct digits."""
+        """Return the value of a function; raise OverflowError for an argument so large that few digits of the
+        result would be correct."""
         if any(abs(x) > self.rational(10) ** (self.digits // 2) for x in args):
             raise OverflowError(function)
         return super().call(function, *args)
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return as :class:`PreciseDomain`; NotConverged if the iteration diverges."""
+        """Return the result of :class:`PreciseDomain`; raise NotConverged if the iteration diverges."""
         done, change = super().settled(old, new, previous)
         if not change < self.rational(10) ** self.digits:
             raise NotConverged("a fixed-point iteration diverges")
@@ -122,9 +128,10 @@ class Reference:
     """The reference for comparisons: the results of a program after one step from points of a scene.
 
     One point is the initial state, which may be special (an equilibrium, a symmetric position). The other is
-    a nearby point without any symmetry. The step is the longest of moderate reach for which the results are
-    finite and the blocks converge. A compared program starts from the solutions of the reference; if its
-    equations differ, it iterates away from these solutions.
+    a nearby point without any symmetry. The step is the longest step that moves the state by at most
+    :data:`REACH` along the field, and for which the results are finite and the blocks converge. A compared
+    program starts from the solutions of the reference; if its equations differ, it iterates away from these
+    solutions.
     """
 
     def __init__(self, program: Program, scene: Problem) -> None:
@@ -143,13 +150,14 @@ class Reference:
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
         """Yield results of the longest step and of shorter steps, in which more programs converge.
 
-        The steps begin at the initial state, or at one moved from it.
+        The steps begin at the initial state, or at a state near it.
         """
         state = _state(self.scene, FloatDomain(0.0), moved)
         # The distance covered in a step is about h times the field, so fast fields get shorter steps.
         speed = _speed(self.scene, state)
         inputs = {name: state[name] for name in self.kinds}
-        # A state where the field is not finite is skipped; the other state may be usable.
+        # A state at which the field is not finite is skipped, because the programs may still be compared at
+        # the other state.
         if not math.isfinite(speed):
             return
         excess = math.frexp(speed * STEPS[0] / REACH)[1]  # 2**excess is the next power of two
@@ -182,7 +190,8 @@ class Reference:
             after = self._run(program, domain, inputs, (1 + tiny) * SWEEPS, solutions)
         except FAILURES:
             return None
-        # A sum near the greatest double overflows in another order.
+        # Sums near the greatest double are excluded, because they may overflow if their terms are added in
+        # another order.
         finite = all(abs(x) < LARGEST for name in after for x in self._numbers(name, after))
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
@@ -219,8 +228,8 @@ class Reference:
         """Compare results after the longest step for which both programs have a finite result."""
         failure = ""
         for step in point.results():
-            # The same equations in another form may converge, and the same sums in another order may stay
-            # finite, only for shorter steps: try the next step.
+            # The equations of the compared program may converge, and its sums may stay finite, only for
+            # shorter steps. The next shorter step is then tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:
@@ -260,7 +269,7 @@ class Reference:
             scale, agree = max(1.0, *(abs(s) for s in x)), AGREE
             if step.tiny:
                 start = self._numbers(name, step.inputs)
-                # A state that does not change is compared to rounding.
+                # If the step does not change the state, the results must agree up to rounding errors.
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
@@ -285,10 +294,11 @@ def _speed(scene: Problem, state: dict[str, Value]) -> float:
 def _state(scene: Problem, domain: Domain, moved: bool) -> dict[str, Value]:
     """Return the initial state, or a state moved from it by the group in fixed directions.
 
-    On a group it is as exact as the numbers of the domain.
+    The moved state is an element of the group up to the rounding errors of the domain.
     """
     start = scene.initial(domain)
-    # Sines of integers: no symmetry, no integer relation that a scene might share, and no random seed.
+    # The directions are sines of integers. They have no symmetry and no integer relation that a scene might
+    # share, and need no random seed.
     directions = [_exactly(domain, math.sin(7.0 * k + 1.0) / 8) for k in range(2 * scene.group.dim)]
     x, covector = tuple(directions[: scene.group.dim]), directions[scene.group.dim :]
     state: dict[str, Value] = {"t": _exactly(domain, float(scene.span[0]) + moved / 8)}

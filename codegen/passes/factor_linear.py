@@ -16,7 +16,9 @@ def run(program: Program) -> Program:
     """Return the program with linear maps factored out of sums."""
     # Each round has fewer maps than the previous round, so the loop ends.
     while True:
-        new = dead.run(rewrite(program, _rule))  # factored-out values must not count as used
+        # Values that are no longer used are removed, because they must not count as readers in the next
+        # round.
+        new = dead.run(rewrite(program, _rule))
         if new == program:
             return program
         program = new

@@ -35,10 +35,11 @@ def run(program: Program, scene: Problem) -> Program:
     letters = word(program)
     if letters is None:
         return program
-    # This is computed only if the program is a composition of flows, because sampling the scene takes time.
+    # The predicate is formed only if the program is a composition of flows, because sampling the scene takes
+    # time.
     commute = commuting(scene)
     kept: list[Letter] = []
-    # Each flow moves to an earlier place if it commutes with all flows that it passes.
+    # Each flow is joined to an earlier flow of the same part if it commutes with all flows between them.
     for letter in letters:
         at = _before(kept, letter, commute)
         if at is not None:
@@ -48,17 +49,20 @@ def run(program: Program, scene: Problem) -> Program:
         # The flow of duration zero is the identity; a duration counts as zero only if that is proven.
         if not letter.duration.is_zero:
             kept.append(letter)
-    # Unless flows were joined, the old program is returned: equal programs are not compared after the pass.
+    # If no flows were joined, the old program is returned, because the optimiser then skips the comparison of
+    # programs.
     return program if len(kept) == len(letters) else with_flows(program, kept)
 
 
 def _before(kept: Sequence[Letter], letter: Letter, commute: Callable[[str, str], bool]) -> int | None:
-    """Return the place of the last flow of the same part and time that commutes with all flows after it."""
+    """Return the index of the last flow of the same part and time, if all flows after it commute with the new
+    flow."""
     for at in reversed(range(len(kept))):
-        # A time-dependent part is frozen at its stage time; frozen at two times it gives two different flows.
+        # The flow of a part that depends on time uses the part at its stage time, so two stage times give two
+        # different flows.
         if (kept[at].part, kept[at].time) == (letter.part, letter.time):
             return at
-        # The new flow cannot reach an earlier place, because it does not commute with this flow.
+        # The new flow cannot be moved before this flow, because the two flows do not commute.
         if not commute(kept[at].part, letter.part):
             return None
     return None
@@ -75,12 +79,13 @@ def word(program: Program) -> list[Letter] | None:
         operation, args = statement.operation, statement.args
         if isinstance(operation, Advance):
             continue
-        # Each flow must start from the state that the flow before returned.
+        # Each flow must start from the state that the previous flow returned.
         if not isinstance(operation, FlowOf) or args[: len(state)] != state:
             return None
         letters.append(Letter(operation.part, operation.duration, args[len(state) :]))
         state = statement.targets
-    # The outputs must be the state after the last flow, else the program computes more than the flows.
+    # The outputs must be the state after the last flow; otherwise the program is not a composition of flows
+    # only.
     return letters if state == tuple(var for _, var in program.outputs) else None
 
 
@@ -100,7 +105,7 @@ def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
 
 
 def commuting(scene: Problem) -> Callable[[str, str], bool]:
-    """Return a predicate: whether the flows of two parts commute on the scene."""
+    """Return a function of the names of two parts that returns whether the flows of these parts commute."""
     orbit = orbit_of(scene)
     d = orbit.domain
 
@@ -121,7 +126,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
             try:
                 ends = moved(point, (first, second)), moved(point, (second, first))
             except (ArithmeticError, ValueError):
-                # A flow that fails at a sample point proves nothing: the flows count as not commuting.
+                # If a flow cannot be evaluated at a sample point, the flows are treated as not commuting.
                 return False
             if not all(orbit.sized(x - y, (x, y)) for x, y in zip(*ends, strict=True)):
                 return False

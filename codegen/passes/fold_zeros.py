@@ -43,15 +43,15 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     # t + 0 h is t: the stage at the start of the step needs no stage time.
     if isinstance(operation, Advance) and operation.coefficient.is_zero:
         return assign.args
-    # Definitions are examined, and not numerical values: only an explicit Zero or Identity of the program
-    # counts.
+    # A value counts as zero or as the identity only if the program defines it by the operation Zero or
+    # Identity.
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]
     if isinstance(operation, Exp) and zero[0]:
         return rewriter.emit(Assign(assign.targets, Identity(), ()))
     if isinstance(operation, Multiply) and any(identity):
-        # A product has two factors; the one that is not the identity remains.
+        # A product of the identity and another factor is the other factor.
         return (assign.args[1 - identity.index(True)],)
     if (isinstance(operation, AT_IDENTITY) and identity[0]) or (isinstance(operation, AT_ZERO) and zero[0]):
         return (assign.args[1],)
@@ -71,7 +71,7 @@ def _sum(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             continue
         old = total.get((arg, c.power))
         total[arg, c.power] = c if old is None else Coefficient(old.value + c.value, c.power)
-    # Only a proven zero is removed: a ball that merely contains zero proves nothing.
+    # A term is removed only if its coefficient is provably zero; a ball that contains zero is no proof.
     terms = [(c, arg) for (arg, _), c in total.items() if not c.is_zero]
     if not terms:
         return rewriter.emit(Assign(assign.targets, Zero(assign.targets[0].kind), ()))

@@ -2,8 +2,8 @@
 
 The pass is exact. Ad_{exp x} = exp(ad_x) and Ad*_{exp x} = exp(ad*_x). A chain of such operations with
 multiples of one x is therefore a product of functions of ad_x, or of ad*_x on duals. A group may have a
-closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. An exp(x) that is read by one adjoint
-operation only need not be computed.
+closed form for this product: on SO(3) it is 1 + b ad_x + c ad_x^2. If a single adjoint operation reads
+exp(x), the element exp(x) need not be computed.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def rows(program: Program, scene: Problem) -> Program:
 
     def rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         source = rewriter.definitions.get(assign.args[-1]) if isinstance(assign.operation, Multiply) else None
-        # A product that is also the new state needs all rows, and then exp(x) is formed anyway.
+        # If the product is also the new state, all its rows are needed, and exp(x) is formed anyway.
         own = assign.targets[0] in fields and assign.targets[0] not in kept
         if source is None or not isinstance(source.operation, Exp) or not own:
             return rewriter.emit(assign)
@@ -62,8 +62,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     function = _function(rewriter, assign)
     if function is None:
         return rewriter.emit(assign)
-    # Functions of ad of proportional x commute, so the order of the maps does not matter, only the ratio of
-    # the two x.
+    # If x = s y, functions of ad_x and ad_y commute. The order of the two maps does not matter then, and only
+    # the ratio s is needed.
     x, word = function
     v = assign.args[-1]
     source = rewriter.definitions.get(v)
@@ -74,13 +74,14 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             # x = scale y turns f(ad_x) into f(scale ad_y): both factors are now functions of the same ad_y.
             joined = (*inner[1], *(f.scaled(scale) for f in word))
             return _emit(rewriter, assign, inner[0], joined, source.args[-1])
-    # f(ad) of a sum of functions of ad: if f is distributed over the sum, all terms nest into two brackets.
+    # The argument of f(ad_x) is a sum of functions of ad_x. If f is distributed over the sum, all terms can
+    # be computed together with two brackets.
     adjoint = isinstance(assign.operation, Adjoint)
     if adjoint and source is not None and source.terms:
         parts = [_function_of(rewriter, arg, x) for arg in source.args]
         if len(parts) > 1 and all(part is not None for part in parts):
             return _distributed(rewriter, source, [p for p in parts if p is not None], word)
-    # If other operations use the group element, its exponential is computed anyway.
+    # If other operations also use exp(x), it is computed anyway, so nothing is saved.
     if adjoint and rewriter.uses.get(assign.args[0], 0) > 1:
         return rewriter.emit(assign)
     return _emit(rewriter, assign, x, word, v)
@@ -138,13 +139,14 @@ def _function(rewriter: Rewriter, assign: Assign) -> tuple[Var, Word] | None:
 
 
 def ratio(definitions: Mapping[Var, Assign], x: Var, y: Var) -> Fraction | None:
-    """Return the rational number s with x = s y, or None if the terms of x and y do not show one."""
+    """Return the rational number s with x = s y, or None if no such s follows from the terms of x and y."""
     a, b = _terms(definitions, x), _terms(definitions, y)
-    # Proportional combinations have the same terms; both dicts are sorted.
+    # Proportional combinations contain the same variables. Both dictionaries are sorted, so that their items
+    # can be compared in order.
     if list(a) != list(b):
         return None
     quotients = {(a[k] / b[k]).key: a[k] / b[k] for k in a}
-    # One quotient for all terms means x = s y. Factors hold rational scales only.
+    # If all quotients of coefficients are equal to s, then x = s y. The scale of a factor must be rational.
     (s, *others) = quotients.values()
     return s.fraction() if not others and s.is_rational else None
 

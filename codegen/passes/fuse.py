@@ -1,7 +1,7 @@
-"""Exponential and action fused: an action by exp(x) becomes one operation if exp(x) has one reader.
+"""Fuse exponentials and actions: exp(x) and its action become one operation if nothing else reads exp(x).
 
-The pass is exact. exp(x).y needs no group element: Rodrigues' formula, applied to a vector, needs two cross
-products only.
+The pass is exact. exp(x).y needs no group element: Rodrigues' formula, applied to a vector, needs only two
+cross products.
 """
 
 from __future__ import annotations

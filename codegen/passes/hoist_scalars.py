@@ -1,8 +1,8 @@
-"""Numbers taken out of linear maps, L(c x) = c L(x), and sums nested in sums expanded into one sum.
+"""Take numbers out of linear maps, L(c x) = c L(x), and expand sums that are nested in sums.
 
-The pass is exact. The map is applied to the value x, which other operations share. The number c joins the
-coefficients of the sum that reads L(c x). Terms that several sums contain in the same proportion are added
-once for all these sums.
+The pass is exact. The map is applied to x in place of c x, so that other operations on x can share the
+result. The number c is multiplied into the coefficient of the sum that contains L(c x). Terms that several
+sums contain in the same proportion are added once for all these sums.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from codegen.passes.rewrite import Rewriter, defined, rewrite
 from codegen.passes.tearing import ordered
 
 Pattern = tuple[tuple[int, Coefficient], ...]
-"""The sums that contain a value, each with the value's coefficient divided by its coefficient in the first
-sum."""
+"""The sums that contain a value. For each sum: its index, and the coefficient of the value in this sum
+divided by the coefficient of the value in the first sum."""
 
 
 def run(program: Program) -> Program:
@@ -50,8 +50,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     total: dict[tuple[Var, int], Coefficient] = {}
     for c, arg in assign.terms:
         source = rewriter.definitions.get(arg)
-        # If the term is a single multiple, its number joins the coefficient at no cost. A sum with several
-        # readers is not expanded: each reader would repeat its products.
+        # If the term is a single multiple, its number is multiplied into the coefficient at no cost. A sum
+        # with several readers is not expanded: each reader would repeat its products.
         terms = [(c, arg)]
         if source is not None and source.terms and (source.is_multiple or rewriter.uses.get(arg) == 1):
             terms = [(Coefficient(c.value * k.value, c.power + k.power), v) for k, v in source.terms]
@@ -59,7 +59,7 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
             old = total.get((v, k.power))
             total[v, k.power] = k if old is None else Coefficient(old.value + k.value, k.power)
     kept = [(c, v) for (v, _), c in total.items() if not c.is_zero]
-    # The pass for zeros replaces sums that vanish.
+    # A sum without terms is zero; the pass ``fold_zeros`` replaces it.
     if not kept:
         return rewriter.emit(assign)
     if len(kept) == 1 and kept[0][0].is_one:
@@ -70,7 +70,8 @@ def _flat(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
 def _added(program: Program) -> Program:
     """Return the program in which terms that several sums contain in the same proportion are added once."""
     builder = Builder({v.name for v in defined(program)})
-    # Only blocks are changed: a sweep is repeated, so an addition saved in a block is saved several times.
+    # Only sums in blocks are changed, because a block is evaluated several times in a step, so that an
+    # addition saved in a block is saved several times.
     body = [replace(s, body=_together(s.body, builder)) if isinstance(s, Solve) else s for s in program.body]
     return replace(program, body=tuple(body))
 
@@ -81,13 +82,13 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
     groups: dict[tuple[str, Pattern], list[tuple[Var, Coefficient]]] = {}
     for v in dict.fromkeys(v for a in sums.values() for v in a.args):
         places = [(k, c) for k, a in sums.items() for c, x in a.terms if x == v]
-        # The coefficients are relative to the first one, so that values in the same proportion have equal
-        # patterns.
+        # Each coefficient is divided by the coefficient in the first sum, so that values that occur in the
+        # same proportion have equal patterns.
         unit = places[0][1]
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
-        # A value that occurs twice in one sum would have to be removed twice.
+        # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
-        # A negative power would divide by h, which may be zero.
+        # A negative power of h in the quotient is not allowed, because h may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []
@@ -104,7 +105,8 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
             kept = [(c, v) for c, v in sums[k].terms if v not in gone]
             kept.append((Coefficient(share.value * unit.value, share.power + unit.power), total))
             sums[k] = Assign.of_terms(sums[k].targets[0], kept)
-    # The totals come after the sums that read them; sorting puts definitions before uses again.
+    # The totals are appended after the sums that contain them, so the assignments are sorted: definitions
+    # must precede uses.
     result = ordered((*(sums.get(k, a) for k, a in enumerate(body)), *totals))
     # A total reads only values that the old sums read, so no cycle can arise.
 

@@ -23,7 +23,7 @@ from codegen.passes.tearing import ordered
 from codegen.scene.problem import Problem
 
 INVERTIBLE = (Adjoint, InverseDexp, AdSeries)
-"""Maps that have an inverse; functions of ad_x are invertible if x is small."""
+"""Operations that are invertible linear maps. A function of ad_x is invertible if x is small."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Path:
 
     @property
     def base(self) -> Var:
-        """The momentum that P is computed from."""
+        """The momentum from which P is computed."""
         return self.inward[0].args[-1] if self.inward else self.velocity.args[1]
 
 
@@ -58,8 +58,8 @@ def run(program: Program, scene: Problem) -> Program:
             body.append(replace(statement, args=tuple(names.get(a, a) for a in statement.args)))
             continue
         block = replace(statement, starts=tuple(names.get(a, a) for a in statement.starts))
-        # All paths are found in the old block, because rewriting one path keeps the statements of the other
-        # paths.
+        # All paths are found before the first one is rewritten; rewriting one path does not change the
+        # statements of other paths.
         paths = [p for p in (path(block, u) for u in block.unknowns) if p is not None]
         for route in paths:
             block = _turned(block, route, build)
@@ -97,7 +97,8 @@ def path(block: Solve, unknown: Var) -> Path | None:
     outward, velocity = _chain(maker, image)
     if velocity is None or not isinstance(velocity.operation, BodyVelocity):
         return None
-    # The second search leads from P back to the momentum of the equations from which P is computed.
+    # The second search goes from P back to the momentum of the equations from which P is computed by
+    # invertible maps.
     inward, _ = _chain(maker, velocity.args[1])
     return Path(unknown, outward, velocity, inward)
 
@@ -128,7 +129,7 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The coefficient is not zero: an earlier pass has removed every term with the coefficient zero.
+    # The coefficient can be inverted, because an earlier pass has removed all terms with coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
@@ -151,7 +152,8 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append the difference of the two momenta, in the frame with fewer operations."""
+    """Append the difference of the two momenta, in the one of the frames in which it needs fewer
+    operations."""
     replaced, computed = _values(build, route)
     # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base

@@ -11,7 +11,8 @@ from codegen.ir.values import Var
 
 @dataclass
 class Rewriter:
-    """Applies a rule to every assignment; the rule sees earlier definitions and how often values are used.
+    """Applies a rule to every assignment; the rule may read earlier definitions and the number of uses of
+    each value.
 
     ``rule(rewriter, assign)`` returns the variables that replace the targets of the assignment. They are
     earlier variables, in which case the assignment is removed, or targets of assignments that the rule
@@ -96,7 +97,8 @@ def uses(program: Program) -> dict[Var, int]:
         add(assign.args)
     for statement in program.body:
         if isinstance(statement, Solve):
-            # Starts, images and residuals of unknowns are readers, too: the values they read must be kept.
+            # Starts, images and residuals of a block also count as readers, because their values must be
+            # kept.
             add(statement.starts)
             add(statement.images)
             add(statement.residuals)

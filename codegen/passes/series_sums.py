@@ -60,7 +60,7 @@ class SeriesSums:
         sums = self._groups(assign)
         if not sums:
             return None
-        # The group's sum already contains the nested terms; the remaining terms are added to that sum.
+        # The nested sum already contains the terms of the groups; the remaining terms are added to it.
         inner = {term.target for terms in sums for term in terms}
         total = [(c.evaluate(domain), env[v]) for c, v in assign.terms if v not in inner]
         values = [self._nested(domain, group, terms, env) for terms in sums]
@@ -81,19 +81,20 @@ class SeriesSums:
                 continue
             term = Term(v, c, source.operation, *source.args)
             for group in groups:
-                # Proportional x have the same ad up to a number, which becomes the scale of the factors.
+                # If x = s y, then ad_x = s ad_y, and the number s becomes the scale of the factors.
                 if ratio(self.definitions, term.x, group[0].x) is not None:
                     group.append(term)
                     break
             else:
                 groups.append([term])
-        # A single function needs two brackets in either form.
+        # A single function needs two brackets with and without nesting, so at least two functions are needed.
         return [group for group in groups if len(group) > 1]
 
     def _nested(
         self, domain: Domain, group: ClosedFormSeries, members: list[Term], env: Mapping[Var, Value]
     ) -> tuple[Value, ...]:
-        """Return the value of one sum, all in terms of the last x."""
+        """Return the value of one sum; all functions are written as functions of ad_x for the x of the last
+        term."""
         x, dual = members[-1].x, members[-1].series.dual
         terms = []
         for term in members:
@@ -112,7 +113,8 @@ class SeriesSums:
         """Return a sum with its terms expanded, unless the expanded sum is longer."""
         total: dict[tuple[Var, int], Number] = {}
         for c, v in terms:
-            # Expanded sums read values that are ready earlier, which shortens the critical path.
+            # Expanded sums contain values that are computed earlier, so the chain of dependent operations is
+            # shorter.
             source = self.definitions.get(v)
             inner = [(ONE, v)]
             if source is not None and source.terms:
@@ -126,7 +128,8 @@ class SeriesSums:
 
 
 def signed(domain: Domain, c: Coefficient) -> Value:
-    """Return a coefficient with its sign in front, to share products with it and its negative."""
+    """Return a coefficient as plus or minus a number, so that products with the coefficient and with its
+    negative are shared."""
     # c x and (-c) x then share one product, and an addition or subtraction includes the sign at no cost.
     if c.value.is_rational and c.value.fraction() < 0:
         return -Coefficient(-c.value, c.power).evaluate(domain)

@@ -20,7 +20,8 @@ def run(program: Program) -> Program:
     the same block, or outside all blocks."""
     outside: dict[Terms, Var] = {}
     body = [
-        # Each block has a new table, because a sum in one block must not refer to a sum in another block.
+        # Each block begins with an empty table, because a sum in one block must not refer to a sum in another
+        # block.
         replace(s, body=_signed(s.body, {})) if isinstance(s, Solve) else _signed((s,), outside)[0]
         for s in program.body
     ]
@@ -36,7 +37,7 @@ def _signed(body: tuple[Assign, ...], known: dict[Terms, Var]) -> tuple[Assign, 
             if opposite in known:
                 assign = Assign.of_terms(assign.targets[0], [(MINUS_ONE, known[opposite])])
             else:
-                # The first of several equal sums is recorded, so that definitions stay before uses.
+                # Among equal sums the first is recorded, so that the sum is defined before it is used.
                 known.setdefault(frozenset(assign.terms), assign.targets[0])
         result.append(assign)
     return tuple(result)

@@ -26,7 +26,7 @@ one."""
 def run(program: Program) -> Program:
     """Return the program with linear maps of common sums computed once."""
     while True:
-        # Each round searches for combinations anew, because a value computed in this round may be a term of a
+        # Each round searches again for combinations, because a value of this round may be a term of a
         # further combination.
         wanted = _worthwhile(program)
         if not wanted:
@@ -34,7 +34,7 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # Default arguments bind the sets of this round; a closure would read the sets of the next round.
+            # The sets are default arguments, because a closure would use the sets of a later round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -71,7 +71,8 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations that are worth factoring: a map has fewer combinations than values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched: maps in a block are evaluated once a sweep, maps outside once a step.
+        # Only blocks are searched, because a map in a block is evaluated in every sweep, and a map outside
+        # only once in a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}
@@ -97,10 +98,12 @@ def _shares(assign: Assign, definitions: dict[Var, Assign]) -> dict[Share, Coeff
             groups.setdefault((source.operation, source.args[:-1]), []).append((arg, c))
     shares: dict[Share, Coefficient] = {}
     for terms in groups.values():
-        # A value that occurs with two powers of h has no single coefficient in the combination.
+        # A value that occurs with two powers of h is skipped, because it has no single coefficient in the
+        # combination.
         if len({v for v, _ in terms}) < len(terms):
             continue
-        # Divided by the coefficient of their first term, proportional combinations are equal.
+        # Each combination is divided by the coefficient of its first term, so that proportional combinations
+        # become equal.
         _, unit = min(terms, key=lambda term: (term[1].power, term[0].name))
         ordered = sorted(terms, key=lambda term: (term[1].power, term[0].name))
         share = tuple((v, Coefficient(c.value / unit.value, c.power - unit.power)) for v, c in ordered)

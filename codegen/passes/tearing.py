@@ -14,7 +14,8 @@ from codegen.ir.values import Kind, Var
 
 
 def run(program: Program) -> Program:
-    """Return the program with unknowns replaced one by one until no replacement is possible."""
+    """Return the program in which unknowns have been replaced by their images, one by one, until no
+    replacement is possible."""
     body: list[Statement] = []
     names: dict[Var, Var] = {}
 
@@ -27,11 +28,11 @@ def run(program: Program) -> Program:
             continue
         inner = tuple(replace(a, args=now(a.args)) for a in statement.body)
         block = replace(statement, starts=now(statement.starts), body=inner, images=now(statement.images))
-        # Momenta and forces are tried first, so that velocities remain, which are extrapolated best between
-        # steps.
+        # Momenta and forces are tried first. The remaining unknowns are then velocities, whose extrapolation
+        # from earlier steps is the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # The search is greedy and has a fixed order: to find the smallest set (a minimum feedback vertex
-            # set) is NP-hard.
+            # The search is greedy and has a fixed order, because finding the smallest set of unknowns (a
+            # minimum feedback vertex set) is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -44,7 +45,8 @@ def run(program: Program) -> Program:
 def _without(block: Solve, unknown: Var) -> Solve | None:
     """Return the block with an unknown replaced by its image; None if that closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # The last unknown is in a cycle: the pass for blocks has already removed blocks without one.
+    # A single unknown is never replaced, because it is in a cycle: an earlier pass has replaced blocks
+    # without cycles by plain assignments.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -65,7 +67,8 @@ def _without(block: Solve, unknown: Var) -> Solve | None:
 
 
 def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
-    """Return assignments with definitions before uses, otherwise in the given order; None for a cycle."""
+    """Return the assignments sorted so that each definition precedes its uses; apart from this they keep
+    their order. The result is None if there is a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
     # The state is False while an assignment waits for its arguments. If it is reached in this state, there is

@@ -29,7 +29,8 @@ def run(program: Program) -> Program:
             assign = Assign.of_terms(
                 assign.targets[0], sorted(assign.terms, key=lambda term: ranked(term[1]))
             )
-        # The kind is part of the key, because zeros in the algebra and in its dual are one operation.
+        # The kind is part of the key, because the zero of the algebra and the zero of its dual are the same
+        # operation with results of different kinds.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
             # The first computation keeps its place, before all of its readers.

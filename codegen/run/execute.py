@@ -4,7 +4,9 @@ It executes the same statements as emitted code, so it takes the same sweeps, ma
 arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function is compiled to closures once, so that
 a run of many steps does not traverse the statements again.
 
->>> from codegen.ir.domain import FloatDomain
+>>> import numpy
+
+from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
 >>> from codegen.run.terms import Kind, count, real, whole
 >>> x, n, root = real("x"), count("n"), real("root")
@@ -464,26 +466,28 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
 
 def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
+    import numpy
+
     # The order of operations is that of the emitted code, so that doubles agree in every bit.
-    rows = [matrix[n * i : n * i + n] for i in range(n)]
+    rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
+    rows = rows.reshape(n, n)
     order = []
-    for k in range(n):
-        # ``max`` returns the first of equal candidates, like the strict comparison in the emitted code.
-        pivot = max(range(k, n), key=lambda i: abs(rows[i][k]))
-        # The comparison is negated, so that a NaN counts as a singular matrix, too.
-        if not abs(rows[pivot][k]) > 0:
-            return 0
-        order.append(pivot)
-        rows[k], rows[pivot] = rows[pivot], rows[k]
-        factor = 1 / rows[k][k]
-        rows[k] = [factor if j == k else x * factor for j, x in enumerate(rows[k])]
-        for i in range(n):
-            if i != k:
-                multiple = rows[i][k]
-                pairs = enumerate(zip(rows[i], rows[k], strict=True))
-                rows[i] = [-(multiple * factor) if j == k else x - multiple * y for j, (x, y) in pairs]
-    for k in reversed(range(n)):
-        for row in rows:
-            row[k], row[order[k]] = row[order[k]], row[k]
-    matrix[:] = [x for row in rows for x in row]
+    with numpy.errstate(all="ignore"):  # overflow and NaN behave as in emitted code
+        for k in range(n):
+            sizes = abs(rows[k:, k])
+            pivot = k + max(range(n - k), key=sizes.__getitem__)
+            if not sizes[pivot - k] > 0:
+                return 0
+            order.append(pivot)
+            rows[[k, pivot]] = rows[[pivot, k]]
+            factor = 1 / rows[k, k]
+            rows[k] *= factor
+            rows[k, k] = factor
+            multiples = rows[:, k].copy()
+            others = numpy.arange(n) != k
+            rows[others] -= numpy.outer(multiples[others], rows[k])
+            rows[others, k] = -(multiples[others] * factor)
+        for k in reversed(range(n)):
+            rows[:, [k, order[k]]] = rows[:, [order[k], k]]
+    matrix[:] = rows.ravel().tolist()
     return 1

@@ -20,6 +20,10 @@ more than :data:`PRICE` times the time of the fastest solver. The reason then sa
 Without the bound :data:`PRICE`, robust solvers with matrices of 24 and 36 unknowns would make some steps of
 the gallery 5 to 14 times as long (``benchmarks/README.md``).
 
+The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
+and its step size is limited by accuracy only. If fixed-point iteration is not robust, a step that is slower
+by a large factor may be longer by a larger one.
+
 Kernels of many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
 computed. The kernel is not built if a known solver is certain to be preferred to it
 (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
@@ -28,11 +32,13 @@ computed. The kernel is not built if a known solver is certain to be preferred t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from codegen.errors import MethodError
 from codegen.ir.differentiate import NotDifferentiable
-from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Kernel
+from codegen.ir.expr import Expr, walk
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Kernel, Loop
 from codegen.ir.program import Program
 from codegen.kernel.newton import SMALL
 from codegen.kernel.schedule import METHODS
@@ -64,15 +70,23 @@ LARGE = 64
 """Above LARGE unknowns a trial has FEW_STEPS steps. It omits continuation in h: thousands of sweeps."""
 
 
+NONLINEAR = 2
+"""The degree of expressions that are not linear."""
+
+
 @dataclass(frozen=True)
 class Choice:
-    """The solver of one block and the reason; ``compared`` has a sentence on each solver considered."""
+    """The solver of one block and the reason; ``compared`` has a sentence on each solver considered.
+
+    ``converges`` is False if no solver converges in the first steps of the usage example.
+    """
 
     label: str
     unknowns: int
     solver: str
     reason: str
     compared: tuple[str, ...] = ()
+    converges: bool = True
 
     def text(self) -> str:
         """Return the sentence of the header.
@@ -145,6 +159,33 @@ def unknowns_of(kernel: Kernel) -> int:
 def trial_steps(kernel: Kernel) -> int:
     """Return the number of steps in the trial with the usual step size."""
     return STEPS if unknowns_of(kernel) <= LARGE else FEW_STEPS
+
+
+def is_linear(loop: Loop) -> bool:
+    """Whether the images of a block are linear in its unknowns."""
+    degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
+    for let in loop.body:
+        degrees[let.name] = _degree(let.value, degrees)
+    return all(_degree(image, degrees) <= 1 for image in loop.images)
+
+
+def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
+    """Return the degree of an expression in the symbols that have a degree, at most NONLINEAR."""
+    degree_of: dict[int, int] = {}
+    for e in walk((root,)):
+        args = [degree_of[a.id] for a in e.args]
+        if e.op == "sym":
+            degree = degrees.get(str(e.payload), 0)
+        elif e.op in ("add", "sub", "neg"):
+            degree = max(args)
+        elif e.op == "mul":
+            degree = sum(args)
+        elif e.op == "div" and not args[1]:
+            degree = args[0]
+        else:
+            degree = NONLINEAR if any(args) else 0
+        degree_of[e.id] = min(degree, NONLINEAR)
+    return degree_of[root.id]
 
 
 class Candidate:
@@ -222,7 +263,7 @@ class _Selection:
             return self.by_continuation()
         robust = {s: c for s, c in able.items() if c.robust}
         least = min(c.step() for c in able.values())
-        if all(c.step() > PRICE * least for c in robust.values()):
+        if not (robust and self.linear) and all(c.step() > PRICE * least for c in robust.values()):
             robust = able
         blocks = range(len(self.fixed.loops))
         best = [min(robust, key=lambda s: robust[s].block(k)) for k in blocks]
@@ -247,7 +288,10 @@ class _Selection:
         may be faster: it inverts a matrix in each step.
         """
         least = self.least(solver)
-        if any(self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged):
+        needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust
+        if not needed and any(
+            self.allowed(s, c) <= least for s, c in self.candidates.items() if c.usual.converged
+        ):
             self.left_out[solver] = f"not tried: would take at least {least:.0f} ns a step"
             return
         try:
@@ -257,6 +301,11 @@ class _Selection:
             self.left_out[solver] = f"not possible: {error}"
             return
         self.candidates[solver] = Candidate(kernel, self.scene, self.initial)
+
+    @cached_property
+    def linear(self) -> bool:
+        """Whether the equations of all blocks are linear."""
+        return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:
         """Return the nanoseconds below which a step with another solver may be preferred to a candidate."""
@@ -331,7 +380,8 @@ class _Selection:
                 reasons.append(f"{failed} directly; with continuation in h, {counted(trials[solver], k)}")
             else:
                 reasons.append(f"{failed}{', nor by continuation in h' * small}: take shorter steps")
-        return kernels[solver], self.choices(kernels[solver], reasons)
+        choices = self.choices(kernels[solver], reasons)
+        return kernels[solver], tuple(replace(choice, converges=bool(able)) for choice in choices)
 
     def weakness(self, solver: str) -> str:
         """Return the reason why a candidate that converges is not robust."""

@@ -281,14 +281,14 @@ class _Controlled:
     def advise(self) -> Function:
         """Return the function that computes the step size."""
         n, p = self.size, self.degree
-        epsilon, found, reached = real("epsilon"), real("found"), real("reached")
+        epsilon, smaller, reached = real("epsilon"), real("smaller"), real("reached")
         body: list[Statement] = [Assign(epsilon, ATOL + RTOL * largest(self.start))]
-        for k, result in ((p - 1, found), (p, reached)):
+        for k, result in ((p - 1, smaller), (p, reached)):
             norm = real(f"norm_{k}")
             body.append(Assign(norm, largest(self.series.part((k - 1) * n, n))))
             ratio = epsilon / select(norm > LEAST, norm, number(LEAST))
             body.append(Assign(result, call("power", ratio, self.rounded(1 / k))))
-        least = select(found < reached, found, reached)
+        least = select(smaller < reached, smaller, reached)
         body.append(Return(self.rounded(math.exp(-0.7 / (p - 1))) * least))
         about = "The step size at which the last two terms of the polynomial are as large as the tolerance."
         parameters = (self.start, self.series, RTOL, ATOL)

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     import mpmath
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Formulas that a scene states, and the derived formulas that they must equal; None means the velocity
-f.y."""
+"""Formulas that a scene contains, by the name that messages use, and the computed formulas that they must
+equal. If the computed formulas are None, the formulas of the scene must equal the velocity f.y."""
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
@@ -34,8 +34,8 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
 
 def check_start(orbit: Orbit) -> None:
-    """Raise :class:`SceneError` if a group acts on itself and the initial state is no element of the
-    group."""
+    """Raise :class:`SceneError` if the initial state should be an element of the group, because the group
+    acts on itself, but is not."""
     if not isinstance(orbit.action, LeftMultiplication):
         return
     start = tuple(orbit.points[0][s] for s in orbit.symbols)
@@ -51,10 +51,10 @@ def check_start(orbit: Orbit) -> None:
 def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
-    """Raise :class:`SceneError` if stated formulas differ from the ``derived`` formulas, or from f.y if
+    """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas, or from f.y if
     ``derived`` is None.
 
-    ``what`` names the stated formulas in the message.
+    ``what`` names the formulas of the scene in the message.
     """
     for point in orbit.points:
         right = orbit.velocity(point) if derived is None else orbit.values(derived, point)
@@ -71,7 +71,7 @@ def check_equal(
 def check_flow(
     orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
 ) -> None:
-    """Raise :class:`SceneError` if stated formulas are not the flow of a part.
+    """Raise :class:`SceneError` if the formulas that a scene gives for the flow of a part are not this flow.
 
     The formulas must equal the state at the time 0. At all times their time derivatives must be the part's
     ``rates``; ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact, and are
@@ -102,7 +102,7 @@ def check_flow(
 
 
 def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
-    """Raise :class:`SceneError` for a declared invariant that changes along the field.
+    """Raise :class:`SceneError` if a declared invariant is not constant along the solutions.
 
     The time derivative dI.(f.y) + dI/dt of an invariant I is formed exactly and must vanish at every point.
     """

@@ -30,7 +30,7 @@ OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 
 
 class Conservative(Protocol):
-    """The parts of a problem that this module reads."""
+    """The attributes of a problem that this module reads."""
 
     @property
     def group(self) -> LieGroup:
@@ -46,7 +46,7 @@ class Conservative(Protocol):
 
     @property
     def hamiltonian(self) -> Expr | None:
-        """H; None for a field scene."""
+        """The Hamiltonian H; None for a field scene."""
 
     @property
     def invariants(self) -> Mapping[str, Expr]:

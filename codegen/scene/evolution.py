@@ -1,9 +1,10 @@
-"""The coordinates in which Taylor polynomials of a scene are computed, and the way from the state and back.
+"""The coordinates in which Taylor polynomials of a scene are computed, and their conversion from and to the
+state.
 
 A product of two series costs a convolution, so the coordinates with the fewest products are chosen. If a
 Hamiltonian scene has a body frame, they may be the group element q and the momentum P = Ad*_q mu of the body,
-with q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Coordinates of q that the others determine are
-left out if no other equation reads them.
+with q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Coordinates of q that the other coordinates
+determine are omitted if no other equation contains them.
 """
 
 from __future__ import annotations
@@ -31,8 +32,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 class Evolution:
     """Coordinates with their own equations: ``inner`` is the problem on R^m, ``outer`` the scene as a field.
 
-    ``body`` is the group whose body frame the coordinates use, None for the momentum of the state.
-    ``missing`` are the coordinates of the state that are left out.
+    ``body`` is the group in whose body frame the momentum is; it is None if the momentum is that of the
+    state. ``missing`` are the indices of the coordinates that are omitted.
     """
 
     inner: Problem
@@ -63,7 +64,7 @@ class Evolution:
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
         """Return the coordinates after the time h by the Taylor polynomial of the solution through y."""
-        # The coefficients include powers of h, which saves the powers in the polynomial.
+        # Each coefficient contains its power of h, so the polynomial is the sum of the coefficients.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
@@ -103,7 +104,7 @@ class Evolution:
         return tuple(y[: self.body.size]), tuple(y[self.body.size :])
 
     def _completed(self, domain: Domain, moved: Vector[S]) -> Vector[S]:
-        """Return all coordinates."""
+        """Return all coordinates, including the coordinates that were omitted."""
         if not self.missing:
             return moved
         group, own = _of_element(self.outer.group), iter(moved)
@@ -114,13 +115,14 @@ class Evolution:
 
 
 def evolution(scene: Problem) -> Evolution:
-    """Return the coordinates of a scene with the fewest products of series."""
+    """Return the coordinates of a scene that need the fewest products of series."""
     outer = scene.as_field()
     forms = [_flat(scene, outer, None, ambient(scene).roots)]
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))
-    # The first of equals is taken, so that a scene keeps its own coordinates.
+    # If several candidates need the same number of products, min returns the first one, which has the
+    # coordinates of the scene.
     return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
 
 
@@ -131,7 +133,7 @@ def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequenc
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    start = tuple(space.zero for _ in symbols)  # the coordinates come from a state, not from the scene
+    start = tuple(space.zero for _ in symbols)  # the initial values are not used: a step sets the coordinates
     return replace(
         scene,
         group=Rn(len(symbols)),
@@ -155,7 +157,7 @@ def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
 
 
 def _shorter(form: Evolution) -> Iterator[Evolution]:
-    """Yield the evolutions without coordinates that the others determine."""
+    """Yield evolutions in which coordinates are omitted that the other coordinates determine."""
     on_itself = isinstance(form.outer.action, LeftMultiplication)
     group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
     inner = form.inner

@@ -22,11 +22,12 @@ RESERVED = {
     "t": "t is the time; formulas may contain it, but it cannot be a coordinate or a parameter",
     "h": "h is the step size",
 }
-"""Names that are reserved for programs, with the reason."""
+"""Names that a scene may not use for its own symbols, with the reason."""
 
 
 class Reader:
-    """Reads the formulas of one scene into one space and records the parameters and signals in them."""
+    """Converts the formulas of one scene to expressions of one space, and records their parameters and
+    signals."""
 
     def __init__(self, name: str, coordinates: Sequence[sympy.Symbol]) -> None:
         self.name = name

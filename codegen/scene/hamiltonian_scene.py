@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Column = Sequence[sympy.Expr]
 
 TAU = "tau"
-"""The symbol of the elapsed time in formulas of a stated flow."""
+"""The symbol of the elapsed time in the formulas that a scene gives for a flow."""
 
 
 def HamiltonianScene(
@@ -152,19 +152,21 @@ class _CanonicalSystem:
         )
 
     def invariants(self, energy: Expr, declared: Mapping[str, sympy.Expr]) -> dict[str, Expr]:
-        """Return the declared invariants; the energy comes first for a scene without time and wrench."""
+        """Return the declared invariants. If H does not depend on time and there is no wrench, the energy is
+        added as the first invariant."""
         timeless = not any(node.op == "sym" and node.payload == TIME for node in walk([energy]))
         known = {"energy": energy} if timeless and not self.loads else {}
         return known | {key: self.reader.scalar(x, f"invariant {key}") for key, x in declared.items()}
 
     def derived(self, key: str, column: Column) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-        """Return xi or n twice: as the scene gives it in ``column``, and by differentiation."""
+        """Return two formulas for xi or n: the formula that the scene gives in ``column``, and the formula
+        computed by differentiation."""
         dim = self.group.dim
         own = self.roots[:dim] if key == "xi" else self.roots[dim:]
         return self.reader.closed(self.reader.column(column, dim, key)), self.reader.closed(own)
 
     def flows(self, flows: Mapping[str, tuple[Column, Column]]) -> dict[str, tuple[Expr, ...]]:
-        """Return the formulas of the flows that the scene states for its parts, by the name of the part."""
+        """Return the formulas that the scene gives for the flows of its parts, by the name of the part."""
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():
             if key not in self.summands:

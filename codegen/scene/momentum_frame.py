@@ -17,8 +17,9 @@ FRAMES = (SPACE, BODY)
 def with_frame(problem: Problem, frame: str) -> Problem:
     """Return a problem with the momenta of emitted code in a frame: ``space`` or ``body``.
 
-    The momentum in the body is Ad*_q mu, left-trivialised. Programs compute with mu for both frames.
-    :class:`SceneError` is raised for the body frame of a problem without momenta, or on an abelian group.
+    The momentum in the body is Ad*_q mu, left-trivialised. Step programs compute with mu, whichever frame is
+    chosen. :class:`SceneError` is raised for the body frame of a problem without momenta, or on an abelian
+    group.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))

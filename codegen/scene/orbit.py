@@ -27,10 +27,11 @@ if TYPE_CHECKING:
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""Allowed rounding error of a sum relative to the size of its terms, with room for cancellation."""
+"""The allowed rounding error of a sum, relative to the size of its terms. It is larger than the unit
+roundoff, because the terms may contain cancellation."""
 
 FLOOR = Fraction(1, 10**28)
-"""Allowed absolute error, for sums whose terms are themselves small by cancellation."""
+"""The allowed absolute error, for sums whose terms are small because of cancellation in the terms."""
 
 POINTS = 4
 """The number of sample points: the initial state and three random points of its orbit."""
@@ -38,7 +39,7 @@ POINTS = 4
 
 @dataclass(frozen=True)
 class Orbit:
-    """A problem as a field, at sample points of its manifold.
+    """A problem as a field, which can be evaluated at sample points of its manifold.
 
     ``symbols`` are the coordinates, ``start`` the initial state, ``roots`` the components of f. The group of
     a Hamiltonian problem is T*G, which acts on itself.
@@ -123,7 +124,7 @@ class Orbit:
         return all(row is not None and all(self.sized(x, (1,)) for x in row) for row in values)
 
     def text(self, x: mpmath.mpf) -> str:
-        """Return a number for a message."""
+        """Return the text of a number for a message."""
         return str(self.domain.context.nstr(x, 6))
 
 

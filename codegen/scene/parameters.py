@@ -54,8 +54,8 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
 def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
-    The default is folded into emitted code unless the parameter is requested at run time. :class:`SceneError`
-    is raised for a default that is not rational.
+    Emitted code contains the default as a constant, unless the parameter is requested as a run-time argument.
+    :class:`SceneError` is raised for a default that is not rational.
     """
     try:
         value = sympy.Rational(default)
@@ -73,10 +73,10 @@ def param(name: str, default: object) -> Parameter:
 
 
 def signal(name: str, formula: object = 0) -> Signal:
-    """Return a sympy symbol for a function of time: a control, a measured load.
+    """Return a sympy symbol for a function of time, for example a control or a measured load.
 
-    Its ``formula``, in t and parameters, is folded into emitted code unless the signal is requested as a
-    run-time input (``emit --input NAME``). :class:`SceneError` is raised for a formula that sympy cannot
+    Emitted code evaluates ``formula``, which may contain t and parameters, unless the signal is requested as
+    a run-time input (``emit --input NAME``). :class:`SceneError` is raised for a formula that sympy cannot
     read.
     """
     try:

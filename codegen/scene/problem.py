@@ -56,10 +56,11 @@ class Problem:
     of (q, mu) after the time tau for parts whose flow the scene gives.
 
     ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value is
-    not the default. ``roots`` contain the formulas of signals, ``open_roots`` are the roots with the symbols
-    of ``signals`` instead. ``inputs`` are the signals that emitted code reads at run time. ``forced`` says
-    that n is not a derivative of the Hamiltonian alone. If emitted code reads and returns momenta in the body
-    frame, ``body_group`` is the group. ``evolution`` are the coordinates that a Taylor step uses.
+    not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same components
+    with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code
+    reads at run time. ``forced`` says that n is not a derivative of the Hamiltonian alone. If emitted code
+    reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution`` contains the
+    coordinates in which a step of Taylor's method computes.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""Run-time inputs: the parameters and signals of a problem that emitted code takes as arguments."""
+"""Run-time inputs: the parameters and signals of a problem that are arguments of emitted code."""
 
 from __future__ import annotations
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""The largest angle of the fastest rotation over the span, if the rotation does not decay.
+"""The largest angle in radians by which the fastest rotation of a variant turns over the span, if the
+rotation is not damped.
 
 Beyond a few hundred radians the phase error hides the order of every explicit method.
 """

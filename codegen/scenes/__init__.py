@@ -40,7 +40,7 @@ GALLERY = (
 )
 
 EXTENDED = "+u"
-"""The suffix of a name that requests the extended scene."""
+"""A scene name with this suffix means the scene extended by the time and its momentum."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
 """Scenes defined elsewhere, by name, and their descriptions."""
@@ -116,7 +116,8 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    read_bytes(path, "a Python file that defines `scene`", error=SceneError)  # refuses huge files
+    # a very large file raises SceneError
+    read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.
         with redirect_stdout(sys.stderr):

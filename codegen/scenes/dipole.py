@@ -44,9 +44,9 @@ def stiff_variants() -> list[StiffVariant]:
 
 
 def _passing(gap: Fraction) -> StiffVariant:
-    # The charges of the dipole are at the distance sqrt(1 + a^2) from the pivot, here to 15 decimals.
+    # The distance of the charges of the dipole from the pivot is sqrt(1 + a^2). It is rounded to 15 decimals.
     reach = Fraction(f"{math.sqrt(1 + float(a) ** 2):.15f}")
     near = replace(with_runtime(scene, (f"depth={reach + gap}",)), span=(Fraction(0), Fraction(5, 2)))
     about = f"passes the charge at {float(gap):g}"
-    # The attraction is about 1/gap^2 over a length of about gap, so the time scale is gap^(3/2).
+    # The acceleration is about 1/gap^2 over a distance of about gap, so the time scale is gap^(3/2).
     return StiffVariant(f"dipole that {about}", about, near, float(1 / gap) ** 1.5)

@@ -1,10 +1,10 @@
 """Duffing's equation on the plane, in the first of three frames: translations.
 
-H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. The frame determines what a Lie
-group method keeps constant in a step. In this scene it is the whole field, so that every family reduces to
-its classical method; in ``duffing_sl2`` it is the stiffness of the spring, in ``duffing_se2`` the cubic part
-of the force. The errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 here, 1.1e-2 for ``duffing_sl2`` and
-1.6e-2 for ``duffing_se2``.
+H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. The frame determines which part
+of the equation a Lie group method keeps constant in a step: the whole field in this scene, so that every
+family reduces to its classical method, the stiffness of the spring in ``duffing_sl2``, and the cubic part of
+the force in ``duffing_se2``. The errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 here, 1.1e-2 for
+``duffing_sl2`` and 1.6e-2 for ``duffing_se2``.
 """
 
 from collections.abc import Sequence

@@ -1,8 +1,9 @@
 """Free rigid body with its attitude on SO(3) x R^3: attitude in the group, momentum in a vector space.
 
-g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006), the body of ``free_rigid_body_attitude``. The
-attitude stays a rotation, but P may be any vector. A method preserves |P| and the energy only up to its
-order, whereas methods with the coadjoint action or on T*SO(3) preserve the momentum.
+g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). The body is that of
+``free_rigid_body_attitude``. The attitude stays a rotation, but P may be any vector. A method preserves |P|
+and the energy only up to its order, whereas methods with the coadjoint action or on T*SO(3) preserve the
+momentum.
 """
 
 from sympy import Matrix, Rational, diag, eye

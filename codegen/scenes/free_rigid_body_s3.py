@@ -19,7 +19,8 @@ axis = Matrix(q[1:])
 
 
 def turned(real: Expr, v: Matrix) -> Matrix:
-    """The vector v turned by the quaternion with this real part and the imaginary part of q."""
+    """The vector v, rotated by the quaternion whose real part is ``real`` and whose imaginary part is that of
+    q."""
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)
 

@@ -4,7 +4,8 @@
  * method:     family vcf, tableau cf4
  * source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic integration in
  *             Lie groups and manifolds, PhD thesis, NTNU 2014, Section 2.2.1
- * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * order:      4, certificate: exact (the residuals of all order conditions up to this order are
+ *             zero in exact arithmetic)
  * digits:     the order conditions hold to 3.2e-17 at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, xi2, xi3, xi4, n1, n2, n3, n4: Newton's method, 12 unknowns;

@@ -3,7 +3,8 @@
  *
  * method:     family vcg, tableau midpoint
  * source:     Table 3.2a of Bogfjellmo and Marthinsen
- * order:      2, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * order:      2, certificate: exact (the residuals of all order conditions up to this order are
+ *             zero in exact arithmetic)
  * digits:     the order conditions hold exactly at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of xi1, n1: Newton's method, 3 unknowns; 1.55 sweeps and 1 matrix a

@@ -3,8 +3,8 @@
 method:     family vcg, tableau triple_jump
 source:     Yoshida 1990; Hairer, Lubich and Wanner, (II.4.4); Table 3.2b of
             Bogfjellmo and Marthinsen
-order:      4, certificate: exact (every order condition up to it is zero in exact
-            arithmetic)
+order:      4, certificate: exact (the residuals of all order conditions up to this
+            order are zero in exact arithmetic)
 digits:     the order conditions hold to 2.3e-16 at the coefficients rounded to
             double precision
 scene:      Dipole on a stick, T*SO(3), group SO(3)

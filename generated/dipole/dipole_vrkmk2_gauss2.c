@@ -4,7 +4,8 @@
  * method:     family vrkmk(2), tableau gauss2
  * source:     Hammer and Hollingsworth 1955; Hairer, Lubich and Wanner, Table II.1.1; Table 3.1c
  *             of Bogfjellmo and Marthinsen
- * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * order:      4, certificate: exact (the residuals of all order conditions up to this order are
+ *             zero in exact arithmetic)
  * digits:     the order conditions hold to 1.6e-17 at the coefficients rounded to double precision
  * scene:      Dipole on a stick, T*SO(3), group SO(3)
  * solved by:  the equations of v1, v2, m1, m2: Newton's method, 6 unknowns; 1.7 sweeps and 0.35

@@ -4,8 +4,9 @@
  *
  * method:     family splitting, tableau blanes_moan_rkn6a
  * source:     Blanes and Moan 2002, Table 3, SRKN_14^a of order six
- * order:      6, certificate: ball (interval arithmetic proves that such a method exists within
- *             the last printed digit)
+ * order:      6, certificate: ball (interval arithmetic proves that a method of this order exists
+ *             whose coefficients differ from the decimals of the tableau by at most one unit in
+ *             the last digit)
  * digits:     the order conditions hold to 1.8e-17 at the coefficients rounded to double precision
  * scene:      Fast heavy top with body inertia, T*SO(3) (Brüls and Cardona 2010), group SO(3)
  * flows:      T.mean, rotation about the momentum; T.turn, turn about the axis (0, 1, 0) fixed in

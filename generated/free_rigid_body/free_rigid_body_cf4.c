@@ -4,7 +4,8 @@
  * method:     family cf, tableau cf4
  * source:     Celledoni, Marthinsen and Owren 2003; H. Marthinsen, On symplectic integration in
  *             Lie groups and manifolds, PhD thesis, NTNU 2014, Section 2.2.1
- * order:      4, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * order:      4, certificate: exact (the residuals of all order conditions up to this order are
+ *             zero in exact arithmetic)
  * digits:     the order conditions hold to 2.8e-17 at the coefficients rounded to double precision
  * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation

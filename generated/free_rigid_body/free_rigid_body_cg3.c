@@ -3,7 +3,8 @@
  *
  * method:     family cg, tableau cg3
  * source:     Crouch and Grossman 1993; Hairer, Lubich and Wanner, Table IV.8.1, left
- * order:      3, certificate: exact (every order condition up to it is zero in exact arithmetic)
+ * order:      3, certificate: exact (the residuals of all order conditions up to this order are
+ *             zero in exact arithmetic)
  * digits:     the order conditions hold to 1.6e-16 at the coefficients rounded to double precision
  * scene:      Free rigid body on the sphere, group SO(3)
  * state:      [0..2] y: point that SO(3) acts on by rotation

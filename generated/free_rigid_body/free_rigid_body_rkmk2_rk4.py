@@ -3,8 +3,8 @@
 method:     family rkmk(2), tableau rk4
 source:     Kutta 1901; Hairer, Norsett and Wanner, Solving Ordinary Differential
             Equations I, Table II.1.2; with brackets: Munthe-Kaas 1998
-order:      4, certificate: exact (every order condition up to it is zero in exact
-            arithmetic)
+order:      4, certificate: exact (the residuals of all order conditions up to this
+            order are zero in exact arithmetic)
 digits:     the order conditions hold to 5.6e-17 at the coefficients rounded to
             double precision
 scene:      Free rigid body on the sphere, group SO(3)

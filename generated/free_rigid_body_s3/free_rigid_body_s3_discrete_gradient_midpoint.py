@@ -2,8 +2,8 @@
 
 method:     family discrete_gradient, tableau midpoint
 source:     Table 3.2a of Bogfjellmo and Marthinsen
-order:      2, certificate: exact (every order condition up to it is zero in exact
-            arithmetic)
+order:      2, certificate: exact (the residuals of all order conditions up to this
+            order are zero in exact arithmetic)
 digits:     the order conditions hold exactly at the coefficients rounded to double
             precision
 scene:      Free rigid body with attitude, S^3, group S^3

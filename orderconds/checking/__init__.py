@@ -1,13 +1,13 @@
 """Compute the exact order of a tableau in each family that its file claims, with a certificate.
 
-Conditions of order 1, 2, ... are evaluated over the tableau's own ring until a condition fails. A claim
-states the exact order of the method. The claim also fails if the method has a higher order.
+Conditions of order 1, 2, ... are evaluated in the ring of the tableau's coefficients until a condition fails.
+A claim states the exact order of the method. The claim also fails if the method has a higher order.
 
 Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file names
 equations for its decimals, and interval arithmetic proves that the equations have exactly one solution within
 one unit of the last digits. The method whose coefficients are this solution has the stated order
-(:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain zero. The printed digits support
-the order, but do not prove it. A ball too wide to decide (see
+(:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain zero. The digits in the file
+support the order, but do not prove it. A ball too wide to decide (see
 :data:`orderconds.checking.residuals.RESOLUTION`) leaves the order ``undecided`` and its certificate ``none``;
 a ball that excludes zero proves that the condition fails.
 """

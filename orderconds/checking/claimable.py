@@ -1,10 +1,11 @@
-"""The claimable families of a tableau: its file should state an order in each of them.
+"""The claimable families of a tableau. The file of the tableau should state an order in each of these
+families.
 
 A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
-and ``vrkmk``. A claim with any cut-off of ``rkmk`` or ``vrkmk`` suffices. A commutator-free method claims
-``rk``, ``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``; a symplectic pair claims
-``sprk_separable`` instead. A family is left out if the order in it follows from the order in another family.
-For example, ``prk`` is left out for an ``rk`` tableau. The method
+and ``vrkmk``. For ``rkmk`` and ``vrkmk``, a claim with any value of the cut-off suffices. A commutator-free
+method claims ``rk``, ``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``; a symplectic pair
+claims ``sprk_separable`` instead. A family is left out if the order in it follows from the order in another
+family. For example, ``prk`` is left out for an ``rk`` tableau. The method
 :meth:`orderconds.families.Family.claimable` decides for each family.
 """
 
@@ -18,9 +19,9 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    They are sorted: first families on vector spaces, then families on Lie groups, last families that divide
-    by weights. Within each of these three classes, the families whose preferred format is the format of the
-    tableau come first.
+    They are sorted: first families on vector spaces, then families on Lie groups, and finally families whose
+    formulas divide by the weights. Within each of these three classes, the families whose preferred format is
+    the format of the tableau come first.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

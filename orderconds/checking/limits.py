@@ -11,8 +11,8 @@ MAX_CONDITIONS = 50_000
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits on ``conditions`` of one order, ``seconds`` in total and ``megabytes`` of memory; None: no
-    limit.
+    """The highest allowed number of ``conditions`` of one order, of ``seconds`` in total, and of
+    ``megabytes`` of memory. None means no limit.
 
     Time and memory are compared with their limits after each batch of conditions, so a batch may exceed them.
     """
@@ -42,7 +42,8 @@ class Meter:
         self.of_order = 0
 
     def count(self, conditions: int) -> None:
-        """Add to the numbers of evaluated conditions, in total and of the current order."""
+        """Increase the two counts of evaluated conditions: the count of the whole check and the count of the
+        current order."""
         self.total += conditions
         self.of_order += conditions
 
@@ -75,7 +76,7 @@ def resident_megabytes() -> float:
 def _largest_megabytes() -> float:
     try:
         import resource
-    except ImportError:  # there is no module resource on Windows
+    except ImportError:  # Python on Windows has no module ``resource``
         return 0.0
     import sys
 

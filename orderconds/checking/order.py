@@ -20,7 +20,8 @@ from orderconds.tableau import Method, Tableau
 
 EXHAUSTIVE = 2000
 """If an order has more conditions than this, they are evaluated in batches, simplest trees first, up to the
-first batch with a failure. The report then has only the failures of that batch, and no error norm."""
+first batch with a failure. The report then contains only the failing conditions of that batch, and no error
+norm."""
 
 STOPPED = "stopped"
 """The verdict on an order that was not decided because of a limit."""
@@ -95,13 +96,13 @@ def family_order(
 ) -> FamilyOrder:
     """Find the order of ``tableau`` in ``family``: evaluate orders 1, 2, ... until a condition fails.
 
-    ``bound`` is the order in another family, whose conditions are a subset of those of ``family``. It is
-    therefore an upper bound. ``search_limit`` is the highest order that is evaluated for a file without a
-    claim in ``family``. If the order of ``bound`` is at least this limit, or with ``brief`` in any case, the
-    search stops when it reaches this bound. It then reports the failing conditions of ``bound``. Conditions
-    that follow from others, and from the orders ``proved`` in other families, are not evaluated
-    (:mod:`orderconds.families.reductions`). The search also ends when ``meter`` reports that a limit is
-    reached.
+    ``bound`` is the order in another family, whose conditions are a subset of the conditions of ``family``.
+    Hence ``bound`` is an upper bound of the order in ``family``. ``search_limit`` is the highest order that
+    is evaluated for a file without a claim in ``family``. The search stops at the order of ``bound`` if this
+    order is at least ``search_limit``, or if ``brief`` is true. The result then contains the failing
+    conditions of ``bound``. Conditions that follow from others, and from the orders ``proved`` in other
+    families, are not evaluated (:mod:`orderconds.families.reductions`). The search also ends when ``meter``
+    reports that a limit is reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -178,8 +179,8 @@ class _Search:
         whole = True
         if self.spared.order_follows(n):
             return verdicts, failing, whole
-        # Over balls, a theorem about a condition proves only that the digits support the condition. Such a
-        # condition is skipped only if the certificate is already ``decimal``.
+        # If the coefficients are balls, a theorem that implies a condition shows only that the digits support
+        # the condition. The condition is therefore skipped only if the certificate is already ``decimal``.
         known = decimal or not isinstance(self.ring, Balls)
         self.meter.next_order()
         for trees, every in _batches(self.family, n):

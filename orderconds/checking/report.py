@@ -16,12 +16,12 @@ if TYPE_CHECKING:
 
 
 class EmbeddedOrder(Struct, frozen=True):
-    """The claimed order of the embedded row in the family ``own``, and the computed orders of the row by
-    family.
+    """The claimed order of the embedded row (a second row of weights, used to estimate the error) in the
+    family ``own``, and the computed orders of the row by family.
 
-    ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` for weights, ``cf``
-    for an update of exponentials. ``failing`` are the failing conditions of the family ``own`` at the next
-    order.
+    ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` if the row consists of
+    weights, and ``cf`` if it is an update by exponentials. ``failing`` are the failing conditions of the
+    family ``own`` at the next order.
     """
 
     claimed: int
@@ -70,7 +70,8 @@ class Report:
         return "\n".join([*lines, *(f"  claim fails: {broken}" for broken in self.broken_claims)])
 
     def as_json(self) -> dict[str, object]:
-        """Return the JSON object of one tableau; ``undecided`` and ``broken_claims`` only if not empty."""
+        """Return the JSON object of one tableau; the keys ``undecided`` and ``broken_claims`` are present
+        only if their lists are not empty."""
         record: dict[str, object] = {
             "name": self.name,
             "file": self.file,

@@ -34,7 +34,7 @@ RESOLUTION = Decimal("1e-3")
 exact value of an elementary integral of that order."""
 
 BITS = 256
-"""Precision of the balls: enough for twenty digits of a residual that is not zero."""
+"""Precision of the balls in bits; it gives twenty digits of a residual that is not zero."""
 
 ENCLOSING = Balls(BITS)
 DIGITS = 20
@@ -109,8 +109,9 @@ def judge(
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the set of verdicts on the conditions, and the conditions that fail.
 
-    Verdicts are ``zero``, ``fails``, ``supported`` (a narrow ball around zero), ``undecided`` (a wide one).
-    ``balls_first`` is faster if most conditions fail; it does not change the result.
+    Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
+    ``undecided`` (it is a wide ball around zero). ``balls_first`` is faster if most conditions fail; it does
+    not change the result.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -163,7 +164,7 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Whether the family evaluates the method over Q, which is faster than balls."""
+    """Whether the family evaluates the method with rational numbers, which is faster than with balls."""
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
     return nodal_algebra(ring, (method.A,), method.b) is not None

@@ -40,9 +40,9 @@ def check(
     ``limits`` bound the work; if a limit is reached, the order in the report is a lower bound.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
-    :class:`~orderconds.errors.ZeroWeight` where a family divides by some b_i = 0,
+    :class:`~orderconds.errors.ZeroWeight` if the formulas of a family divide by a weight b_i = 0,
     :class:`~orderconds.errors.TableauError` for a file that cannot be read, and
-    :class:`~orderconds.errors.InputError` for a family that does not read this format.
+    :class:`~orderconds.errors.InputError` for a family that does not accept the format of the tableau.
 
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
@@ -115,7 +115,7 @@ def _proof(tableau: Tableau) -> tuple[Certificate | None, list[str]]:
         proof = certify(tableau)
     except NotProved as problem:
         return None, [f"no proof: {problem}"]
-    hint = "orderconds refine writes the correct digits"
+    hint = "to write the correct digits, type: orderconds refine FILE"
     return proof, [f"the decimal {misrounded}; {hint}" for misrounded in proof.misrounded]
 
 
@@ -207,7 +207,8 @@ def _bound(family: Family, computed: Sequence[FamilyOrder]) -> FamilyOrder | Non
 
 
 def _decided(computed: Sequence[FamilyOrder]) -> dict[str, int]:
-    """Return the decided orders by label, including those that rounded decimals support."""
+    """Return the decided orders by label, including the orders that are not proved but supported by rounded
+    decimals."""
     return {f.family: f.order for f in computed if f.decided}
 
 
@@ -293,8 +294,8 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 
 
 def _claimed(tableau: Tableau, label: str) -> Family:
-    """Return the family of a claim; InputError with the key in the file if there is no family of this
-    name."""
+    """Return the family of a claim. If there is no family of this name, raise an InputError with the key in
+    the file."""
     try:
         return families.get(label)
     except InputError as problem:
@@ -310,7 +311,7 @@ def _broken_claims(
         holds = computed.get(name)
         if holds is not claimed:
             said = "undecided" if holds is None else str(holds).lower()
-            yield f"{name} is {said}, claimed {str(claimed).lower()}"
+            yield f"property {name}: the result is {said}, the claim is {str(claimed).lower()}"
     if embedded is not None and embedded.orders[embedded.own] != embedded.claimed:
         order = embedded.orders[embedded.own]
         reason = f"; {embedded.failing[0]}" if order < embedded.claimed and embedded.failing else ""

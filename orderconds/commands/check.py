@@ -27,11 +27,11 @@ if TYPE_CHECKING:
     from orderconds.tableau.work import Work
 
 SHOWN = 5
-"""The number of failing conditions that the text lists if a claim fails; otherwise it lists one. JSON lists
-all."""
+"""If a claim fails, the text output lists at most this many failing conditions. If no claim fails, it lists
+one. The JSON output lists all failing conditions."""
 
 WIDTH = 200
-"""The maximal length of a formula or residual in the text; JSON contains them in full."""
+"""The maximal length of a formula or residual in the text output. The JSON output contains the full text."""
 
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
@@ -48,7 +48,8 @@ WIDTH = 200
 @click.option(
     "--certified",
     is_flag=True,
-    help="Require a proof of each order (certificate exact or ball), except for the names in DIR/DECIMAL.",
+    help="Require a proof of each order (certificate exact or ball), except for the tableaux named in the "
+    "file DIR/DECIMAL.",
 )
 @click.option(
     "--max-conditions",
@@ -76,8 +77,8 @@ def command(
     as_json: bool,
 ) -> int:
     """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
-    name from the library. A claimed order must equal the order found. If a limit ends the search, the order
-    found is a lower bound.
+    name from the library. A claimed order must equal the computed order. If a limit ends the search, the
+    computed order is a lower bound.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
@@ -208,7 +209,9 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
 
     for argument in arguments:
         if not argument.strip():
-            raise TableauError(f"an empty name {argument!r}", expected="a file, a folder or a tableau's name")
+            raise TableauError(
+                f"the argument {argument!r} is empty", expected="a file, a folder or a tableau's name"
+            )
         if not os.path.isdir(argument):
             yield argument
             continue
@@ -270,12 +273,12 @@ def _count(n: int, what: str) -> str:
 
 
 def _proof(proof: Certificate) -> str:
-    """Return the proof about the decimals in one line."""
+    """Return one line that describes the proof that a solution lies near the decimals."""
     text = f"one solution of {proof.equations} equations within {proof.radius} of the decimals"
     if not proof.printed:
         return text
     furthest = max(proof.printed.values(), key=float)
-    return f"{text}; the digits printed in the source differ by up to {furthest}"
+    return f"{text}; the digits printed in the source differ from this solution by up to {furthest}"
 
 
 def _row(family: FamilyOrder) -> tuple[str, ...]:

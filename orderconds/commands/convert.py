@@ -30,8 +30,8 @@ NAMES = click.Choice(list(FORMATS))
 def command(
     source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
 ) -> int:
-    """Convert a tableau, given as a file or by its name in the library. Input is never executed as code. If
-    the output is read again, the method is the same.
+    """Convert a tableau, given as a file or by its name in the library. Input is never executed as code.
+    Reading the output again gives the same method.
     """
     bare = of is None and not os.path.exists(source) and "." not in os.path.basename(source)
     path = find(source) if bare else Path(source)
@@ -47,7 +47,9 @@ def command(
         for key in lost:
             click.echo(f"note: the key {key} is left out; json and toml keep it", err=True)
     elif to == "numpy" and output is None:
-        raise click.UsageError("--json cannot contain a NumPy archive, which is binary; give -o FILE")
+        raise click.UsageError(
+            "the output of --json cannot contain a NumPy archive, because the archive is binary; give -o FILE"
+        )
     converted = content if of == to == "toml" and name is None else export(data, to)
     if output is not None:
         put(output, converted)

@@ -18,7 +18,11 @@ FORMATS = ("text", "latex", "sympy", "json")
 @click.argument("family")
 @click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="The highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
-@click.option("--explicit", is_flag=True, help="With --stages: for explicit methods (a_ij = 0 for j >= i).")
+@click.option(
+    "--explicit",
+    is_flag=True,
+    help="With --stages: expand the sums for explicit methods (a_ij = 0 for j >= i).",
+)
 @click.option("--format", "form", type=click.Choice(FORMATS), help="The output format. Default: text.")
 @click.option(
     "--all",

@@ -67,5 +67,5 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            os.set_blocking(handle, True)  # a slow reader is waited for
+            os.set_blocking(handle, True)  # from here on, writing waits for a slow reader
         stream.write(content)

@@ -16,9 +16,9 @@ from orderconds.commands.place import FILE, put
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print digits, fixed decimals and proof as JSON.")
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
-    """Solve the equations that the [proof] table of FILE names, by Newton's method from the rounded decimals
-    ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were kept
-    fixed (pins), and a record of the old digits.
+    """Solve the equations that the [proof] table of FILE names. Newton's method starts at the rounded
+    decimals ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were
+    kept fixed (pins), and a record of the old digits.
 
     Exits with 0 if interval arithmetic proves the new digits, 1 if not, 2 for a file that cannot be read.
     """

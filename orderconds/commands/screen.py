@@ -101,7 +101,8 @@ def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: i
     rk      4
     """
     if is_terminal():
-        from rich.console import Console  # only on a terminal, where the import time does not matter
+        # The import of rich is slow, so rich is imported only for output to a terminal.
+        from rich.console import Console
         from rich.padding import Padding
         from rich.table import Table
 

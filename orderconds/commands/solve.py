@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     "-s",
     type=click.IntRange(1, 40),
     required=True,
-    help="The number of stages (of steps, for compositions and splittings).",
+    help="The number of stages. For compositions and splittings: the number of steps.",
 )
 @click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="The order of the method.")
 @click.option("--explicit", is_flag=True, help="Only explicit methods: a_ij = 0 for j >= i.")
@@ -67,7 +67,8 @@ if TYPE_CHECKING:
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
-    help="Use all starts, and write the method with the least norm of the residuals of the next order.",
+    help="Search from all random starts. Of all methods found, write the method whose residuals of the next "
+    "order have the least norm.",
 )
 @click.option(
     "--starts",
@@ -87,7 +88,7 @@ if TYPE_CHECKING:
     "--checkpoint",
     type=FILE,
     metavar="FILE",
-    help="Save finished batches of starts to this file.  [default with -o FILE: FILE.search]",
+    help="Save the results of finished random starts to this file.  [default with -o FILE: FILE.search]",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
@@ -109,7 +110,10 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     except KeyboardInterrupt as interrupt:
         path = order.checkpoint
         if path is not None and path.exists():
-            interrupt.add_note(f"finished starts are kept in {path}; repeat the command to continue")
+            interrupt.add_note(
+                f"the results of the finished random starts are saved in {path}; to continue "
+                f"the search, repeat the command"
+            )
         raise
     if outcome.solution is not None and output is not None:
         put(output, outcome.solution.text.encode())
@@ -142,7 +146,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             )
     if output and path and Path(output).absolute().resolve() == Path(path).absolute().resolve():
         raise InputError(
-            "the file of --output", where=f"--checkpoint {path}", expected="another file than --output"
+            "this is also the file of --output", where=f"--checkpoint {path}", expected="a different file"
         )
     return Order(
         family,

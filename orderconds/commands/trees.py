@@ -81,10 +81,10 @@ def _refuse_too_many(name: str, kind: Kind, order: int) -> None:
     members = kind.count(order)
     if members > MAX_TREES:
         raise InputError(
-            f"{members} members of order {order}",
+            f"there are {members} trees or words of order {order}",
             where=f"trees {name}",
             expected=f"at most {MAX_TREES}",
-            hint="lower --order, or give --count for their number alone",
+            hint="lower --order, or give --count to print only their number",
         )
 
 

@@ -1,6 +1,6 @@
 """Options that take several values, as ``--method A B C``, for commands whose arguments come first.
 
-Options of click take a fixed number of values. In this class a repeatable option accepts all words up to the
+An option of click has a fixed number of values. In this class a repeatable option accepts all words up to the
 next option, provided that an argument of the command precedes the option: ``bench dipole --method cf4
 rkmk:rk4`` names two methods, while in ``bench --method cf4 dipole`` the last word is the scene.
 """

@@ -38,7 +38,7 @@ def export(data: Data, to: str) -> bytes:
     """Return the content of a file in the format ``to``.
 
     Raises :class:`~orderconds.errors.InputError` for an unknown format, and for a method that the format
-    cannot hold.
+    cannot represent.
 
     >>> export({"name": "euler", "family": "rk", "A": [["0"]], "b": ["1"]}, "csv").decode().split()
     ['name,euler', 'family,rk', 'A,0', 'b,1']
@@ -66,8 +66,8 @@ def _require_same(given: Tableau, back: Tableau, to: str) -> None:
 def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Data:
     """Return the keys and values of a file in the format ``of``; ``name`` is used if the file has no name.
 
-    Files of other programs do not state the order of embedded weights, so it is computed. Raises
-    :class:`~orderconds.errors.InputError` naming ``where``.
+    Files of other programs do not state the order of embedded weights, so this function computes the order.
+    Raises :class:`~orderconds.errors.InputError`, whose message contains ``where``.
 
     >>> read_data(b"0,0\\n,1\\n", "csv", "euler.csv", name="euler")
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
@@ -117,7 +117,7 @@ def name_of(path: str | Path) -> str:
 
 
 def left_out(data: Data, to: str) -> tuple[str, ...]:
-    """Return the keys that a file in the format ``to`` cannot hold.
+    """Return the keys that a file in the format ``to`` cannot contain.
 
     >>> left_out({"name": "m", "proof": {"conditions": "cg"}}, "csv")
     ('proof',)

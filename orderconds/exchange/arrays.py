@@ -3,9 +3,9 @@
 The proof of rounded decimals is left out, because it refers to names in the file. The arrays of a family are:
 for ``rk`` A, b and embedded_b with embedded_order; for ``prk`` A, b, A_hat, b_hat; for ``composition`` gamma,
 or alpha and beta. For ``cf`` they are the exponentials of all stages and of the update as rows of
-``exponentials``. ``count`` has the number of exponentials of each stage and, last, of the update. ``start``
-has the stage from which each product starts, 0 for y0. With embedded_order the last product is the embedded
-update.
+``exponentials``. ``count`` contains the number of exponentials of each stage and, as its last entry, of the
+update. ``start`` contains the index of the stage from which each product starts, or 0 if the product starts
+from y0. With embedded_order the last product is the embedded update.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ ROUNDED = 12
 def to_arrays(data: Data, target: str) -> Arrays:
     """Return the arrays of a file's keys; ``target`` is the name of the output format, for messages.
 
-    Raises :class:`TableauError` for a family that arrays cannot hold.
+    Raises :class:`TableauError` for a family whose methods arrays cannot represent.
 
     >>> to_arrays({"name": "heun", "family": "rk", "A": [[], [1]], "b": ["1/2", "1/2"]}, "a table")["A"]
     [['0', '0'], ['1', '0']]
@@ -224,7 +224,8 @@ def _integer(text: str, where: str) -> int:
 
 
 def coefficient(text: str) -> str:
-    """Return a number of another program as a coefficient without exponent; long decimals count as rounded.
+    """Return a number from another program's file as a coefficient without exponent. A long decimal counts as
+    rounded.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
     ['0.50', '0.3333333333333333~', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']

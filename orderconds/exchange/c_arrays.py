@@ -24,7 +24,7 @@ _TOKEN = re.compile(r"/\*|//|[{}\"]")
 
 
 def write(data: Data) -> bytes:
-    """Return C definitions; every name begins with that of the tableau.
+    """Return C definitions. The name of every array begins with the name of the tableau.
 
     >>> print(write({"name": "m", "family": "rk", "A": [["1/2"]], "b": ["1"]}).decode().splitlines()[-1])
     static const double m_b[1] = {1.0};
@@ -118,7 +118,7 @@ def _without_comments(text: str, where: str) -> tuple[str, list[str]]:
 
 
 def _end(text: str, token: re.Match[str], where: str) -> int:
-    """Return the place after a comment or a string."""
+    """Return the position in the text after a comment or a string."""
     if token[0] == "//":
         end = text.find("\n", token.end())
         return len(text) if end < 0 else end

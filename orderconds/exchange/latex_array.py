@@ -140,7 +140,10 @@ def _butcher(body: str, where: str) -> Arrays:
     parts = [_rows(part, where) for part in re.split(r"\\hline", body) if part.strip()]
     if not 2 <= len(parts) <= 3 or any(len(part) != 1 for part in parts[1:]):
         raise TableauError(
-            "rules that do not separate A from b", where=where, expected=r"rows c & A, \hline, a row & b"
+            "horizontal lines that do not separate A from b",
+            where=where,
+            expected=r"rows c & A, \hline, a "
+            "row & b",
         )
     return butcher(parts[0], [row[1:] for (row,) in parts[1:]])
 

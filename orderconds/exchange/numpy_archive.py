@@ -99,12 +99,14 @@ def nearest(text: str, roots: str = "{}") -> float:
         return cast("RealRing", tableau.ring).nearest_float(weight)
     except OverflowError:
         raise TableauError(
-            f"{text[:40]!r}, beyond the range of doubles", expected="format json, which has no such limit"
+            f"the coefficient {text[:40]!r} is beyond the range of doubles",
+            expected="the format json, which can store numbers of any size",
         ) from None
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file; floats that disagree with their exact texts are refused.
+    """Return the keys of a tableau file. Raise an error if the floats of an array differ from their exact
+    texts.
 
     >>> read(write({"name": "m", "family": "rk", "A": [["1/3"]], "b": ["1"]}), "m.npz")["A"]
     [['1/3']]
@@ -132,7 +134,9 @@ def read(content: bytes, where: str) -> Data:
         exact = members.get(name + EXACT)
         if value.dtype.kind not in "fiu" or value.ndim not in (1, 2):
             raise TableauError(
-                f"{name}: {value.dtype} with {value.ndim} axes", where=where, expected="numbers"
+                f"the array {name} of type {value.dtype} with {value.ndim} axes",
+                where=where,
+                expected="an array of numbers with 1 or 2 axes",
             )
         if exact is None or name in INTEGERS:
             entries[name] = _coefficients(value.tolist())
@@ -140,10 +144,10 @@ def read(content: bytes, where: str) -> Data:
         entries[name] = exact.tolist()
         if not np.array_equal(np.array(floats(entries[name], str(members.get("numbers", "{}")))), value):
             raise TableauError(
-                f"{name} that differs from {name}{EXACT}",
+                f"the numbers {name} differ from their exact texts {name}{EXACT}",
                 where=where,
-                expected="equal numbers",
-                hint="correct or remove one of them",
+                expected="equal numbers in both arrays",
+                hint="correct one of the two arrays, or remove it",
             )
     return from_arrays(entries, where)
 
@@ -152,7 +156,7 @@ def _require_small(archive: zipfile.ZipFile, where: str) -> None:
     size = sum(member.file_size for member in archive.infolist())
     if size > LARGEST:
         raise TableauError(
-            f"arrays of {size} bytes", where=where, expected=f"a tableau, of at most {LARGEST} bytes"
+            f"arrays of {size} bytes", where=where, expected=f"arrays of at most {LARGEST} bytes"
         )
 
 

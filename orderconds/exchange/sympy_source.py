@@ -1,4 +1,4 @@
-"""SymPy: Python source that builds exact matrices, and the matrices themselves."""
+"""SymPy: Python source that constructs exact matrices, and SymPy matrices as objects."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def _assigned(text: str, where: str) -> Iterator[tuple[str, str]]:
 
 
 def _closing(text: str, start: int, where: str) -> int:
-    """Return the place after the bracket that closes the one at ``start``."""
+    """Return the position in the text after the bracket that closes the bracket at ``start``."""
     depth = 0
     for bracket in _BRACKET.finditer(text, start):
         depth += 1 if bracket[0] == "[" else -1

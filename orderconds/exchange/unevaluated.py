@@ -1,9 +1,8 @@
 """Unevaluated coefficients: the expressions of a file, with every name replaced by its definition.
 
 Tables and arrays cannot hold named numbers. Rounded decimals must keep their digits, which a computed ball
-would lose. So the method is built over a ring of expressions: the expressions of the file, and their sums and
-products where a format is expanded (low-storage schemes). Only operations with the numbers 0 and 1 are
-simplified.
+would lose. The coefficients of the method are therefore expressions: those of the file or, for low-storage
+schemes, sums and products of them. Only operations with the numbers 0 and 1 are simplified.
 """
 
 from __future__ import annotations
@@ -104,7 +103,7 @@ class UnevaluatedNumbers:
         return Unevaluated(Constant(value, unit))
 
     def root(self, x: Unevaluated, index: int) -> Unevaluated:
-        """Return the root of x."""
+        """Return the root of x with this index: 2 for the square root, 3 for the cube root."""
         return Unevaluated(Power(x.expression, Fraction(1, index)))
 
     def named_root(
@@ -115,7 +114,8 @@ class UnevaluatedNumbers:
         return Unevaluated(Name(name))
 
     def size(self, x: Unevaluated) -> int:
-        """Return 0: numbers that are too large were refused when the file was read."""
+        """Return 0, so that no number counts as too large. Reading the file has already refused such
+        numbers."""
         return 0
 
     def is_zero(self, x: Unevaluated) -> bool | None:

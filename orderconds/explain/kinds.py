@@ -22,7 +22,8 @@ Member = Any
 
 
 MAX_TREES = 7_000
-"""No order with more trees than this is derived: their number grows exponentially with the order."""
+"""Conditions of an order with more trees than this are not derived, because the number of trees grows
+exponentially with the order."""
 
 
 @dataclass(frozen=True)
@@ -129,7 +130,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
         trees = kind.count(n)
         if trees > MAX_TREES:
             raise InputError(
-                f"{trees} trees of order {n}, and more at each further order",
+                f"there are {trees} trees of order {n}, and still more trees of higher orders",
                 where=family.label(),
                 expected=f"at most {MAX_TREES}",
                 hint=f"lower --order to {n - 1}",
@@ -278,7 +279,8 @@ def _directed_rooted() -> Kind:
         lambda order: counts.rooted_tree_count(order, kinds=2),
         directed.text,
         diagram.with_directions,
-        # An edge of the second kind leads to a white vertex; the root may have either colour.
+        # An edge of the second kind leads to a white vertex. The conditions do not depend on the colour of
+        # the root, so black is chosen.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

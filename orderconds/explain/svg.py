@@ -22,7 +22,8 @@ SIZE = 11.0
 
 @dataclass(frozen=True)
 class Layout:
-    """A placed vertex: ``x`` in steps, relative to its parent, and its branches.
+    """A vertex with its horizontal position ``x``, in steps relative to the parent of the vertex, and with
+    its branches.
 
     ``left`` and ``right`` are its outlines relative to the vertex, one number for each level.
     """
@@ -61,7 +62,7 @@ def lay_out(vertex: Vertex) -> Layout:
     depth = max((len(child.left) for child in moved), default=0)
     left = [min(c.x + c.left[level] for c in moved if level < len(c.left)) for level in range(depth)]
     right = [max(c.x + c.right[level] for c in moved if level < len(c.right)) for level in range(depth)]
-    # The note with the parent's place in a word needs room at the right of the vertex.
+    # The note that shows the position of the parent in a word needs space at the right of the vertex.
     room = 1.0 if vertex.legs is not None else 0.0
     return Layout(0.0, vertex, moved, (0.0, *left), (room, *right))
 
@@ -166,7 +167,8 @@ def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: 
 
 
 def _room(vertex: Vertex) -> float:
-    """Return the distance in px from a vertex at which its edges end: a letter needs more room than a dot."""
+    """Return the distance in px between the centre of a vertex and the ends of its edges. A letter needs a
+    larger distance than a dot."""
     return {"letter": 2 * RADIUS, "bracket": 1.0}.get(vertex.sign, RADIUS)
 
 

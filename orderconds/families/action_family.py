@@ -33,8 +33,8 @@ if TYPE_CHECKING:
 
 
 class ActionFamily(Family):
-    """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact value. There is one condition for each
-    g-valued action tree t.
+    """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact value, one for each g-valued action tree
+    t. The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
 
     The conditions of order n belong to the trees with n vertices, that is, n copies of the Hamiltonian H.
     ``conditions`` selects independent conditions by the rank of their values at random methods.

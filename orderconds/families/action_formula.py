@@ -140,8 +140,8 @@ class ExponentialsFormula(ActionFormula):
         return index_sum((place,), (), self.exponent(row, place, tree))
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
-        """Return a word's coefficient in the product of the exponentials strictly between two places; None
-        means no bound."""
+        """Return a word's coefficient in the product of the exponentials whose index is strictly between two
+        bounds. None means no bound."""
         if not word:
             return one()
         # The first term is the one in which all letters come from different exponentials.
@@ -151,7 +151,7 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return the product of 1/r! over the given run lengths r, and the sum in which the places of the
+        """Return the product of 1/r! over the given run lengths r, and the sum in which the indices of the
         runs strictly increase."""
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]

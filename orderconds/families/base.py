@@ -52,7 +52,8 @@ class Family(ABC):
     formats: ClassVar[tuple[str, ...]] = ()
     """The tableau formats that the family reads, the preferred one first."""
     has_tableau: ClassVar[bool] = True
-    """Whether a tableau determines a method; without one the label of the family does, as ``taylor(12)``."""
+    """Whether the family has tableaux, each of which determines a method. If not, the label of the family,
+    such as ``taylor(12)``, determines the method."""
     source: ClassVar[str] = ""
     """The publication of a family without tableau."""
 
@@ -66,8 +67,8 @@ class Family(ABC):
     """The highest order that any member of the family can have, by a theorem; None if no such theorem is
     known."""
     over_rationals: ClassVar[bool] = False
-    """Whether conditions are evaluated by :mod:`orderconds.ring.nodal` over the rationals, without arithmetic
-    in the field of the coefficients."""
+    """Whether conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`), without
+    arithmetic in the field of the coefficients."""
     trees: ClassVar[str | None] = None
     """The kind of trees that index the conditions (:mod:`orderconds.explain.kinds`); None if words index
     them."""
@@ -102,7 +103,7 @@ class Family(ABC):
     keeps_energy: ClassVar[bool] = False
     """Whether every method of the family preserves the energy exactly."""
     controls_steps: ClassVar[bool] = False
-    """Whether step sizes follow from the coefficients of a step, without an embedded method."""
+    """Whether step-size control uses the coefficients that a step computes, and needs no embedded method."""
     takes_cutoff: ClassVar[bool] = False
     """Whether the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
     truncated."""
@@ -120,7 +121,7 @@ class Family(ABC):
     """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
     search."""
     symplectic: ClassVar[bool] = False
-    """Whether a search is restricted to tableaux with b_i a_ij + b_j a_ji = b_i b_j."""
+    """Whether a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
     """Whether the conditions of order three force the three abscissae of each stage, c_i, chat_i and m_i, to
     be equal (:mod:`orderconds.solve.abscissae`)."""
@@ -141,7 +142,7 @@ class Family(ABC):
     ) -> tuple[Element, ...]:
         """Return the left-hand sides of ``conditions`` for a method with coefficients in ``ring``.
 
-        Raises :class:`~orderconds.errors.ZeroWeight` if the family divides by a weight and this weight is
+        Raises :class:`~orderconds.errors.ZeroWeight` if the formulas of the family divide by a weight that is
         zero.
         """
 
@@ -233,7 +234,7 @@ class Family(ABC):
     # Tableaux
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Return the method of a tableau if the family reads the format of the tableau, else None."""
+        """Return the method of a tableau if the family accepts the format of the tableau, else None."""
         return tableau.read_as(self.formats)
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -241,7 +242,8 @@ class Family(ABC):
         return
 
     def converted(self, convert: Callable[[Element], Element]) -> Family:
-        """Return the family with its own coefficients converted; most families have none."""
+        """Return the family after ``convert`` is applied to the coefficients that it stores. Most families
+        store no coefficients."""
         return self
 
     def for_method(self, method: Method) -> Family:
@@ -280,7 +282,7 @@ class Family(ABC):
         return evaluations(tableau)
 
     def degree_of_step(self) -> int:
-        """Return the order of a family without tableau, which its label determines.
+        """Return the order of a family without tableau. The label of the family determines the order.
 
         Raises :class:`~orderconds.errors.InputError` for a family with a tableau.
         """
@@ -342,8 +344,8 @@ class Family(ABC):
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions for a method. ``orders`` contains its proved orders in other families, by
-        label.
+        """Return the reductions for a method: theorems by which fewer conditions need evaluation. ``orders``
+        contains the proved orders of the method in other families, by label.
 
         >>> from orderconds.families import get
         >>> from orderconds.ring import QQ

@@ -48,8 +48,8 @@ class CayleyFamily(MagnusFamily):
     transform = "cay"
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of this weight, one of each pair (word, reverse word), without the palindromes of
-        even length."""
+        """Return the words of this weight: one word of each pair (word, reverse word), and the palindromes of
+        odd length."""
         return tuple(
             word
             for word in self.words(order)
@@ -61,7 +61,8 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the value on a word as a polynomial in the value on the reverse word."""
+        """Return the coefficient of a word as a multiple of the coefficient of the word or its reverse,
+        whichever is in :meth:`independent`."""
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}

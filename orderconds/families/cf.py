@@ -3,8 +3,8 @@ k_j.
 
 The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
 first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
-341). A stage that starts from another stage begins with the exponentials of that stage. In printed conditions
-b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
+341). If a stage starts from an earlier stage, its product begins with the exponentials of the earlier stage.
+In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -101,7 +101,7 @@ def exponentials(method: Method) -> list[Exponentials]:
 
 
 def coefficient_tables(method: Method, ring: Ring) -> dict[str, Table]:
-    """Return the coefficients that occur in formulas, with zeros for missing entries.
+    """Return the coefficients that occur in formulas. A coefficient that the method does not contain is zero.
 
     The coefficients are alpha_iJj and beta_Jj, their sums over J, which are a_ij and b_j, and c_i = sum_j
     a_ij.

@@ -49,7 +49,9 @@ class CommutatorFreeMagnusFamily(WordFamily):
         "Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h)."
     )
     formats = ("magnus",)
-    implies: ClassVar[Mapping[str, str]] = {"magnus": "the product is the exponential of its logarithm"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "magnus": "a product of exponentials is also the exponential of its logarithm"
+    }
 
     def require(self, method: Method, ring: Ring) -> None:
         """Raise :class:`~orderconds.errors.InputError` if the method contains commutators or Cayley

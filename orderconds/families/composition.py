@@ -1,9 +1,9 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods. Words index the conditions.
 
-Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k denotes X_k and has
-weight k. The value of letter k is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint Phi*_{beta h}. The
-exact flow has the value 1/n! on the word of n letters 1, and zero on all other words (HLW III.3.1; Murua and
-Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k of the alphabet
+denotes X_k and has weight k. The value of letter k is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint
+Phi*_{beta h}. The exact flow has the value 1/n! on the word of n letters 1, and zero on all other words (HLW
+III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -138,8 +138,8 @@ def power(x: Element, n: int, ring: Ring) -> Element:
 
 
 BlockFormula = Callable[[Word, str], tuple[Formula, int]]
-"""A function that maps (r, i) to the value of r letters in stage i, as a formula and an integer by which it
-is divided."""
+"""A function of (r, i). It returns the value of r letters in stage i as a pair: a formula, and an integer by
+which the formula is divided."""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:

@@ -1,8 +1,8 @@
-"""Families in which the series of dexpinv is truncated after the power r, their option ``cutoff``.
+"""Families in which the series of dexpinv is truncated after the power r, where r is the option ``cutoff``.
 
 Without truncation, RKMK is the Runge-Kutta method, and VRKMK its symplectic partitioned extension, in
-coordinates of the first kind. The orders are therefore those of these classical methods (HLW IV.8, Theorem
-8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
+coordinates of the first kind. Their orders are therefore the orders of these two classical methods (HLW IV.8,
+Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
 
 The truncation error is of order h^(r+3). For even r >= 2, B_(r+1) = 0, so truncation after r and truncation
 after R = r + 1 give the same method. For all other r let R = r. The order is min(p, R + 2), where p is the
@@ -26,8 +26,8 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a complete file claims orders. A file claims a larger value only if the
-order is then higher."""
+"""The values of ``cutoff`` for which a complete file claims orders. A file claims an order for a larger value
+only if this order is higher than for the smaller values."""
 
 
 class DexpinvCut(Family):

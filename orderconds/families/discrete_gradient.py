@@ -58,5 +58,6 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None: a step evaluates the energy and its differential, not the field."""
+        """Return None, because the cost counts evaluations of the vector field, and a step evaluates the
+        energy and its differential instead."""
         return None

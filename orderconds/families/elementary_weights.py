@@ -52,7 +52,7 @@ def weight(tree: DirectedTree, weights: str = "b") -> Formula:
 def elementary_weight(
     tree: TreeT, below: Callable[[TreeT], Iterable[tuple[int, TreeT]]], weights: str
 ) -> Formula:
-    r"""Return the elementary weight of a tree.
+    r"""Return the elementary weight of a tree as an index sum.
 
     The tree may have any encoding whose ``len`` is the number of vertices; ``below`` returns the pairs (kind
     of edge, subtree) at its root.
@@ -108,7 +108,7 @@ def _summed(
     below: Callable[[TreeT], Iterable[tuple[int, TreeT]]],
 ) -> Formula:
     """Return an index sum. The summand is the product of ``factors`` and the stage value of ``tree`` at the
-    last of ``indices``.
+    last index in ``indices``.
 
     The formula needs no simplification, because equal subtrees are collected in powers.
     """

@@ -52,7 +52,8 @@ class MagnusFamily(WordFamily):
     formats = ("magnus",)
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
-        "a product of exponentials has the same order as the exponential of its logarithm",
+        "a product of exponentials is the exponential of its logarithm, and so a Magnus method of the same "
+        "order",
     )
     transform: ClassVar[str] = "exp"
 
@@ -125,7 +126,8 @@ def node_sum(name: str, word: Word) -> Formula:
 def linear_in_lyndon_words(word: Word) -> Polynomial:
     """Return the linear part of a word's polynomial in Lyndon words.
 
-    For a Lie element, products of values vanish, so this linear part is its value on the word.
+    A Lie element has the value zero on every shuffle product of non-empty words. Hence the products in the
+    polynomial contribute nothing, and the linear part is the value of the Lie element on the word.
 
     >>> linear_in_lyndon_words((2, 1))
     {((1, 2),): Fraction(-1, 1)}

@@ -16,7 +16,7 @@ Result = TypeVar("Result")
 
 
 class Memo(Generic[Result]):
-    """A cache of ``compute(method, ring)`` for the last two pairs of method and ring.
+    """A cache of ``compute(method, ring)`` for the two most recent pairs of method and ring.
 
     For example, one method may be evaluated over an exact ring and over balls. Methods are compared by
     identity.

@@ -39,7 +39,8 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of the program. ``method``, the tableau of the program, is not
         used."""
-        # The elements of Enclosures are flint's own balls. Therefore the coefficients are converted.
+        # The elements of the ring Enclosures are balls of the library flint. The coefficients of the program
+        # are converted to such balls.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 
@@ -60,6 +61,6 @@ class MinimalBrackets(MuntheKaasFamily):
         )
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return None: the program computes arguments that differ from those of RKMK, so no theorem about
-        dexpinv applies."""
+        """Return None: no theorem about dexpinv applies, because the arguments of exp in the program differ
+        from the arguments in RKMK."""
         return None

@@ -1,7 +1,7 @@
 """Partitioned Runge-Kutta methods: one condition for each rooted tree with vertices of two colours (HLW
 III.2.2).
 
-A single tableau is used for both parts of the system.
+If a file contains a single tableau, it is used for both parts of the system.
 """
 
 from __future__ import annotations
@@ -54,7 +54,9 @@ class PartitionedFamily(Family):
     illustrates: ClassVar[tuple[str, ...]] = ("bicoloured",)
     search_limit = 7
     over_rationals = True
-    implies: ClassVar[Mapping[str, str]] = {"rk": "an ordinary system is a partitioned system with one part"}
+    implies: ClassVar[Mapping[str, str]] = {
+        "rk": "an unpartitioned system is a partitioned system with one part"
+    }
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of this order. All of them are independent (HLW III.2, Theorem 2.5)."""

@@ -120,7 +120,8 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return those of :func:`names` whose methods are given by a tableau that satisfies order conditions.
+    """Return the names in :func:`names` of the families whose methods are given by tableaux and have order
+    conditions.
 
     >>> set(names()) - set(with_conditions())
     {'taylor'}
@@ -160,7 +161,11 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        import_module(BUILT_IN[name])  # importing the module registers the family
+        import_module(BUILT_IN[name])  # The import of the module registers the family.
+        # Without this line the message would be "unknown family", followed by a list that contains the name.
+        assert name in _registered, (
+            f"{BUILT_IN[name]} has no class with this name and the decorator @register"
+        )
     kind = _registered.get(name) or _installed(name)
     if kind is None:
         import difflib

@@ -26,7 +26,8 @@ Polynomial = dict[tuple[Any, ...], Fraction]
 the keys of its factors."""
 
 Moves = Callable[[bytes], Iterable[tuple[bytes, bytes, bytes]]]
-"""A function that returns, for each edge at the root of a tree u o v, the trees u, v and v o u."""
+"""A function of a tree. For each edge at the root it writes the tree as u o v and returns the trees u, v and
+v o u."""
 
 
 def spell(polynomial: Polynomial, text: Callable[[Any], str]) -> str:
@@ -106,7 +107,7 @@ class RootSwitching:
                 if moved not in seen:
                     seen.add(moved)
                     waiting.append((moved, -sign, add(so_far, both, sign)))
-        raise ValueError("no rooting of the tree is independent or superfluous")
+        raise ValueError("no choice of the root gives an independent or a superfluous tree")
 
 
 def with_relations(
@@ -114,7 +115,8 @@ def with_relations(
     polynomial: Callable[[Any], Polynomial],
     text: Callable[[Any], str],
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions. Each dependent condition gets its relation to independent conditions.
+    """Return the conditions with their relations: each dependent condition contains its relation to
+    independent conditions.
 
     >>> from orderconds.families.symplectic_rk import SWITCHING, SymplecticFamily
     >>> from orderconds.trees.levels import text
@@ -145,7 +147,8 @@ def _in_lyndon_words(word: tuple[Tree, ...]) -> tuple[tuple[tuple[Forest, ...], 
     factors = lyndon_factors(word, letter_key)
     if len(factors) <= 1:
         return ((tuple(b"".join(factor) for factor in factors), Fraction(1)),)
-    # The shuffle product of the factors is a multiple of their concatenation, plus smaller words.
+    # The shuffle product of the Lyndon factors of a word is a multiple of the word itself, plus smaller
+    # words.
     repeated = prod(factorial(factors.count(factor)) for factor in dict.fromkeys(factors))
     words = reduce(_shuffled, factors[1:], {factors[0]: 1})
     result: Polynomial = {tuple(sorted(b"".join(factor) for factor in factors)): Fraction(1)}

@@ -96,13 +96,14 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
 
     def essential_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions in :meth:`conditions` that do not follow from other conditions of this order
-        or from conditions of lower order.
+        """Return the members of :meth:`conditions` that do not follow from other conditions of this order or
+        from conditions of lower order.
 
-        Their number is the number of rooted trees, 1, 1, 2, 4, 9, ..., because dexpinv transforms the problem
-        to a vector space. At order R + 3 there is one more condition, which no tableau satisfies. Up to order
-        :data:`RANKED` the conditions are selected by ranks of matrices, which requires NumPy. Beyond this
-        order all of :meth:`conditions` are returned.
+        Their number is the number of rooted trees, 1, 1, 2, 4, 9, ..., because the method is a Runge-Kutta
+        method for the problem transformed to the Lie algebra, which is a vector space. At order R + 3 there
+        is one more condition, which no tableau satisfies. Up to order :data:`RANKED` the conditions are
+        selected by ranks of matrices, which requires NumPy. Beyond this order all of :meth:`conditions` are
+        returned.
 
         >>> [len(MuntheKaasFamily().essential_conditions(n)) for n in (1, 2, 3, 4, 5)]
         [1, 1, 2, 4, 9]
@@ -211,7 +212,7 @@ def _essential(cutoff: int | None, order: int) -> tuple[tuple[Forest, ...], ...]
     from orderconds.series.lie_butcher_rank import independent_forests
 
     def random_series(ring: Residues, generator: np.random.Generator) -> DexpinvSeries:
-        # A method with n stages distinguishes the trees of order n.
+        # Random methods with as many stages as the order distinguish all trees of this order.
         A = [[ring.random(generator) for _ in range(order)] for _ in range(order)]
         return DexpinvSeries(ring, A, [ring.random(generator) for _ in range(order)], cutoff)
 

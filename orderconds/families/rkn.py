@@ -120,7 +120,7 @@ class NystroemFamily(Family):
         return ((self.label(), order), ("splitting", min(order, 4)))
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None: the cost of a flow depends on the problem."""
+        """Return None, because the cost of a flow depends on the problem."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Splitting:
@@ -159,8 +159,8 @@ def text(functional: Functional) -> str:
 
 
 def formula(functional: Functional) -> Formula:
-    """Return the left-hand side of the condition of a combination as an index sum; a_i are the steps of T,
-    b_i the steps of V, and c_i = a_1 + ... + a_i.
+    """Return the left-hand side of the condition of a combination as an index sum. The coefficients a_i are
+    the step sizes of T, b_i are the step sizes of V, and c_i = a_1 + ... + a_i.
 
     >>> from orderconds.formula import named
     >>> named(formula((((0, 1), 1), ((1, 0), 1)))).text()
@@ -213,7 +213,8 @@ def _potentials(weight: int) -> tuple[Series, ...]:
 
 @lru_cache(maxsize=32)
 def _ideal(order: int) -> tuple[Series, ...]:
-    """Return the commutators of two results of :func:`_potentials`, of total weight at most ``order``."""
+    """Return the commutators [x, y] of total weight at most ``order``, where x and y are results of
+    :func:`_potentials`."""
     known = [(n, x) for n in range(1, order) for x in _potentials(n)]
     return tuple(
         bracket

@@ -63,7 +63,7 @@ class SplittingFamily(WordFamily):
         self.parts = parts
 
     def label(self) -> str:
-        """Return ``splitting``, with the number of parts if it is not two."""
+        """Return the label of the family: ``splitting``, followed by the number of parts if it is not two."""
         return self.name if self.parts == 2 else f"{self.name}({self.parts})"
 
     def require(self, method: Method, ring: Ring) -> None:
@@ -99,8 +99,8 @@ class SplittingFamily(WordFamily):
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word as an index sum; a_i, b_i, ... are the steps
-        of A, B, ... in stage i.
+        """Return the left-hand side of the condition of a word as an index sum; a_i, b_i, ... are the step
+        sizes of the parts A, B, ... in stage i.
 
         For two parts, the sums c_i = a_1 + ... + a_i replace the coefficients a_i.
         """
@@ -119,8 +119,8 @@ class SplittingFamily(WordFamily):
         return cls(len(method.parts)) if isinstance(method, Splitting) else None
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order as a Runge-Kutta-Nystroem splitting, but at most 3, because the additional
-        relations begin at order 4."""
+        """Return a lower bound of the order: the order as a Runge-Kutta-Nystroem splitting, but at most 3.
+        The additional relations of such splittings change only conditions of order 4 and more."""
         return min(3, orders.get("rkn", 0))
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -206,7 +206,7 @@ def two_part_formula(word: Word) -> Formula:
     terms = []
     for weight, split in _splits([length for _, length in runs]):
         factors, indices, before = [], [], None
-        # Only the first block of a run of B has letters A before it.
+        # Only the first block of a run of letters B has letters A before it.
         blocks = [
             (0 if k else gap, n)
             for (gap, _), parts in zip(runs, split, strict=True)

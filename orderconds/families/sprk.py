@@ -53,7 +53,7 @@ class SymplecticPartitionedFamily(Family):
     needs_nonzero_weights = True
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "a Hamiltonian linear in the momentum has the flow of a given field"
+        "rk": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field"
     }
     low_order = "rk"
     bounds_others = True
@@ -71,7 +71,8 @@ class SymplecticPartitionedFamily(Family):
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Return the elementary weights of a tableau (A, b), over a ring with division."""
+        """Return the elementary weights of a tableau (A, b). The ring must have division, because the
+        formulas divide by b_i."""
         weights = self._memo(method, ring)
         return tuple(weights(condition.key) for condition in conditions)
 

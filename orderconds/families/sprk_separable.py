@@ -35,7 +35,8 @@ SWITCHING = RootSwitching(moves, lru_cache(maxsize=None)(alternating_free_trees)
 
 @register
 class SeparableFamily(Family):
-    """Symplectic pairs (A, b), (A_hat, b_hat), or a tableau (A, b) with its conjugate and b_hat = b.
+    """Symplectic pairs (A, b), (A_hat, b_hat). A single tableau (A, b) is completed by its symplectic
+    conjugate, with b_hat = b.
 
     >>> [len(SeparableFamily().conditions(n)) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -92,8 +93,8 @@ class SeparableFamily(Family):
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of single tableaux, as unknowns of a search. Their conjugates require
-        division by weights."""
+        """Return the coefficients of single tableaux (A, b), as unknowns of a search. The formula of the
+        conjugate tableau divides by the weights."""
         return tableau_form(stages, explicit, divides=True)
 
 
@@ -101,7 +102,7 @@ def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Rin
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
     If the coefficients are balls, the difference of the two sides must be a ball that contains zero. The
-    relation then holds to the given digits.
+    relation then holds to the digits that the file gives.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

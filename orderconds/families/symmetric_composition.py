@@ -106,7 +106,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None, because no format has the name of this family."""
+        """Return None. The method is called only for a family that has the name of a tableau format, and no
+        format has the name of this family."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:

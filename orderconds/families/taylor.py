@@ -22,7 +22,8 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work
 
 HIGHEST = 40
-"""The highest degree: the size of unrolled code grows with its square."""
+"""The highest degree. It is limited because the size of the emitted code grows with the square of the
+degree."""
 
 
 @register
@@ -56,10 +57,12 @@ class TaylorFamily(Family):
     def degree_of_step(self) -> int:
         """Return the degree, which is the order of the step.
 
-        Raises :class:`~orderconds.errors.InputError` where no degree was given.
+        Raises :class:`~orderconds.errors.InputError` if the family was named without a degree.
         """
         if self.degree is None:
-            raise InputError(f"no degree of family {self.name}", expected="a degree", hint="write taylor(12)")
+            raise InputError(
+                f"the family {self.name} without a degree", expected="a degree", hint="write taylor(12)"
+            )
         return self.degree
 
     def stability_coefficients(self) -> tuple[Fraction, ...]:
@@ -77,11 +80,12 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def read(self, tableau: Tableau) -> Method | None:
-        """Raise :class:`~orderconds.errors.InputError`: the family reads no tableau."""
+        """Raise :class:`~orderconds.errors.InputError`, because the family has no tableaux."""
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None: a step evaluates recurrences, not the field."""
+        """Return None, because the cost counts evaluations of the field, and a step evaluates recurrences
+        instead."""
         return None
 
     def _unconditional(self) -> InputError:

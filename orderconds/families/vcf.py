@@ -48,7 +48,7 @@ class VariationalCommutatorFree(ActionFamily):
     description = "Variational commutator-free methods: several stage velocities in one exponential."
     formats = ("cf", "rk")
     implies: ClassVar[Mapping[str, str]] = {
-        "cf": "a Hamiltonian linear in the momentum has the flow of a given field on G"
+        "cf": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field on G"
     }
     unknowns = "cf"
     equal_abscissae = True

@@ -42,7 +42,7 @@ class WordFamily(Family):
 
     @abstractmethod
     def exact(self, word: Word) -> Fraction:
-        """Return the exact flow's value on a word."""
+        """Return the value of the exact flow on a word."""
 
     @abstractmethod
     def formula(self, word: Word) -> Formula:
@@ -59,7 +59,8 @@ class WordFamily(Family):
         all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of this weight whose conditions are independent and imply all others."""
+        """Return the words of this weight whose conditions are independent and imply the conditions of all
+        other words of this weight."""
         letters = sorted({letter for word in self.words(order) for letter in word})
         return tuple(lyndon_words(letters, order, self.weigh))
 
@@ -101,7 +102,7 @@ class WordFamily(Family):
         return tuple(series(c.key) * self.scale(c.key) for c in conditions)
 
     def _scaled(self, word: Word) -> Polynomial:
-        """Return :meth:`polynomial`, converted to left-hand sides that are multiplied by :meth:`scale`."""
+        """Return :meth:`polynomial`, rewritten for left-hand sides that are multiplied by :meth:`scale`."""
         return {
             monomial: value * self.scale(word) / prod(map(self.scale, monomial))
             for monomial, value in self.polynomial(word).items()

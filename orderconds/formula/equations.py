@@ -15,7 +15,8 @@ def aligned(equations: Iterable[tuple[str, str, str]]) -> str:
     r"""Return an ``align*`` environment (package amsmath) of equations, each given as (comment, left-hand
     side, right-hand side).
 
-    The signs of equality are aligned. If any line is broken, all lines are aligned at the left instead.
+    The signs of equality are aligned. If a left-hand side is broken into several lines, all lines are aligned
+    at the left margin and not at the signs.
 
     >>> print(aligned([("order 1", r"\sum_{i} b_{i}", "1")]))
     \begin{align*}

@@ -124,8 +124,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Two different factors can be equal up to the names of bound indices only if both contain sums. A single
-    # such factor therefore needs no comparison.
+    # Two different factors can be equal up to the names of bound indices only if both contain sums. If only
+    # one factor contains a sum, no comparison is necessary.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -163,7 +163,7 @@ def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
 
 
 def index_sum(indices: Sequence[str], relations: Iterable[Relation], body: Formula) -> Formula:
-    """Return the sum of ``body`` over indices. Sums among the factors of ``body``, and numbers, are moved to
+    """Return the sum of ``body`` over indices. If a factor of ``body`` is a sum or a number, it is moved to
     the front.
 
     >>> a, c = coefficient("a", "i", "j"), coefficient("c", "j")
@@ -225,8 +225,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
 
 
 def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
-    """Return the formula with readable names of bound indices, in reading order: i, j, k ... for stages, I,
-    J, K ... for exponentials.
+    """Return the formula with readable names of bound indices. In reading order, indices of stages become i,
+    j, k, ... and indices of exponentials I, J, K, ....
 
     A free index is renamed if ``names`` has an entry for it. Sums that differ only in the names of bound
     indices become identical.
@@ -315,7 +315,7 @@ def _shape(formula: Formula, depths: Mapping[str, int]) -> Hashable:
     """Return a key that is equal for two formulas iff they differ only in the names of bound indices.
 
     In the key, bound indices are numbers, counted from the outermost sum inwards. The key contains only
-    numbers and strings, because tuples of these are compared much faster than formulas.
+    numbers and strings, because tuples of numbers and strings are compared much faster than formulas.
     """
     match formula:
         case Coefficient(name, indices):

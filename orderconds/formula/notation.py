@@ -1,4 +1,4 @@
-"""Signs, brackets and subscripts of formulas, in ASCII for the terminal and in LaTeX for a paper."""
+"""The signs, brackets and subscripts of formulas, in ASCII (for a terminal) and in LaTeX (for a paper)."""
 
 from __future__ import annotations
 

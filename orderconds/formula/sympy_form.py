@@ -49,12 +49,12 @@ def _index(name: str) -> sympy.Expr:
 
 
 def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit]:
-    """Return the summation limits. ``i < j`` limits i to 1..j-1 in a sum over j. If i is free, j starts at
-    i+1."""
+    """Return the summation limits. If j is also a summation index, the relation ``i < j`` gives i the limits
+    1 and j-1. If i is a free index, the relation gives j the lower limit i+1."""
     limits, remaining = [], list(indices)
     while remaining:
-        # In SymPy the innermost limit comes first. Therefore choose an index that occurs in no limit of the
-        # remaining indices.
+        # In SymPy the innermost limit comes first. Therefore the loop chooses an index that occurs in no
+        # limit of the remaining indices.
         index = next(
             x for x in remaining if not any(high == x and low in remaining for low, _, high in relations)
         )

@@ -31,17 +31,18 @@ class Misrounded:
     solution: str
 
     def __str__(self) -> str:
-        return f"{self.name} = {self.given}~ is not the solution, which rounds to {self.solution}~"
+        given = f"{self.name} = {self.given}~"
+        return f"{given} is not correctly rounded: the solution rounds to {self.solution}~"
 
 
 @dataclass(frozen=True)
 class Certificate:
     """A proved solution near the decimals of a file.
 
-    ``tableau`` has the coefficients of the solution, over balls. ``facts`` are the orders that the equations
-    imply. ``radius`` bounds the distance of every decimal from the solution. ``printed`` bounds the distance
-    of each number printed in the source from the solution. ``misrounded`` names the decimals that are not the
-    solution rounded to their last digit.
+    ``tableau`` contains the coefficients of the solution, as balls. ``facts`` are the orders that the
+    equations imply. ``radius`` bounds the distance of every decimal from the solution. ``printed`` bounds the
+    distance of each number printed in the source from the solution. ``misrounded`` contains the decimals that
+    differ from the correctly rounded solution.
     """
 
     tableau: Tableau
@@ -69,8 +70,8 @@ class Certificate:
 def certify(tableau: Tableau, bits: int = 256) -> Certificate:
     """Prove that the equations of ``tableau`` have exactly one solution near its decimals.
 
-    The solution is enclosed to ``bits`` binary digits, or more if the file has more. Raises
-    :class:`~orderconds.proof.krawczyk.NotProved` with the reason.
+    The solution is enclosed to ``bits`` binary digits, or to more if the decimals of the file have more
+    digits. Raises :class:`~orderconds.proof.krawczyk.NotProved` with the reason.
 
     >>> from orderconds.tableau import find
     >>> certificate = certify(Tableau.load(find("cg4a")))
@@ -103,7 +104,7 @@ def _certify(key: _Key, least: int) -> Certificate:
         raise NotProved("the file names no equations; add a table [proof]")
     if not proof.unknowns:
         raise NotProved(
-            'pins name every decimal, so that none is left as an unknown; pin fewer, or leave out "~"'
+            'pins name every decimal, so that no decimal is an unknown; pin fewer decimals, or leave out "~"'
         )
     bits = max(least, 64 + 4 * max(len(str(u.constant.unit.denominator)) for u in proof.unknowns))
     system = equations(tableau)
@@ -130,7 +131,7 @@ def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
         f"pin {unknowns - conditions} of them"
         if unknowns > conditions
-        else "name a reduction that makes some of the equations follow from the others"
+        else "name a reduction: a theorem by which some of the equations follow from the others"
     )
     return f"{conditions} equations for {unknowns} unknowns; {advice}"
 
@@ -174,7 +175,7 @@ def _decimal(value: fmpq, unit: fmpq) -> str:
 
 
 def _distance(x: arb, to: fmpq) -> fmpq:
-    """Return an upper bound of |x - to|."""
+    """Return an upper bound of the distance |x - to|."""
     low, high = endpoints(x)
     return max(abs(low - to), abs(high - to))
 

@@ -25,15 +25,15 @@ from orderconds.series.monomials import products
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 FIRST = 40
-"""The initial number of random methods of the sub-family; most sub-families have few independent
-conditions."""
+"""The initial number of random methods of the sub-family. A small number suffices for most sub-families,
+because they have few independent conditions."""
 
 SPARE = 24
 """The number of additional random methods, which make an accidental dependence improbable."""
 
 PRIME_BITS = 61
-"""The size of the primes. Products of residues fit in a machine word, and one prime determines small
-fractions."""
+"""The size of the primes in bits. Products of residues fit in a machine word, and one prime is enough to
+determine fractions with small numerator and denominator."""
 
 MAX_PRIMES = 24
 """The largest number of primes. A combination whose coefficients are too large for this number of primes is
@@ -80,8 +80,8 @@ def dependences(
 ) -> Iterator[Dependences]:
     """Yield the dependences modulo one prime, two primes, ..., at most :data:`MAX_PRIMES`.
 
-    ``candidates`` are the conditions of each order. A prime that leaves fewer independent conditions than
-    another one is not used.
+    ``candidates`` are the conditions of each order. A prime is not used if another prime gives more
+    independent conditions.
 
     >>> from orderconds import families
     >>> from orderconds.proof.subfamily import decisive_conditions
@@ -195,7 +195,7 @@ class _Sampling:
     read: Reading | None
 
     def values(self, count: int, root: int | None) -> dict[OrderCondition, _Value]:
-        """Return the values of the conditions at ``count`` random members and at the flow."""
+        """Return the values of the conditions at ``count`` random members and at the exact flow."""
         generator = Random(self.draws.number(f"members modulo {self.prime}", 256))
         ring = _Members(self.prime, count, generator, root)
         known = {u.constant: ring.random(generator) for u in self.symbolic.decimals()}
@@ -218,7 +218,8 @@ class _Members(Samples):
         self._roots: dict[object, Sample] = {}
 
     def root(self, x: Sample, index: int) -> Sample:
-        """Return the lone square root, or a random number that depends only on the radical."""
+        """Return ``square_root`` if the radical is the only one, else a random number that depends only on
+        the radical."""
         if self._square_root is not None and index == 2:
             return self.rational(self._square_root)
         return self._drawn((self.key(x), index))

@@ -7,11 +7,11 @@ from its decimals:
 ``symmetric``    a palindromic composition of a symmetric method. The order is even, and only conditions of
                  odd order are needed, one for each Lyndon word in the letters 1, 3, 5, ... (HLW V.3.1-3.2).
                  A composition of midpoint rules is equal to the method with the composed tableau, in every
-                 family whose step consists of these midpoint steps, one after the other (Bogfjellmo and
-                 Marthinsen, Lemma 3.5.4). A Magnus method on s Gauss nodes depends only on the polynomial
-                 that interpolates A(t) at the nodes. The interpolation error is orthogonal to lower degrees
-                 and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to order 2s, the letters 1, ..., s
-                 therefore suffice (Iserles and Norsett 1999).
+                 family in which a step of the composed tableau is the sequence of these midpoint steps
+                 (Bogfjellmo and Marthinsen, Lemma 3.5.4). A Magnus method on s Gauss nodes depends only on
+                 the polynomial that interpolates A(t) at the nodes. The interpolation error is orthogonal to
+                 all polynomials of degree below s and changes the flow of Y' = A(t) Y by O(h^(2s + 1)). Up to
+                 order 2s, the letters 1, ..., s therefore suffice (Iserles and Norsett 1999).
 ``low-storage``  a 2N scheme (two registers). Its order on a group is equal to its order on a vector
                  space (see below).
 ``simplifying``  B(p), C(q), D(r) imply order min(p, q + r + 1, 2q + 2) (Butcher 1964; Hairer, Norsett and
@@ -68,7 +68,8 @@ class Equations:
     def __call__(
         self, point: Sequence[Element], ring: RootedRing, places: Sequence[int] | None = None
     ) -> list[Element]:
-        """Return left-hand sides minus right-hand sides, for values ``point`` of the unknowns in ``ring``.
+        """Return the left-hand side minus the right-hand side of each equation, for the values ``point`` of
+        the unknowns in ``ring``.
 
         With ``places``, return only the equations with these indices.
         """
@@ -99,7 +100,7 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
         raise InputError(
             f"conditions = {proof.conditions!r}",
             where=f"{tableau.path or tableau.name}: proof",
-            expected=f"a family that reads format {tableau.family}",
+            expected=f"a family that accepts tableaux of format {tableau.family}",
         )
     return method
 
@@ -108,12 +109,14 @@ def _read(family: Family, tableau: Tableau, proof: Proof) -> Method:
 def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[OrderCondition, ...]:
     family = families.get(label)
     orders = range(1, order + 1, step)
-    # Some families choose their independent conditions by ranks modulo primes. A rank that is too small would
-    # leave out an equation. Therefore the relations of the conditions left out are verified over Q.
+    # Some families choose their independent conditions by ranks modulo primes. If a rank were too small, a
+    # necessary equation would be missing. Therefore the relations of the omitted conditions are verified over
+    # Q.
     for n in orders:
         if not family.dependence_holds(n):
             raise NotProved(
-                f"some conditions of order {n} of {label} depend on others modulo primes, but not over Q"
+                f"some conditions of order {n} of family {label} depend on other conditions modulo primes, "
+                f"but not over Q"
             )
     conditions = [c for n in orders for c in family.conditions(n)]
     return tuple(c for c in conditions if letters is None or max(c.key) <= letters)
@@ -122,7 +125,7 @@ def _up_to(label: str, order: int, step: int, letters: int | None) -> tuple[Orde
 def equations(tableau: Tableau) -> Equations:
     """Return the equations that the proof of a tableau names, after verification of the reduction.
 
-    Raises :class:`NotProved` where the reduction does not apply, :class:`InputError` for an unknown family.
+    Raises :class:`NotProved` if the reduction does not apply, and :class:`InputError` for an unknown family.
 
     >>> from orderconds.tableau import find
     >>> equations(Tableau.load(find("cg4a"))).facts
@@ -159,7 +162,7 @@ def equations(tableau: Tableau) -> Equations:
 
 
 def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
-    """Return the conditions that do not follow from others for the formulas in the file."""
+    """Return the conditions that, given the formulas in the file, do not follow from other conditions."""
     from orderconds.proof.subfamily import decisive_conditions, independent_conditions
 
     family = families.get(proof.conditions)
@@ -186,7 +189,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     try:
         ring, values = evaluate(nodes, exact, symbolic.where)
-    except TableauError:  # a node depends on a rounded decimal
+    except TableauError:  # raised if a node depends on a rounded decimal
         return None
     return method.s if gauss_nodes(list(values.values()), ring) else None
 
@@ -221,9 +224,9 @@ def _reached(proof: Proof, order: int) -> int:
 def independent(system: Equations, values: Sequence[Jet]) -> list[int]:
     """Return the indices of the equations that are not satisfied identically.
 
-    Equations that look constant over a box are evaluated exactly, with random numbers for the unknowns
-    (:mod:`orderconds.tableau.random_member`); equations with the value zero are left out. ``values`` are jets
-    over the box.
+    ``values`` are jets over a box. If the value and the gradient of an equation both contain zero, the
+    equation may be an identity. It is then evaluated exactly, with random numbers for the unknowns
+    (:mod:`orderconds.tableau.random_member`), and left out if the exact value is zero.
 
     >>> from flint import arb
     >>> from orderconds.ring.jets import Jets

@@ -93,7 +93,7 @@ class ExactMember:
         """Whether a combination equals the left-hand side at this member, and the right-hand side at the
         exact flow.
 
-        Then ``condition`` follows from the conditions in the combination, at every member.
+        In this case ``condition`` follows from the conditions in the combination, at every member.
         """
         if combination is None:
             return False

@@ -1,8 +1,10 @@
-"""Theorems that derive the order in one family from proved orders in others, with their sources.
+"""Theorems, with sources, that derive the order of a method in one family from its proved orders in other
+families.
 
-A fact (label of a family, order) means that a method has at least this order in the family. ``cg`` 4 implies
-``rk`` 4, since a vector space is a group. The theorems are attributes and methods of the families:
-:attr:`~orderconds.families.Family.implies` and :meth:`~orderconds.families.Family.implied_order`.
+A fact (label of a family, order) means that a method has at least this order in the family. For example,
+order 4 in ``cg`` implies order 4 in ``rk``, because a vector space is a Lie group under addition. The
+theorems are attributes and methods of the families: :attr:`~orderconds.families.Family.implies` and
+:meth:`~orderconds.families.Family.implied_order`.
 """
 
 from __future__ import annotations

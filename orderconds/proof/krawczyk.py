@@ -20,8 +20,8 @@ from orderconds.ring.jets import Jet, Jets
 from orderconds.ring.precision import precision
 
 System = Callable[[Sequence[Jet], Jets], Sequence[Jet]]
-"""A system of n functions of n variables: its arguments are jets of the variables and the ring of jets; it
-returns jets of the values."""
+"""A system of n functions of n variables, as a Python function. Its arguments are the variables as jets, and
+the ring of jets. It returns the values of the n functions as jets."""
 
 MAX_SWEEPS = 40
 
@@ -31,9 +31,10 @@ class NotProved(Exception):
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls around the only zero of ``system`` in ``box``, about as narrow as ``bits`` allow.
+    """Return balls around the only zero of ``system`` in ``box``, about as narrow as a precision of ``bits``
+    bits allows.
 
-    Raises :class:`NotProved` where Krawczyk's operator does not map the box into its interior.
+    Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
 
     >>> with precision(128):
     ...     (root,) = enclose(lambda x, ring: [x[0] * x[0] - 2], [arb(1.4142, 1e-3)], 128)
@@ -45,8 +46,8 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
         for i, (inner, outer) in enumerate(zip(image, box, strict=True)):
             if not outer.contains_interior(inner):
                 raise NotProved(
-                    f"the box is not mapped into itself: Krawczyk's operator maps unknown {i + 1} "
-                    f"from {outer.str(12)} to {inner.str(12)}"
+                    f"Krawczyk's operator does not map the box into itself: it maps the interval "
+                    f"{outer.str(12)} of unknown {i + 1} to {inner.str(12)}"
                 )
         for _ in range(MAX_SWEEPS):
             sharper = [x.intersection(y) for x, y in zip(image, _image(system, image), strict=True)]
@@ -57,7 +58,7 @@ def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
 
 
 def _image(system: System, box: Sequence[arb]) -> list[arb]:
-    """Return K(box), or raise :class:`NotProved` where the Jacobian at the midpoint is not invertible."""
+    """Return K(box), or raise :class:`NotProved` if the Jacobian at the midpoint is not invertible."""
     middle = [x.mid() for x in box]
     at_middle = jets(system, middle)
     over_box = jets(system, box)
@@ -83,7 +84,8 @@ def jets(system: System, point: Sequence[arb]) -> Sequence[Jet]:
 
 
 def inverse(matrix: arb_mat) -> arb_mat:
-    """Return a matrix of the midpoints of the inverse; raises :class:`NotProved` for a singular matrix.
+    """Return the matrix of the midpoints of the entries of the inverse. Raises :class:`NotProved` for a
+    singular matrix.
 
     >>> inverse(arb_mat(1, 1, [4]))[0, 0] == 0.25
     True

@@ -44,7 +44,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
     pinned decimals.
 
     The original digits are recorded as ``printed``, unless the file already has a table of this name. Raises
-    :class:`~orderconds.proof.krawczyk.NotProved` where Newton's method does not converge nearby.
+    :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method does not converge to a solution near the
+    decimals.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.file import text_of
@@ -61,7 +62,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # An equation that depends on the unknowns may look constant at a single point, but not over a box.
+        # At a single point, the value and the gradient of an equation that is not an identity may both be
+        # zero. A box shows that the equation depends on the unknowns.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -80,7 +82,8 @@ def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
 
     Each row is scaled by its largest entry.
 
-    Raises :class:`~orderconds.proof.krawczyk.NotProved` where the rows are dependent to working precision.
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if the rows are linearly dependent to working
+    precision.
 
     >>> determined([[arb(0), arb(2), arb(1)]])
     [1]
@@ -120,7 +123,7 @@ def _newton(
         for place, j in enumerate(free):
             point[j] = (point[j] - step[place, 0]).mid()
             if not abs(point[j] - start[j]) < arb(TOLERANCE):
-                raise NotProved("Newton's method leaves the decimals: they are not near a solution")
+                raise NotProved("Newton's method moves away from the decimals: they are not near a solution")
         if all(abs(step[place, 0]).upper() < arb(10) ** -(digits + 5) for place in range(len(free))):
             return [decimal_places(point[j], digits) for j in free]
     raise NotProved("Newton's method does not converge from the decimals")
@@ -163,7 +166,7 @@ def _rewritten(text: str, proof: Proof, decimals: dict[str, str], pinned: Sequen
             lines.append(line)
     at = next((i for i, line in enumerate(lines) if _header(line) == "proof"), None)
     if at is None:
-        raise NotProved("the proof is an inline table; write it as a table, under the line [proof]")
+        raise NotProved("the key proof is an inline table; write it as a table, under the line [proof]")
     end = next((i for i in range(at + 1, len(lines)) if _header(lines[i])), len(lines))
     while not lines[end - 1].strip():
         end -= 1
@@ -195,7 +198,7 @@ def _figures(value: Fraction, places: int) -> str:
 def _printed(proof: Proof, name: str) -> str:
     """Return the value of the number ``name`` for the decimals of the file, as text."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
-    value = at.number(name, cast("RootedRing", QQ), {})  # decimals contain no radicals
+    value = at.number(name, cast("RootedRing", QQ), {})  # a decimal contains no radical
     return _decimal_text(Fraction(int(value.p), int(value.q)))
 
 

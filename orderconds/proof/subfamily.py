@@ -2,14 +2,15 @@
 
 Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of others. They restrict a family to a
 sub-family, in which fewer conditions of the family are independent. A condition is left out if its value is a
-fixed combination of kept conditions of its order and of products of kept conditions of lower order, at every
-member of the sub-family and at the exact flow. Such a condition holds wherever the kept conditions hold.
+fixed combination of kept conditions of its order and of products of kept conditions of lower order, and this
+combination is valid for every method of the sub-family and for the exact flow. The condition therefore holds
+if the kept conditions hold.
 
-Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each one is
-then verified exactly at a member drawn from a digest of the file (:mod:`orderconds.proof.exact_member`). A
-condition without a verified combination is kept. A condition with a constant left-hand side is also kept,
-unless exact arithmetic finds it equal to the right-hand side. If a file has several radicals, random numbers
-replace them. The sub-family is then larger and the statement stronger.
+Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each
+combination is then verified exactly at one member of the sub-family, drawn from a digest of the file
+(:mod:`orderconds.proof.exact_member`). A condition without a verified combination is kept. A condition with a
+constant left-hand side is also kept, unless exact arithmetic finds it equal to the right-hand side. If a file
+has several radicals, random numbers replace them. The sub-family is then larger and the statement stronger.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from orderconds.tableau.unknowns import SymbolicCoefficients
 def independent_conditions(
     family: Family, symbolic: SymbolicCoefficients, order: int, read: Reading | None = None
 ) -> tuple[OrderCondition, ...]:
-    """Return the conditions up to ``order`` that do not follow from others in the sub-family.
+    """Return the conditions up to ``order`` that do not follow from other conditions in the sub-family.
 
     ``read`` turns the file's method and its ring into the method that the family evaluates.
 

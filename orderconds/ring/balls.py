@@ -1,8 +1,8 @@
 """Real balls (Arb) with a fixed working precision: rigorous enclosures of real numbers.
 
-A ball encloses one unknown real number. A ball that does not contain zero proves that the number is not zero.
-Only the ball with midpoint and radius zero proves that the number is zero. Exact zeros of a tableau therefore
-remain exact zeros.
+A ball encloses one unknown real number. If the ball does not contain zero, the number is not zero. The number
+is proved to be zero only if midpoint and radius of the ball are zero. The ball of an exact zero of a tableau
+has radius zero, so it remains an exact zero.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from orderconds.ring.roots import isolate
 
 
 class Balls:
-    """The ring of real balls with ``bits`` bits of precision. Two rings with equal ``bits`` are equal.
+    """The ring of real balls with ``bits`` bits of precision. Two rings with the same ``bits`` are equal.
 
     >>> R = Balls(128)
     >>> third = R.rational(1, 3)
@@ -101,8 +101,8 @@ class Balls:
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Return x as a coefficient in a tableau file: an exact number as it is, any other ball as a decimal
-        with ``~``.
+        """Return x as a coefficient in a tableau file: an exact number is not rounded, any other ball becomes
+        a decimal with ``~``.
 
         The sign ``~`` means an error of at most one unit in the last digit.
 
@@ -192,8 +192,8 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # x is exact and must remain exact. Any arithmetic, even abs, would round it to the current precision of
-    # flint.
+    # x is exact and must remain exact. Any operation of flint, even abs, would round x to the current
+    # precision.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
 

@@ -1,6 +1,6 @@
 """Exact numbers as decimals and doubles, rounded once and correctly.
 
-A number is given as a rational number or as an enclosure that can be computed to any precision. The precision
+A number is given as a rational number, or by enclosures that can be computed to any precision. The precision
 is increased until both end points of the enclosure round to the same result. Hence the result is correct and
 does not depend on a working precision.
 """
@@ -14,7 +14,8 @@ from flint import arb, fmpq, fmpz
 
 Rounded = TypeVar("Rounded", str, float)
 Enclosure = Callable[[int], arb]
-"""A real number, as a function that returns for each number of bits a ball that contains it."""
+"""A real number, given by a function: for each number of bits it returns a ball that contains the real
+number."""
 
 
 def endpoints(ball: arb) -> tuple[fmpq, fmpq]:

@@ -13,7 +13,7 @@ from flint import fmpz
 
 
 class Draws:
-    """Pseudorandom numbers computed from a digest of ``described``, one for each name.
+    """Pseudorandom numbers, computed from a digest of the text ``described``. Each name gives one number.
 
     >>> draws = Draws("one file")
     >>> draws.number("x", 64) == Draws("one file").number("x", 64) != Draws("another").number("x", 64)

@@ -21,10 +21,10 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""The degree from which on division solves a linear system."""
+"""In fields of at least this degree, division is done by solving a linear system."""
 
 REMEMBERED = 1000
-"""The largest number of elements of smaller fields for which a field caches the lifted elements."""
+"""The largest size of the cache in which a field stores elements lifted from smaller fields."""
 
 
 class Generator(Struct, frozen=True):
@@ -57,8 +57,8 @@ class NumberField:
 
     ``generators`` are the adjoined roots; ``images`` are these roots as polynomials in x. ``parent`` is the
     field to which the last root was adjoined; ``parent_image`` is the primitive element of the parent as a
-    polynomial in x. ``reciprocals`` is a cache of inverses. A method divides only by a few weights, and one
-    division costs as much as many products.
+    polynomial in x. ``reciprocals`` is a cache of inverses. The cache is small, because the formulas of
+    methods divide only by a few weights. It saves time, because one division costs as much as many products.
     """
 
     def __init__(
@@ -277,7 +277,7 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        if type(other) is Algebraic and other.field is self.field:  # the most frequent case
+        if type(other) is Algebraic and other.field is self.field:  # same field: the most frequent case
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
             return NotImplemented

@@ -52,7 +52,7 @@ class Jets:
     def root(self, x: Jet, index: int) -> Jet:
         """Return the real root of x with this index.
 
-        Raises ValueError if x may be zero, or negative for an even index.
+        Raises ValueError if x may be zero. For an even index, it also raises ValueError if x may be negative.
         """
         negative = x.value < 0
         if not (x.value > 0 or (negative and index % 2)):
@@ -76,7 +76,7 @@ class Jets:
         return str(x.value.str(15))
 
     def key(self, x: Jet) -> tuple[str, ...]:
-        """Return the text of all enclosures, which identifies an element."""
+        """Return the text of the enclosures of value and gradient. This text identifies an element."""
         return (str(x.value), *map(str, x.gradient))
 
     def approximate(self, x: Jet, digits: int = 20) -> str:

@@ -1,8 +1,8 @@
 """Laurent polynomials over Q. They can be divided by monomials such as the weights b_i.
 
-This ring is used to expand conditions for a fixed number of stages, in families that divide by b_i (SPRK,
-VCG). An element is a flint polynomial divided by a monomial, in lowest terms. Hence equal elements have equal
-numerators and equal denominators.
+This ring is used to expand conditions for a fixed number of stages, in families whose formulas divide by b_i
+(SPRK, VCG). An element is a flint polynomial divided by a monomial, in lowest terms. Hence equal elements
+have equal numerators and equal denominators.
 """
 
 from __future__ import annotations

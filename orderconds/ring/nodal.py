@@ -5,10 +5,12 @@ Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for
 modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
 linear map of polynomials. Suppose that for all k < s, A c^k is a polynomial in c with *rational*
 coefficients, and b.c^k is a rational number. Then all computations are done over Q. For example, five Radau
-nodes generate a field of degree 24, but a product costs one flint operation instead of five of degree 24.
+nodes generate a field of degree 24. A product of two vectors then needs one product of rational polynomials
+modulo M instead of five products in this field.
 
-The rational coefficients are guessed from balls and then verified exactly in the number field. ``A p`` is
-``int_0^z p`` modulo M, plus corrections at a few powers; a collocation method has no corrections.
+The rational coefficients are guessed from balls and then verified exactly in the number field. The polynomial
+``A p`` is stored as ``int_0^z p`` modulo M, plus corrections for a few powers z^k in p. A collocation method
+has no corrections.
 """
 
 from __future__ import annotations
@@ -112,8 +114,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key. Coefficients are compared by identity, so that all orders of one check use the same
-    algebra."""
+    """A cache key. Two keys are equal if they refer to the same coefficient objects. All orders of one check
+    therefore use the same algebra."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b

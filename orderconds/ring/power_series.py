@@ -1,4 +1,4 @@
-"""Truncated power series in h over any base ring. Terms above h^order are dropped.
+"""Truncated power series in h over any base ring. Terms beyond h^order are dropped.
 
 If a step program is evaluated over this ring, the result contains the exact Taylor coefficients of its local
 error.
@@ -44,8 +44,8 @@ class PowerSeries:
         return Series(self, (x, *self.zero.coefficients[1:]))
 
     def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:
-        """Return the series with these first coefficients. Further coefficients are zero; coefficients above
-        the order are dropped."""
+        """Return the series with these first coefficients. If there are fewer coefficients than the order
+        requires, the missing coefficients are zero. Superfluous coefficients are dropped."""
         kept = coefficients[: self.order + 1]
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 

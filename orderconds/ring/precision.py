@@ -1,6 +1,7 @@
-"""The only module that changes the working precision of flint, which is global to the process.
+"""Set the working precision of flint, a global variable of the process. No other module changes this
+precision.
 
-All other modules set the precision through this module, which restores the previous precision afterwards.
+Other modules call the context manager of this module, which restores the previous precision at the end.
 Hence rings of different precision do not affect each other, and the user's own code with python-flint is not
 affected.
 """

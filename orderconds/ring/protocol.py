@@ -32,8 +32,8 @@ class Ring(Protocol):
         """Return p/q in this ring."""
 
     def is_zero(self, x: Element) -> bool | None:
-        """Return whether x = 0, or None if the ring cannot decide. (A ball that contains other numbers
-        besides zero never proves zero.)"""
+        """Return whether x = 0, or None if the ring cannot decide. (A ball that contains zero and other
+        numbers does not decide whether x = 0.)"""
 
     def text(self, x: Element) -> str:
         """Return x as exact text, in the grammar of tableau files if this grammar can express x."""

@@ -15,9 +15,10 @@ def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
     """Return the indices of the columns that are not linear combinations of earlier columns. Their number is
     the rank.
 
-    Each column contains the values of one function, one sample in each row. If the samples are random, the
-    result is also correct for the functions themselves, except with a probability of about (number of
-    columns) / prime. The number of pivots is never larger than the rank of the functions.
+    Each column contains the values of one function at the samples, one sample in each row. If the samples are
+    random, linear dependence of the columns means linear dependence of the functions, except with a
+    probability of about (number of columns) / prime. The number of pivots is never larger than the number of
+    linearly independent functions.
 
     >>> from orderconds.ring import Residues
     >>> R = Residues(101, 3)

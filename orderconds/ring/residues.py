@@ -1,5 +1,5 @@
-"""Vectors of residues modulo a prime, one residue for each sample. Ranks of conditions are computed over this
-ring.
+"""Vectors of residues modulo a prime, one residue for each sample. This ring is used to compute ranks of
+conditions.
 
 An element is a vector of independent residues. A random vector is the value of one coefficient in many random
 tableaux, one tableau for each entry. The prime is below 2^31, so that products fit in 64 bits.
@@ -67,7 +67,7 @@ class Residues:
         return str(x.values)
 
     def key(self, x: Residue) -> tuple[int, ...]:
-        """Return the residues as integers."""
+        """Return the residues as a sequence of integers."""
         return tuple(int(v) for v in x.values)
 
     def approximate(self, x: Residue, digits: int = 20) -> str:

@@ -1,4 +1,5 @@
-"""Real roots of rational polynomials. A decimal identifies a root; balls enclose it to any precision."""
+"""Real roots of rational polynomials. A decimal identifies a root. Balls enclose the root to any
+precision."""
 
 from __future__ import annotations
 

@@ -2,8 +2,9 @@
 check.
 
 The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))): sample k is the
-value of a polynomial at z = k. One sum or product of polynomials thus computes the result for all samples. An
-invertible linear map connects samples and coefficients, so ranks can be computed from the coefficients.
+value of a polynomial at z = k. One sum or product of polynomials thus computes the result for all samples.
+The map from the samples to the coefficients of the polynomial is linear and invertible, so ranks can be
+computed from the coefficients.
 """
 
 from __future__ import annotations
@@ -49,8 +50,8 @@ class Samples:
         return Sample(self, total)
 
     def random(self, generator: Random) -> Sample:
-        """Return independent, uniformly distributed residues. If coefficients are uniform, samples are
-        uniform."""
+        """Return independent, uniformly distributed samples, by drawing uniformly distributed coefficients of
+        the polynomial."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )

@@ -1,10 +1,10 @@
 """A growing number field: radicals and named roots are adjoined until the field contains every coefficient.
 
-A root b of a separable polynomial over K = Q(a) is adjoined as follows. In the algebra K[x]/(polynomial), one
-of the elements b, ab, b + a, b - a, ... has powers that span the algebra. Let c be this element. The
-characteristic polynomial of c is computed and factored. Balls decide which irreducible factor vanishes at the
-real number c. If the degree of this factor is the degree of K, b is already an element of K, and no new field
-is formed. For example, sqrt(8) becomes 2 sqrt(2) if K contains sqrt(2).
+A root b of a separable polynomial over K = Q(a) is adjoined as follows. In the algebra K[x]/(polynomial), let
+c be the first of the elements b, ab, b + a, b - a, ... whose powers span the algebra. The characteristic
+polynomial of c is computed and factored. Balls decide which irreducible factor vanishes at the real number c.
+If the degree of this factor is the degree of K, b is already an element of K, and no new field is formed. For
+example, sqrt(8) becomes 2 sqrt(2) if K contains sqrt(2).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from orderconds.ring.roots import isolate
 MAX_DEGREE = 24
 """The largest degree of a field. For larger degrees, balls are more efficient."""
 MAX_DIMENSION = 64
-"""The largest dimension of an algebra that is formed to adjoin a root."""
+"""The largest dimension of an algebra that is constructed to adjoin a root."""
 
 
 class DegreeError(ArithmeticError):
@@ -33,7 +33,8 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A growing number field. Earlier numbers remain valid, because they can be lifted to later fields.
+    """A growing number field. Numbers of earlier, smaller fields remain valid, because they can be lifted to
+    the current field.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -52,7 +53,8 @@ class Tower:
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
         """Return an exact rational number.
 
-        Raises TypeError for a positive ``unit``, because the value is then a ball.
+        Raises TypeError for a positive ``unit``, because the constant is then a rounded decimal, which only a
+        ball represents.
         """
         if unit:
             raise TypeError("a number field contains no balls")
@@ -248,7 +250,8 @@ def _in_powers_of(a: fmpq_poly, b: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
 
 
 def _factors(n: fmpz) -> list[tuple[fmpz, int]]:
-    """Return the prime factors of a positive integer. Above 128 bits, only small primes are divided out."""
+    """Return the prime factors of a positive integer. If the integer has more than 128 bits, only small prime
+    factors are found."""
     factors = []
     if n.bit_length() > 128:
         for prime in (2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37):

@@ -23,8 +23,8 @@ an input."""
 class Operation:
     """One operation of a program.
 
-    ``left`` and ``right`` are indices of earlier operations. ``value`` is a constant, the number of an input,
-    or the index of a root.
+    ``left`` and ``right`` are indices of earlier operations. ``value`` is the constant, the position of the
+    input, or the index n of an n-th root.
     """
 
     kind: int
@@ -73,7 +73,7 @@ class Traces:
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
-        """Return the text, which identifies an element."""
+        """Return the text of the element, which identifies the element."""
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:

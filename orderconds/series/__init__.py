@@ -2,6 +2,7 @@
 
 ``b_series``: rooted trees, coloured or not. ``lie_butcher``: ordered forests, for products of exponentials
 and for the exact flow. ``dexpinv``: Runge-Kutta-Munthe-Kaas methods. ``action``: variational methods.
-``characters``: composition and inverse of steps as B-series or Lie-Butcher series, by the cuts of ``cuts``.
+``characters``: composition and inverse of steps as B-series or Lie-Butcher series, computed from the
+admissible cuts in ``cuts``.
 ``modified_equations``: backward error analysis. ``substitution``: a step whose field is itself a series.
 """

@@ -110,8 +110,8 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return :meth:`insertion` as a table: the outer index is the stage j, the inner index is the varied
-        stage i."""
+        """Return the values of :meth:`insertion` as a table: the outer index is the row j, the inner index is
+        the stage i whose velocity is varied."""
         values = self._insertions.get((before, after))
         if values is None:
             values = self._insertions[before, after] = self._stage_insertions(before, after)
@@ -134,8 +134,8 @@ class ActionSeries(ABC):
         return total
 
     def condition(self, tree: Velocity) -> Element:
-        """Return sum_i b_i tau_t(i), the coefficient of a tree in the update and of its elementary
-        Hamiltonian.
+        """Return sum_i b_i tau_t(i). It is the coefficient of the tree t in the update, and the coefficient
+        of the elementary Hamiltonian of t.
 
         Intermediate values that belong to this tree only are not cached. The cache for all trees of an order
         then fits in memory.
@@ -152,10 +152,10 @@ class ActionSeries(ABC):
         a function f by ``f(q1) = sum_w coefficient(w) F(t_1) ... F(t_k) f (q0)``, where the field of the
         first letter acts first. The same coefficients determine the momentum. Let mubar be the momentum
         relative to q0, with mubar1 = Ad*_{q1} mu1. Then mubar1 - mubar0 is the sum over t = (v, M) of (the
-        coefficient of the one-letter word t) times the covector ``x -> -D_q H(x v | M)``, where x acts first.
-        The coefficient of ``<mu1, ad t_1 ... ad t_k x>`` in mubar1 is the coefficient of the word ``t_k ...
-        t_1``. :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this
-        way.
+        coefficient of the one-letter word t) times the covector ``x -> -D_q H(x v | M)``, in which the
+        derivative along x is applied first. The coefficient of ``<mu1, ad t_1 ... ad t_k x>`` in mubar1 is
+        the coefficient of the word ``t_k ... t_1``.
+        :meth:`orderconds.series.action_fields.ActionFields.local_error` evaluates q1 and mu1 in this way.
         """
         return {word: self.coefficient(self.stages, word) for n in range(vertices + 1) for word in words(n)}
 

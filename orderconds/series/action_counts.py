@@ -30,8 +30,9 @@ def velocity_count(vertices: int) -> int:
 def class_count(vertices: int) -> int:
     """Return the number of classes of g-valued trees under root switching.
 
-    A class is an unrooted tree. It has one vertex more than it has edges across which the root can move.
-    Hence the number of classes is the number of rooted trees minus the number of trees with a marked force.
+    A class corresponds to an unrooted tree. In this tree, the number of possible root vertices is one more
+    than the number of edges across which the root can move. Hence the number of classes is the number of
+    rooted trees minus the number of trees with a marked force.
 
     >>> [class_count(n) for n in range(1, 7)]
     [1, 2, 10, 58, 398, 2946]
@@ -44,8 +45,8 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return T and P as power series, by iteration of their equations until the required coefficients no
-    longer change."""
+    """Return T and P as power series. The equations of T and P are iterated until the required coefficients
+    no longer change."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:

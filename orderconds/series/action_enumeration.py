@@ -1,10 +1,11 @@
 """Enumeration of the action trees with a given number of vertices, on demand, simplest first.
 
-The cost of a tree measures how difficult its condition is to read. It is a sum of non-negative costs of its
-subtrees. Hence all trees up to a cost limit consist of subtrees up to the same limit. Subtrees are tried in
-order of cost, so the search ends at the first subtree beyond the limit. A long list is enumerated in parts,
-with rising cost limits, and only as far as a check requires. For example, the simplest few hundred of the
-6331 trees with six vertices decide the order of most methods.
+The cost of a tree measures how difficult its condition is to read. It is a sum of non-negative terms, among
+them the costs of the subtrees. Hence the subtrees of a tree whose cost is at most a limit also have costs of
+at most this limit. Subtrees are tried in order of cost, so the search ends at the first subtree beyond the
+limit. A long list is enumerated in parts, with rising cost limits, and only as far as a check requires. For
+example, there are 6331 trees with six vertices, but the few hundred simplest trees decide the order of most
+methods.
 """
 
 from __future__ import annotations

@@ -102,8 +102,8 @@ class ActionFields:
         self._covector: dict[Momentum, Coordinates] = {}
 
     def derivative(self, fields: Sequence[Coordinates], covectors: Sequence[Coordinates]) -> Element:
-        """Return the derivative of H along right-invariant fields, of which the first acts first, and along
-        covectors."""
+        """Return the derivative of H along a list of right-invariant fields, in which the first field acts
+        first, and along a list of covectors."""
         q: Matrix = self.q
         mask = 1
         for field in fields:
@@ -187,8 +187,8 @@ class ActionFields:
             change = self.transported(word[::-1])
             if len(word) == 1:
                 change = tuple(x + y for x, y in zip(change, self._impulse(word[0]), strict=True))
-            # This is the error of mu0 as a function of mu1. The error of mu1 as a function of mu0 has the
-            # opposite sign.
+            # ``change`` is the error of mu0 as a function of mu1. The error of mu1 as a function of mu0 has
+            # the opposite sign.
             momentum = [m - weight * x for m, x in zip(momentum, change, strict=True)]
         return point, tuple(momentum)
 

@@ -1,8 +1,8 @@
 """The action series of VRKMK: each group element is one exponential of a Lie series in the stage velocities.
 
 The exponents are ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j`` for stage i, and ``Y``, with b_j in place of
-a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). A variation of the velocity of one stage is
-represented by an additional letter x, which belongs to this stage only and occurs once in a word ``u x v``.
+a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). An additional letter x represents a
+variation of the velocity of one stage. It occurs exactly once in a word ``u x v``.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ omitted."""
 class MuntheKaasActionSeries(ActionSeries):
     """The action series of the tableau (A, b) in VRKMK; dexpinv is truncated after the power ``cutoff``.
 
-    The coefficients of a word are computed for all stages at once, and for the variations of all stages at
-    once.
+    The coefficients of a word are computed in one operation for all stages, and likewise for the variations
+    of all stages.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities

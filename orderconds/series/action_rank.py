@@ -3,8 +3,9 @@
 A condition of order n depends on others if its value is a fixed combination of other values of order n and of
 products of values of lower order, for every method **and for the flow**. Such dependences are computed from
 the values at many random methods and at the flow. Pivots are chosen in the canonical order of the trees, so
-that the simplest trees are selected. The flow must be included: a condition that no member of the family
-satisfies would otherwise count as dependent (for example, VRKMK with too few terms of dexpinv).
+that the simplest trees are selected. The values at the flow must be included. Without them, a condition that
+no method of the family satisfies would count as dependent. Such conditions exist, for example, for VRKMK with
+too few terms of dexpinv.
 """
 
 from __future__ import annotations
@@ -31,12 +32,13 @@ SPARE_SAMPLES = 24
 """The number of samples beyond the largest possible rank; they make accidental dependences improbable."""
 
 BLOCK = 256
-"""The number of samples that are evaluated together: large enough for speed, small enough for the memory at
-order 6."""
+"""The number of samples that are evaluated together. It is large enough for speed, and small enough that
+order 6 does not exceed the memory."""
 
 
 def independent_trees(family: RandomSeries, order: int) -> tuple[tuple[Velocity, ...], ...]:
-    """Return, for each order 1..order, the trees whose conditions are independent of all simpler conditions.
+    """Return, for each of the orders 1, ..., ``order``, the trees whose conditions are independent of all
+    simpler conditions.
 
     The rank is computed modulo two primes, and the larger of the two sets of trees is returned. A rank modulo
     a prime is never larger than the rank over Q. This proves that the returned trees, together with all

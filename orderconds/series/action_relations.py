@@ -1,11 +1,11 @@
 """Relations of action conditions: each dependent condition is a polynomial in independent conditions.
 
 The value of a tree with n vertices, for every method of the family and for the flow, is a linear combination
-of monomials of degree n in the values of independent trees. Trees with the same unrooted tree have the same
-value. For all other trees, values at random methods give linear equations for the coefficients. The equations
-are solved modulo two primes, and the rational coefficients are reconstructed from the residues. Three
-relations of order 4 hold for VCG but not for VCF. These three follow from the equation ``psi_{L(H|L)} = 3
-psi_{L(HH)} - psi_{L(H)}^2``.
+of monomials of degree n in the values of independent trees. Trees that differ only in the choice of the root
+have the same value. For all other trees, the values at random methods give linear equations for the
+coefficients of the combination. The equations are solved modulo two primes, and the rational coefficients are
+reconstructed from the residues. Three relations of order 4 hold for VCG but not for VCF. These three follow
+from the equation ``psi_{L(H|L)} = 3 psi_{L(HH)} - psi_{L(H)}^2``.
 """
 
 from __future__ import annotations
@@ -90,8 +90,8 @@ def hold_over_rationals(
     """Whether relations hold exactly at a random method over Q, and for the exact flow.
 
     ``series`` returns the series of a random method with coefficients in a ring. The random method should
-    have more stages than the methods from which the relations were computed. A relation of degree d that is
-    not an identity holds at a random method with a probability below d/2^60.
+    have more stages than the methods from which the relations were computed. If a relation of degree d is not
+    an identity, it holds at a random method with a probability below d/2^60.
 
     >>> from functools import partial
     >>> from orderconds.families import get

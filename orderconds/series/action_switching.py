@@ -1,9 +1,9 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
 The root can move from the root vertex to a force that is attached to it: ``o(w | M, H(u*v | N))`` and ``o(u
-o(w | M) v | N)`` have equal coefficients, for every method and for the flow. In both coefficients, the
-connecting edge is a double sum over stages, and the two sums may be exchanged. Hence one tree of each class
-is sufficient.
+o(w | M) v | N)`` have equal coefficients, for every method and for the flow. Both coefficients contain one
+double sum over the stages of the two vertices of the connecting edge, and the two sums may be exchanged.
+Hence one tree of each class is sufficient.
 """
 
 from __future__ import annotations
@@ -32,7 +32,8 @@ def switched(tree: Velocity) -> Iterator[Velocity]:
 
 @cache
 def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
-    """Return the classes of trees that root switching connects. The first tree of each class is the simplest.
+    """Return the classes of trees whose members differ only in the choice of the root. The first tree of each
+    class is the simplest.
 
     >>> classes(2)
     ((o(o), o(|f(*))), (o(|L(o)),))

@@ -1,7 +1,7 @@
 """The trees that index the action series of variational Lie group methods on T*G.
 
 Every vertex is a copy of the Hamiltonian H, except a :class:`Transport`, which is not counted. There are two
-kinds of trees, and each kind has subtrees of both kinds:
+kinds of trees. A tree of either kind may contain subtrees of both kinds:
 
 - g-valued ``t = (word w of t's, multiset M of p's)``, a :class:`Velocity`: the derivative of ``D_mu H`` along
   the word w of right-invariant fields (the first letter acts first) and along the covectors of M;
@@ -62,7 +62,8 @@ class _Node:
 
 
 class Velocity(_Node):
-    """The g-valued tree t = (w, M). Use :func:`velocity` to create it, because trees are interned.
+    """The g-valued tree t = (w, M). Use :func:`velocity` to create one: the function returns the same object
+    for equal trees.
 
     >>> tree = velocity((velocity(),), (force(), force()))
     >>> tree, tree.vertices, tree.symmetry
@@ -83,7 +84,7 @@ class Velocity(_Node):
             vertices += p.vertices
             cost += p.cost
         self._describe(vertices, cost)
-        # A wide tree is easier to read than a deep tree, so costs inside letters count double.
+        # A wide tree is easier to read than a deep tree. The cost of a letter is therefore counted twice.
         self.nesting = 2 + 2 * cost if vertices > 1 else 0
 
     def _render(self) -> str:
@@ -97,7 +98,8 @@ class Velocity(_Node):
 
 
 class Force(_Node):
-    """The g*-valued tree H(u * v | M). Use :func:`force` to create it, because trees are interned.
+    """The g*-valued tree H(u * v | M). Use :func:`force` to create one: the function returns the same object
+    for equal trees.
 
     >>> tree = force((), (velocity(),))
     >>> tree, tree.vertices
@@ -122,8 +124,8 @@ class Force(_Node):
 
 
 class Transport(_Node):
-    """The g*-valued tree L(w), where w is not empty. Use :func:`transport` to create it, because trees are
-    interned.
+    """The g*-valued tree L(w), where w is not empty. Use :func:`transport` to create one: the function
+    returns the same object for equal trees.
 
     >>> tree = transport((velocity(), velocity()))
     >>> tree, tree.vertices

@@ -3,8 +3,9 @@
 The argument u_i is computed before the stage value k_i. Hence brackets in u_i contain only the letters q_1,
 ..., q_(i-1). Call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets, in any program for u_1,
 ..., u_i, that contain a new letter. Consider the words of two or more letters that contain a new letter.
-Brackets without new letters, and single letters, contribute no such words to an argument. Take from each
-argument the part that consists of such words. N is at least the dimension of the span of these parts.
+Brackets without new letters, and single letters, contribute no such words to an argument. Each argument has a
+part that consists of such words. N is at least the dimension of the space that these parts of all arguments
+span.
 
 The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain older letters
 only. The part of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where all P_n = d_n x -
@@ -12,8 +13,8 @@ c_n y are Lie elements. Suppose that the parts of the arguments in which new let
 dimensions. Suppose also that zero is the only element of the span for which all P_n are Lie elements. Then
 the corresponding part of the first bracket is not in the span, and N is at least d + 1.
 
-A bound for the letters before q_m and a bound for the new letters count different brackets. Their sum is
-therefore a lower bound.
+A bound for the brackets without new letters and a bound for the brackets with new letters count different
+brackets. Their sum is therefore a lower bound.
 """
 
 from __future__ import annotations
@@ -75,7 +76,7 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
     bounds, last = [0], len(arguments) - 1
     for i in range(1, len(arguments)):
         known = [algebra.cut(u, algebra.largest - 1) for u in arguments[: i + 1]]
-        # Stage arguments have no terms of the largest grade.
+        # The arguments of stages contain no terms of the largest grade.
         spans = [known[j:] for j in range(1, i + 1)] + ([[dict(arguments[i])]] if i == last else [])
         needed = (bounds[m] + max(_needed(algebra, span, m) for span in spans) for m in range(i))
         bounds.append(max(bounds[-1], *needed))

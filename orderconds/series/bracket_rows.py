@@ -15,7 +15,8 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return a program for the same arguments with fewer terms, by moves of multiples of brackets.
+    """Return a program that computes the same arguments with fewer terms. It results from moves of multiples
+    of brackets.
 
     The ring must be able to decide whether an element is zero, and to divide.
 

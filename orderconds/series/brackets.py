@@ -4,8 +4,8 @@ A linear combination of the stage values k_1, ..., k_s of an explicit method has
 combination is of order h^g. q_j is the combination of k_j and earlier stage values that has the highest
 grade. For order p, the arguments of the stages are required up to grade p - 1, and the argument of the step
 up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003)
-723). Each argument in turn is then expressed by stage values, earlier brackets, and as few new brackets as
-possible. If a combination of two arguments needs fewer brackets than each of the two, the combination is
+723). One argument after another is then expressed by stage values, earlier brackets, and as few new brackets
+as possible. If a combination of two arguments needs fewer brackets than each of the two, the combination is
 computed first. For example, u_7 of Butcher's method of order 6 then needs no additional bracket.
 """
 
@@ -69,10 +69,10 @@ def fewest_brackets(
     """Return a program with few brackets that has the same order as RKMK with an explicit tableau (A, b).
 
     The tableau must have the order ``order``. The ring must be able to decide whether an element is zero, and
-    to divide. In the first attempt free coefficients are zero. In ``attempts`` further attempts they are
-    small pseudorandom numbers. The search starts with the lower bound ``least`` as the limit for the number
-    of brackets, and raises the limit by one until an attempt succeeds. Raises
-    :class:`~orderconds.errors.InputError` for an implicit tableau.
+    to divide. In the first attempt free coefficients are zero. In the following attempts, whose number is
+    ``attempts``, the free coefficients are small pseudorandom numbers. The search starts with the lower bound
+    ``least`` as the limit for the number of brackets, and raises the limit by one until an attempt succeeds.
+    Raises :class:`~orderconds.errors.InputError` for an implicit tableau.
 
     >>> from orderconds.ring import QQ
     >>> half, third, sixth = QQ.rational(1, 2), QQ.rational(1, 3), QQ.rational(1, 6)
@@ -154,9 +154,10 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
     """Return for each stage i the combinations u_j + c u_i with a later stage j that need only one bracket.
 
-    u_i and u_j must have the same newest stage value q in brackets. Each of the two arguments needs two
-    brackets with q. Their combination needs only one bracket, because its part that contains q is ad_P q with
-    a Lie element P. Then u_j is computed from this combination and u_i.
+    Let q be the latest stage value in the brackets of u_i; it must also be the latest in the brackets of u_j.
+    Each of the two arguments needs two brackets with q. The combination needs only one bracket, because its
+    part that contains q is ad_P q with a Lie element P. The program computes u_j from this combination and
+    u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -247,8 +248,8 @@ class _Search:
         return None
 
     def _fitted(self, shape: _Shape, argument: Polynomial, limit: int) -> Row | None:
-        """Return the row of an argument in this shape, and add its new brackets to the pool; None if the
-        shape does not fit.
+        """Return the row of an argument whose new brackets have this shape, and add these brackets to the
+        pool. Return None if the argument has no such form.
 
         The equations are linear, except for products of an unknown in x and an unknown in y. Each sweep
         solves linear equations in which one of the two factors is fixed: y from the previous sweep, or the

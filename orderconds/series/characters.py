@@ -96,7 +96,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the same step with step size ``factor`` h."""
+        """Return the step of this method with step size ``factor`` h in place of h."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one

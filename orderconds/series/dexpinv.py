@@ -24,7 +24,7 @@ class DexpinvSeries:
     truncation.
 
     The value of a word depends only on shorter words. Hence implicit tableaux need no iteration. The
-    coefficients of a word are computed for all stages at once.
+    coefficients of a word are computed for all stages in one operation.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])

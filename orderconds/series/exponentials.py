@@ -21,7 +21,7 @@ class ProductOfExponentials:
     """The coefficients of words in a product of ``count`` exponentials. ``letter(J, k)`` returns the
     coefficient of letter k in X_J.
 
-    If it returns None, the coefficient is zero by construction.
+    If ``letter`` returns None, the coefficient is zero for every method of this form.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]

@@ -19,8 +19,8 @@ Key = TypeVar("Key", bound=Hashable)
 
 
 class GradedAlgebra:
-    """The algebra of polynomials in letters with the given ``grades``. Words with a grade above ``largest``
-    are dropped.
+    """The algebra of polynomials in letters with the given ``grades``. A word whose grade is greater than
+    ``largest`` is dropped.
 
     >>> from orderconds.ring import QQ
     >>> algebra = GradedAlgebra(QQ, (1, 2), 3)

@@ -38,8 +38,8 @@ class ExponentialsSeries:
     ``stages[i]`` are the exponentials that lead from y0 to stage i, and ``update`` are the exponentials of
     the step. Each exponential is a sparse row of coefficients over the stages; the first acts first. Stages
     may depend on each other implicitly. Products that begin with the same rows (identical coefficient
-    objects) share partial products. Hence all partial products form one tree; a node of this tree is called a
-    place. The coefficient of a word at a place is its coefficient in the partial product.
+    objects) share partial products. Hence all partial products form one tree; in this module, a node of this
+    tree is called a place. The coefficient of a word at a place is its coefficient in the partial product.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -54,8 +54,8 @@ class ExponentialsSeries:
         self._ring = ring
         self._rows: list[SparseRow] = []
         self._places: list[tuple[int, int, int]] = []
-        """For each place except the first: its number, the number of the preceding place, and the row that
-        connects the two places."""
+        """For each place (partial product) except the first: its index, the index of the preceding place, and
+        the row of the exponential that leads from the preceding place to it."""
         known: dict[tuple[int, int], int] = {}
         numbers: dict[tuple[tuple[int, int], ...], int] = {}
 

@@ -34,8 +34,8 @@ def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = 
     """Return the values on words of Omega, where exp(Omega) is the product of the exponentials of
     ``exponents``; the first acts first.
 
-    If ``transform`` is ``cay``, cay(x) = (1 - x/2)^-1 (1 + x/2) replaces exp on both sides. For a single
-    exponent, Omega is this exponent.
+    If ``transform`` is ``cay``, cay(x) = (1 - x/2)^-1 (1 + x/2) replaces exp on both sides. If there is only
+    one exponent, Omega is equal to it.
 
     >>> from orderconds.ring import QQ
     >>> A, B = ({(k,): QQ.one}.get for k in (1, 2))

@@ -38,7 +38,8 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function that computes the values. The function may call the field on smaller trees."""
+        """Set the function that computes the values of the field. The function may use values of the field on
+        smaller trees."""
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:

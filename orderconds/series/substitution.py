@@ -57,9 +57,9 @@ def substituted(field: VectorField, step: Character) -> Character:
 def modifying_field(step: Character) -> VectorField:
     """Return the field to which ``step`` must be applied so that the result is the exact flow of f.
 
-    This field is called the modifying field. If ``step`` is applied to truncations of it, the result is a
-    method of arbitrarily high order (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941). ``step`` must
-    be a consistent B-series. Raises :class:`~orderconds.errors.InputError` for any other step.
+    This field is called the modifying field. If ``step`` is applied to a truncated modifying field, the
+    result is a method of any required order (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007) 1941).
+    ``step`` must be a consistent B-series. Raises :class:`~orderconds.errors.InputError` for any other step.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -88,8 +88,8 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the sum over the partitions of a tree. If ``whole`` is false, the partition into one component
-    is omitted."""
+    """Return the sum that defines the substitution, over the partitions of a tree into components. If
+    ``whole`` is false, the partition into one component is omitted."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
         if len(components) == 1 and not whole:

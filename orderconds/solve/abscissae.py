@@ -7,9 +7,10 @@ on the momentum, and m_i for the transport of the momentum by Ad* through the up
 
 For Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i
 x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0, and likewise for
-chat. If the weights are positive, the three abscissae are equal. In practice the three abscissae are equal in
-solutions with negative weights too. For a given update, row i of A then sums to m_i, and the weighted column
-j sums to b_j (1 - m_j). This transport problem is solved along a spanning tree of the free entries.
+chat. If the weights are positive, the three abscissae are equal. In practice the three abscissae are also
+equal in solutions with negative weights. For a given update, sum_j a_ij = m_i then holds for each row i, and
+sum_i b_i a_ij = b_j (1 - m_j) for each column j. This transport problem is solved along a spanning tree of
+the free entries.
 """
 
 from __future__ import annotations
@@ -81,8 +82,8 @@ def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, 
 
 
 def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, int]]:
-    """Return entries that connect the s rows and s columns; entries of the last row and column are
-    preferred."""
+    """Return free entries that form a spanning tree, whose nodes are the s rows and s columns. Entries of the
+    last row and column are preferred."""
     component = list(range(2 * s))
     kept = []
     for i, j in sorted(edges, key=lambda e: (e[0] != s - 1 and e[1] != s - 1, -e[0], -e[1])):

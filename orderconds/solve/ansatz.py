@@ -19,9 +19,9 @@ from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 
 @dataclass(frozen=True)
 class Ansatz:
-    """The text of a tableau file whose free coefficients have no values yet. ``free`` are the names of the
-    unknowns, ``numbers`` the formulas of dependent coefficients by name, ``body`` the other lines. ``cells``
-    are the names of the coefficients that are not constants.
+    """The text of a tableau file in which the values of the free coefficients are missing. ``free`` are the
+    names of the unknowns, ``numbers`` the formulas of dependent coefficients by name, ``body`` the other
+    lines. ``cells`` are the names of the coefficients that are not constants.
     """
 
     family: str
@@ -81,7 +81,7 @@ def _place(name: str) -> tuple[bool, bool, str, list[int]]:
 
 
 def renamed(ansatz: Ansatz, name: str) -> Ansatz:
-    """Return a copy of ``ansatz`` whose file contains the name ``name``.
+    """Return a copy of ``ansatz`` for a tableau with the given name.
 
     >>> from orderconds.solve.parametrise import ansatz
     >>> from orderconds.solve.spec import Spec

@@ -1,6 +1,6 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-First, coefficients that the equations do not determine are rounded to short decimals. The other coefficients
+Coefficients that the equations do not determine are first rounded to short decimals. The other coefficients
 are computed again to high precision by Newton's method in balls. If lattice reduction recognises them as
 algebraic numbers of one field, the file has closed forms and its order is checked exactly. Otherwise the
 decimals in the file are unknowns of the conditions that are independent for the ansatz (reduction
@@ -51,14 +51,14 @@ STEPS = (
 remains."""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
-"""The units that are used instead if the principal error was minimised. Near a minimum, rounding hardly
-changes the error."""
+"""The units for rounding if the principal error was minimised. They may be coarse, because near a minimum
+rounding hardly changes the error."""
 
 DIGITS = 50
 """Decimal places of a coefficient in the file."""
 
 BITS = 1400
-"""Working precision of Newton's method in bits, as high as lattice reduction needs it."""
+"""Working precision of Newton's method in bits; lattice reduction needs this precision."""
 
 WORSE = 1.5
 """The factor by which rounding may increase the largest coefficient and the principal error."""
@@ -103,8 +103,8 @@ def certify_solution(
 def _rounded_free(
     problem: Problem, point: Floats, steps: Sequence[Fraction]
 ) -> tuple[Floats, dict[int, Fraction], list[int]]:
-    """Return a nearby solution, the short values of its free coefficients, and the indices of the other
-    coefficients."""
+    """Return three things: a nearby solution, the short values of its free coefficients, and the indices of
+    the other coefficients."""
     _, slopes = problem.tape.jacobians(point[None])
     solved = determined(slopes[0])
     loose = [j for j in range(len(point)) if j not in solved]
@@ -247,7 +247,7 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
     label = problem.ansatz.family
     try:
         report = check(tableau, label, problem.order)
-    except ZeroWeight:  # the family divides by weights, and one is zero
+    except ZeroWeight:  # the formulas of the family divide by the weights, and one weight is zero
         return None
     if report.verdict != "holds" or report.orders[0].certificate != "exact":
         return None
@@ -274,7 +274,7 @@ def _proved(
     digits: dict[str, str] = {}
     with precision(BITS):
         for name, x in sharp.items():
-            # Two equal decimals in a file are one unknown.
+            # Two equal decimals in a file would count as one unknown.
             places = DIGITS
             while (decimal := _signed(x, places)).lstrip("-") in {y.lstrip("-") for y in digits.values()}:
                 places += 1

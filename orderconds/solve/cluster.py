@@ -13,7 +13,8 @@ Job = TypeVar("Job")
 Result = TypeVar("Result")
 
 TIMEOUT = 3
-"""Seconds to wait for a scheduler to answer, at the start and after a lost connection."""
+"""The number of seconds to wait for a reply of the scheduler, at the start and after the loss of a
+connection."""
 
 
 def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
@@ -45,15 +46,16 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
                     "workers of the cluster died" if killed else "the scheduler no longer answers",
                     where=f"--dask {address}",
                     expected="a cluster that runs until the end",
-                    hint="restart the cluster and repeat the command; a checkpoint keeps finished batches",
+                    hint="restart the cluster and repeat the command; a checkpoint file saves the finished "
+                    "batches of random starts",
                 ) from None
     finally:
-        with suppress(Exception):  # the scheduler may no longer exist
+        with suppress(Exception):  # closing fails if the scheduler no longer exists
             client.close(timeout=TIMEOUT)
 
 
 def _client(address: str) -> Any:
-    """Return a client of a dask cluster."""
+    """Return an object that is connected to a dask cluster."""
     try:
         from distributed import Client
     except ImportError:
@@ -64,7 +66,8 @@ def _client(address: str) -> Any:
         ) from None
     try:
         return Client(address, timeout=TIMEOUT)
-    except (OSError, ValueError, TimeoutError, TypeError) as problem:  # TypeError: tls without a certificate
+    except (OSError, ValueError, TimeoutError, TypeError) as problem:
+        # dask raises TypeError for a tls address without a certificate
         raise InputError(
             f"no cluster answers ({_words(problem)})",
             where=f"--dask {address}",

@@ -2,9 +2,9 @@
 
 Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
 method, real or complex. If it contains a polynomial in one coefficient without real roots, counted by Sturm's
-theorem, there is no real method. (The root zero does not count if the family divides by the coefficient.) The
-certificate expresses this element of the ideal as a combination of the conditions. A reader can verify it by
-multiplication.
+theorem, there is no real method. (If the formulas of the family divide by the coefficient, the root zero does
+not count.) The certificate expresses this element of the ideal as a combination of the conditions. A reader
+can verify it by multiplication.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ MAX_VARIABLES = 3
 """The largest number of coefficients in a condition that is used for elimination."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""Limits on unknowns and order; beyond them the polynomials of the conditions are too long to expand."""
+"""Limits on unknowns and order; beyond them expansion would give too many terms in the polynomials of the
+conditions."""
 
 MAX_DEGREE = 8
 """The highest degree of the multipliers in a certificate."""
@@ -84,8 +85,9 @@ def infeasible(problem: Problem) -> Infeasible | None:
     names = problem.ansatz.free
     if len(names) > MAX_UNKNOWNS:
         return None
-    # A symplectic method with a zero weight has as many conditions as one with nonzero weights: the stage of
-    # weight zero can be replaced by a copy of another stage, with half of the weight of that stage for each.
+    # For symplectic methods it suffices to consider nonzero weights. A stage of weight zero can be replaced
+    # by a copy of another stage; the original weight is divided equally between this other stage and its
+    # copy.
     divides = problem.family.needs_nonzero_weights or problem.family.symplectic
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
@@ -204,7 +206,8 @@ def _multipliers(
     degree: int,
     plain: Polynomials,
 ) -> list[fmpq_mpoly] | None:
-    """Return polynomials m_k of at most this degree with sum_k m_k f_k = consequence, or None."""
+    """Return polynomials m_k of at most this degree with sum_k m_k f_k = consequence, or None if there are
+    none."""
     monomials = [plain.one]
     frontier = [plain.one]
     for _ in range(degree):

@@ -16,7 +16,8 @@ System = Callable[[Floats], tuple[Floats, Floats]]
 """A function of an array points x n; it returns residuals (points x m) and Jacobians (points x m x n)."""
 
 SOLVED = 1e-13
-"""The residual norm of a solved system; a smaller norm may be a rounding error."""
+"""A system counts as solved if the norm of its residual is below this number. Smaller norms may be rounding
+errors."""
 
 
 def least_squares(system: System, points: Floats, sweeps: int = 200) -> tuple[Floats, Floats]:
@@ -70,7 +71,7 @@ def _solved(normal: Floats, right: Floats) -> Floats:
 
 
 def rank(jacobian: Floats, tolerance: float = 1e-7) -> int:
-    """Return the numerical rank of one Jacobian, rows scaled to length one.
+    """Return the numerical rank of one Jacobian after its rows are scaled to length one.
 
     >>> rank(np.array([[1.0, 0.0], [1e6, 0.0]]))
     1

@@ -26,8 +26,8 @@ class Constraint:
 
 @dataclass
 class Elimination:
-    """The elimination of coefficients ``names``; each constraint expresses one coefficient in terms of
-    others.
+    """Gaussian elimination for the coefficients ``names``. Each constraint expresses one coefficient in terms
+    of other coefficients.
 
     >>> elimination = Elimination(("a", "b", "c"))
     >>> elimination.impose([equality("c = a + 1/2"), equality("b = a")])
@@ -40,7 +40,7 @@ class Elimination:
 
     @property
     def free(self) -> tuple[str, ...]:
-        """The names that no constraint determines, in their order."""
+        """The names of the coefficients that no constraint determines, in the order of ``names``."""
         return tuple(name for name in self.names if name not in self.solved)
 
     def cell(self, name: str) -> Affine:
@@ -57,7 +57,7 @@ class Elimination:
             if not unknown:
                 if form:
                     raise InputError(
-                        f"{constraint.text} contradicts the other constraints",
+                        f"the constraint {constraint.text} contradicts the other constraints",
                         where="constraints",
                         expected="constraints that some tableau satisfies",
                     )

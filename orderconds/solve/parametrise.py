@@ -23,7 +23,8 @@ from orderconds.solve.spec import Spec, refuse
 
 
 def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
-    """Return the coefficients after elimination of the given constraints and of the constraints ``--fix``."""
+    """Return the coefficients after elimination of the given constraints and of the constraints from
+    ``--fix``."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text) for text in spec.fix]
     for constraint in fixed:
@@ -148,9 +149,10 @@ def _symplectic(
                 continue
             if chosen is None:
                 raise InputError(
-                    f"the constraints determine both {A[i][j]} and {A[j][i]}",
+                    f"the constraints fix both {A[i][j]} and {A[j][i]}",
                     where="constraints",
-                    expected="at most one of them, because a symplectic method determines the other",
+                    expected="constraints that fix at most one of the two, because in a symplectic method "
+                    "one determines the other",
                 )
             row, column = chosen
             weight, other = cells.written(b[column]), cells.written(A[column][row])
@@ -180,7 +182,9 @@ def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, st
             values[name] = spell(form)
         elif name in elimination.solved:
             raise InputError(
-                f"{name} = {spell(form)}", where=WHERE, expected="each entry of A either a number or free"
+                f"{name} = {spell(form)}",
+                where=WHERE,
+                expected="each entry of A to be either fixed to a number or free",
             )
     return values
 
@@ -419,7 +423,7 @@ def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def one_structure(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the only structure of compositions and splittings.
+    """Return the only structure that a search for compositions or splittings tries.
 
     >>> from orderconds.families import get
     >>> one_structure(get("splitting"), Spec(stages=3))

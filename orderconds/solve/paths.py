@@ -61,7 +61,7 @@ def symmetric_paths(spec: Spec) -> Paths:
     """
     if spec.explicit:
         raise InputError(
-            "--explicit with --symmetric", where="constraints", expected="only one of the two options"
+            "--explicit with --symmetric", where="constraints", expected="only one of these two options"
         )
     s, m, inner = spec.stages, spec.exponentials, spec.inner
     every = range(1, s + 1)

@@ -108,7 +108,8 @@ class Problem:
         return tuple(indices)
 
     def bounds(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the violations of the bounds on coefficients, and their Jacobian."""
+        """Return the amounts by which coefficients violate their bounds, and the Jacobian of these
+        amounts."""
         values, slopes = self.coefficients.jacobians(points)
         rows, derivatives = [], []
         if self.positive:
@@ -124,7 +125,8 @@ class Problem:
         return beyond, sloped * (beyond > 0)[..., None]
 
     def system(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the residuals and the violations of bounds, with their Jacobian, at many points."""
+        """Return the residuals and the amounts by which coefficients violate their bounds, with the Jacobian
+        of both, at many points."""
         values, slopes = self.tape.jacobians(points)
         beyond, sloped = self.bounds(points)
         return np.concatenate([values, beyond], axis=1), np.concatenate([slopes, sloped], axis=1)

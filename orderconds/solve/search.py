@@ -1,8 +1,9 @@
-"""Multistart: batches of random starts, each with its own seed, in one process, in several, or on a cluster.
+"""Search from many random starts. The starts form batches, each with its own seed, which run in one process,
+in several processes, or on a cluster.
 
 The result of a batch depends only on the problem, the seed and the number of the batch, and batches are
 evaluated in the order of their numbers. Therefore neither the number of processes nor an interruption changes
-the result. Processes receive strings and numbers only, and compile their own programs.
+the result. A worker process receives only strings and numbers, and compiles the programs itself.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""The number of solutions of a batch that are kept, and the number that are minimised."""
+"""Two numbers of solutions of one batch: of those that are kept, and of those whose principal error is
+minimised."""
 
 
 CHEAP = 4
@@ -41,7 +43,8 @@ CHEAP = 4
 
 
 SINGULAR = 1e6
-"""A penalty on the score of singular solutions, where the gradients of the conditions are dependent."""
+"""A number that is added to the score of singular solutions, at which the gradients of the conditions are
+linearly dependent."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +122,7 @@ def run_batch(search: Search, number: int) -> Batch:
 
 
 def _score(problem: Problem, point: Floats) -> float:
-    """Return the score of a solution; less is better."""
+    """Return the score of a solution. A lower score is better."""
     if problem.order <= CHEAP:
         return float(np.linalg.norm(problem.error.values(point[None])[0]))
     return float(np.abs(problem.coefficients.values(point[None])).max())
@@ -146,8 +149,8 @@ class Checkpoint:
             raise InputError(
                 f"a checkpoint that cannot be used: {reason(problem)}",
                 where=str(self.path),
-                expected="a checkpoint file that you own",
-                hint="delete it, or name another file",
+                expected="a checkpoint file that belongs to you",
+                hint="delete this file, or name another file",
             ) from None
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
             raise InputError(
@@ -160,7 +163,7 @@ class Checkpoint:
                 "the checkpoint of another search",
                 where=str(self.path),
                 expected="the same family, order, constraints and seed",
-                hint="delete it, or name another file",
+                hint="delete this file, or name another file",
             )
         self.batches = {batch.number: batch for batch in batches}
 

@@ -25,7 +25,8 @@ PLAIN, MINIMISED = 4096, 1024
 class Outcome:
     """The outcome of a search: a method, a proof that there is none, or neither.
 
-    ``best`` is the least residual norm of all starts. ``tried`` has a line of text about each attempt.
+    ``best`` is the least residual norm of all starts. ``tried`` contains one line of text about each
+    structure that was tried.
     """
 
     solution: Solution | None = None
@@ -133,7 +134,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         outcome.best = min(outcome.best, batch.best)
         least = min((s for b in seen for s, _ in b.solutions), default=None)
         shown = f", best score {least:.4g}" if least is not None else ""
-        done = f"{structure}: {len(seen) * BATCH} of {count * BATCH} starts"
+        done = f"{structure}: {len(seen) * BATCH} of {count * BATCH} random starts"
         report(f"{done}, best residual {outcome.best:.1e}{shown}")
         if order.minimised:
             continue
@@ -148,17 +149,18 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    checkpoint.remove()  # the search is over, with or without a solution
+    checkpoint.remove()  # the search has ended, with or without a solution, so its checkpoint is not needed
 
 
 def _finished(
     problem: Problem, seen: list[Batch], order: Order, source: str, refused: str
 ) -> tuple[Solution | None, str]:
-    """Return the best solution with a proof, or the reason why the last proof failed."""
+    """Return the best solution that can be proved, with its proof. If no solution can be proved, return the
+    reason why the last attempted proof failed."""
     solutions = sorted((s for batch in seen for s in batch.solutions), key=lambda pair: pair[0])
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        except (NotProved, ZeroWeight) as problem_met:  # some families divide by weights
+        except (NotProved, ZeroWeight) as problem_met:  # the formulas of some families divide by weights
             refused = str(problem_met)
     return None, refused

@@ -53,7 +53,8 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        wanted = [x.placed() for x in outputs]  # placed() also records the constants
+        # placed() appends the constants among the outputs to the recorded operations.
+        wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
         place = {operation: row for row, operation in enumerate(rows)}
@@ -76,7 +77,7 @@ class Tape:
 
     def _forward(self, points: Floats) -> Floats:
         values = self._start(points)
-        with np.errstate(all="ignore"):  # a start may diverge; its residuals are then infinite
+        with np.errstate(all="ignore"):  # a search may diverge; its residuals are then infinite
             for level in self._levels:
                 out = values[level.start : level.stop]
                 if level.kind == ROOT:

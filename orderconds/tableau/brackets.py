@@ -35,7 +35,7 @@ class Bracket(Struct, frozen=True):
 
 
 class Product(Struct, frozen=True):
-    """The product of two terms or more, the last acting first.
+    """The product of two or more terms, in which the last term acts first.
 
     >>> spell(Product((0, "a", 0)))
     '1*a*1'

@@ -11,10 +11,11 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                the mean of two such matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
-Two kinds have an embedded row for step-size control. The row is the quadrature of order s - 1 that leaves out
-one node: the last node for Radau IIA, the (first) middle node for Lobatto IIIA. The update and the embedded
-update differ by a multiple of the divided difference of the stages. The stages of collocation methods, and
-hence this estimate, stay accurate for stiff equations; the stages of methods of low stage order do not.
+Two kinds have an embedded row for step-size control. The row is the quadrature of order s - 1 on all nodes
+but one. The omitted node is the last node for Radau IIA, the (first) middle node for Lobatto IIIA. The update
+and the embedded update differ by a multiple of the divided difference of the stages. The stages of
+collocation methods stay accurate for stiff equations, and so does this error estimate. The stages of methods
+of low stage order lose accuracy.
 
 All coefficients are computed: the nodes are algebraic numbers, and the other coefficients follow from them by
 rational arithmetic.

@@ -19,7 +19,7 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Whether the coefficients agree in number and value, embedded rows included.
 
     Two balls agree if they intersect and neither is much wider than the other. They need not be equal,
-    because writing a ball to a file may round it.
+    because a ball may be rounded when it is written to a file.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))

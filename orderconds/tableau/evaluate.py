@@ -23,7 +23,8 @@ MAX_SIZE = 40_000
 
 
 class NamedRoot(Struct, frozen=True):
-    """A real root given by a polynomial over Q (ascending coefficients) and a decimal that isolates it."""
+    """A real root of a polynomial over Q (ascending coefficients). The root is identified by a decimal: it is
+    the only root near the decimal."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -33,10 +34,11 @@ Definition = Expression | NamedRoot
 
 
 class Scalars(Protocol):
-    """The ring in which expressions are evaluated: a number field that grows with each root, or balls."""
+    """The ring in which expressions are evaluated: a number field that is extended by each new root, or
+    balls."""
 
     def constant(self, value: Fraction, unit: Fraction) -> Element:
-        """Return a rational, or with a positive unit a ball around it."""
+        """Return a rational number or, if the unit is positive, a ball around this number."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root; ValueError for an even root of a negative number."""
@@ -51,7 +53,8 @@ class Scalars(Protocol):
 def evaluate(
     expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> tuple[Ring, dict[str, Element]]:
-    """Evaluate expressions in the smallest ring that contains them all; keys are places in the file.
+    """Evaluate expressions in the smallest ring that contains all of them. The keys are the positions of the
+    expressions in the file.
 
     ``numbers`` may refer to each other, in any order, without a cycle. Raises :class:`TableauError`.
 
@@ -69,7 +72,8 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            evaluation.check_unused()  # evaluated last, because unused numbers must not enlarge the ring
+            # The unused numbers are evaluated last, because they must not enlarge the ring.
+            evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:
             pass
@@ -120,12 +124,12 @@ def rounded_and_exact(x: Definition) -> Iterator[Constant]:
 
 
 def _bits(constants: Sequence[Constant]) -> int:
-    """Return a working precision well beyond the given digits."""
+    """Return a working precision in bits that is well beyond the digits in the file."""
     return max([256, *(64 + 4 * len(str(c.unit.denominator)) for c in constants)])
 
 
 class _Evaluation:
-    """Expressions in one ring, each distinct expression evaluated once."""
+    """The values of expressions in one ring. Each distinct expression is evaluated once."""
 
     def __init__(self, scalars: Scalars, numbers: Mapping[str, Definition], where: str) -> None:
         self.scalars, self.numbers, self.where = scalars, numbers, where
@@ -143,7 +147,8 @@ class _Evaluation:
         return result
 
     def check_unused(self) -> None:
-        """Evaluate the numbers that no coefficient refers to, so that their errors are reported."""
+        """Evaluate the numbers to which no coefficient refers, so that errors in these numbers are
+        reported."""
         for name in self.numbers:
             self.place = f"numbers.{name}"
             self.value(Name(name))

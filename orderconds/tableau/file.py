@@ -1,4 +1,4 @@
-"""Reading tableau files: strict TOML, in which an unknown key is an error that names the known ones."""
+"""Reading tableau files: strict TOML. An unknown key is an error, and the message lists the known keys."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """A tableau file: its keys and values, untyped (``data``) and typed (``entry``), and the method they
-    define."""
+    """A tableau file: its keys and values, untyped (``data``) and typed (``entry``), and the method that the
+    values define."""
 
     data: Mapping[str, object]
     entry: Format
@@ -94,7 +94,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Whether a TOML file has a key of a tableau, or cannot be read.
+    """Whether a TOML file is to be treated as a tableau file: it has a key of a tableau, or it cannot be
+    read.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -116,7 +117,7 @@ def parsed(text: str, where: str) -> Data:
         return parse_toml(text)
     except tomllib.TOMLDecodeError as problem:
         raise TableauError(
-            str(problem), where=where, expected="a TOML file in which each key occurs once"
+            str(problem), where=where, expected="valid TOML, in which each key occurs once"
         ) from None
     except RecursionError:
         raise TableauError(
@@ -145,7 +146,8 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    except TableauError as problem:  # the message so far names the tableau and the key, but not the file
+    # The message names the tableau and the key; here the name of the file is added.
+    except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
     source = SymbolicCoefficients(expressions, numbers, where, entry.build)
@@ -270,7 +272,8 @@ def _fraction(x: Expression) -> Fraction:
 
 
 def _decimal(text: str, where: str) -> Constant:
-    """Read an isolating decimal: the root lies within one unit of its last digit."""
+    """Read a decimal that identifies a root: the root differs from the decimal by at most one unit of the
+    last digit."""
     match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
     if match is None:
         raise TableauError(f"near = {text!r}", where=where, expected='a decimal such as "1.2599"')
@@ -286,7 +289,11 @@ def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     place = f"{symbolic.where}: proof"
     decimals = {u.name: u for u in symbolic.decimals()}
     if not decimals:
-        raise TableauError("a proof for exact coefficients", where=place, expected='decimals with "~"')
+        raise TableauError(
+            "a table [proof], although all coefficients are exact",
+            where=place,
+            expected='decimals with "~"',
+        )
     for name in given.pins:
         if name not in decimals:
             raise TableauError(
@@ -302,7 +309,9 @@ def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
     for name in given.printed:
         if name not in known:
             raise TableauError(
-                f"printed digits of {name!r}", where=f"{place}.printed", expected="a number of this file"
+                f"the unknown key {name!r}",
+                where=f"{place}.printed",
+                expected="the name of a number in this file, such as a21",
             )
     return Proof(
         conditions=given.conditions,

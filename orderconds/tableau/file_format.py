@@ -1,8 +1,9 @@
 """The common part of all tableau formats: keys, claims, proofs, and rows of coefficients.
 
 A format is read in two steps, because the ring of a tableau depends on all its coefficients:
-``coefficients`` yields the text of every coefficient with its place, and ``build`` receives the value at each
-place. Places are named as in the file, with entries counted from 1.
+``coefficients`` yields the text of every coefficient with its position in the file, and ``build`` receives
+the value at each position. Positions are named by key and index, such as ``A[2][1]``, with indices counted
+from 1.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ class RootEntry(Struct, forbid_unknown_fields=True):
 
 
 class CutoffClaim(Struct, forbid_unknown_fields=True):
-    """The claimed order of a family that takes a cutoff."""
+    """The claimed order in a family with the option ``cutoff``."""
 
     cutoff: Annotated[int, Meta(ge=0)]
     order: Annotated[int, Meta(ge=1)]
@@ -69,29 +70,30 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     in_arrays: ClassVar[bool] = False
     """Whether named arrays can hold a tableau of this format (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of the array that identifies this format; '' for the format of all other sets of arrays."""
+    """The name of the array that identifies this format. The empty name belongs to the format that is assumed
+    if no identifying array is present."""
     as_products: ClassVar[bool] = False
     """Whether arrays hold the format as a list of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return values for the keys that are missing if a tableau is given by arrays with these names."""
+        """Return values for those keys of the file that follow from the names of the given arrays."""
         return {}
 
     def coefficients(self) -> Places:
-        """Yield (place, text) of every coefficient."""
+        """Yield pairs (position in the file, text), one for every coefficient."""
         yield from ()
 
     def verify(self, where: str) -> None:
         """Raise :class:`TableauError` unless the rows have the right lengths."""
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method, given the value at every place."""
+        """Return the method, given the value of the coefficient at every position."""
         raise TypeError(f"{type(self).__name__} is an abstract format")
 
 
 def row_places(row: list[Coefficient], place: str) -> Places:
-    """Yield the place and the text of each entry of a row.
+    """Yield the position in the file and the text of each entry of a row.
 
     >>> list(row_places(["1/2", 1], "b"))
     [('b[1]', '1/2'), ('b[2]', 1)]
@@ -101,7 +103,8 @@ def row_places(row: list[Coefficient], place: str) -> Places:
 
 
 def filled_row(values: Mapping[str, Element], place: str, s: int, ring: Ring) -> Row:
-    """Return the row at ``place``, filled with zeros after the entries of the file.
+    """Return the row at position ``place``, extended by zeros to full length if the row in the file is
+    shorter.
 
     >>> from orderconds.ring import QQ
     >>> filled_row({"b[1]": QQ.one}, "b", 2, QQ)

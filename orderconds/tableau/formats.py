@@ -56,7 +56,7 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         s = counted(len(self.b), f"{where}: b")
         if len(self.A) != s:
             raise TableauError(
-                f"{len(self.A)} rows for {s} weights b",
+                f"A has {len(self.A)} rows, b has {s} entries",
                 where=f"{where}: A",
                 expected="a square A: as many rows as b has entries",
             )
@@ -64,7 +64,9 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
             verify_length(row, s, f"{where}: A[{i + 1}]")
         if self.c and len(self.c) != s:
             raise TableauError(
-                f"{len(self.c)} entries for {s} weights b", where=f"{where}: c", expected="c as long as b"
+                f"c has {len(self.c)} entries, b has {s} entries",
+                where=f"{where}: c",
+                expected="c as long as b",
             )
         if self.embedded:
             verify_length(self.embedded.b, s, f"{where}: embedded.b")
@@ -96,10 +98,10 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
         for i, (given, total) in enumerate(zip(c, method.c, strict=True)):
             if ring.is_zero(given - total) is False:
                 raise TableauError(
-                    f"c_{i + 1} = {ring.text(given)}, but row {i + 1} of A sums to {ring.text(total)}",
+                    f"c_{i + 1} = {ring.text(given)}, but the sum of row {i + 1} of A is {ring.text(total)}",
                     where=f"{self.name}: c[{i + 1}]",
                     expected="c_i = sum_j a_ij",
-                    hint="correct the row, or leave c out, because it is computed from A",
+                    hint="correct the row of A, or leave c out: the program computes c from A",
                 )
 
 
@@ -123,14 +125,14 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
         s = counted(len(self.b), f"{where}: b")
         if len(self.b_hat) != s:
             raise TableauError(
-                f"{len(self.b_hat)} entries for {s} in b",
+                f"b_hat has {len(self.b_hat)} entries, b has {s} entries",
                 where=f"{where}: b_hat",
-                expected="b and b_hat of one length",
+                expected="b and b_hat of the same length",
             )
         for name, rows, weights, _ in self._parts():
             if len(rows) != s:
                 raise TableauError(
-                    f"{len(rows)} rows for {s} weights {weights}",
+                    f"{name} has {len(rows)} rows, {weights} has {s} entries",
                     where=f"{where}: {name}",
                     expected=f"a square {name}: as many rows as {weights} has entries",
                 )
@@ -192,18 +194,21 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
     as_products: ClassVar[bool] = True
 
     def verify(self, where: str) -> None:
-        """Check that the file has exactly one of the two forms and that stages start from earlier ones."""
+        """Check that the file has exactly one of the two forms, and that every stage starts from y0 or from
+        an earlier stage."""
         if self.low_storage:
             if self.stage or self.update:
                 raise TableauError(
-                    "both low_storage and stage or update", where=where, expected="only one of the two forms"
+                    "both low_storage and stage or update",
+                    where=where,
+                    expected="only one of these two forms",
                 )
             s = counted(len(self.low_storage.B), f"{where}: low_storage.B")
             if len(self.low_storage.A) != s:
                 raise TableauError(
-                    f"{len(self.low_storage.A)} entries for {s} in B",
+                    f"A has {len(self.low_storage.A)} entries, B has {s} entries",
                     where=f"{where}: low_storage.A",
-                    expected="A and B of one length",
+                    expected="A and B of the same length",
                 )
         else:
             if self.update is None:
@@ -273,17 +278,18 @@ def _product(entry: StageEntry, place: str, values: Mapping[str, Element], s: in
 
 def _identically_zero(where: str, expected: str) -> TableauError:
     return TableauError(
-        "an embedded row equal to the main one: its error estimate is identically zero",
+        "an embedded row that is equal to the main row: the error estimate would be identically zero",
         where=where,
         expected=expected,
     )
 
 
 def _low_storage(A: Row, B: Row, ring: Ring) -> CommutatorFree:
-    """Expand a 2N scheme: stage i + 1 is the exponential of B_i K_i applied to stage i.
+    """Write a 2N scheme as a commutator-free method: stage i + 1 is the exponential of B_i K_i applied to
+    stage i.
 
-    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. ``register`` has the coefficients of the sum over j < i. The
-    coefficient 1 of F_i is not stored.
+    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. ``register`` contains the coefficients of the sum over j < i.
+    The coefficient 1 of F_i is not stored.
     """
     s = len(B)
     register: list[Element] = []
@@ -306,7 +312,8 @@ FORMATS: dict[str, type[Format]] = {
 
 
 def array_format(names: Collection[str]) -> str:
-    """Return the format of a tableau whose arrays have these names, recognised by its distinctive array.
+    """Return the format of a tableau whose arrays have these names. Each format is recognised by the name of
+    one array that other formats do not contain.
 
     >>> array_format(["A", "b"]), array_format(["A", "A_hat"]), array_format(["alpha", "beta"])
     ('rk', 'prk', 'composition')

@@ -9,8 +9,9 @@
     atom    = integer | decimal | decimal "~" | name | "sqrt" "(" sum ")" | "(" sum ")"
 
 ``0.5`` is exactly 1/2; ``0.81772~`` is a ball of one unit in its last digit. An exponent is a fraction of
-integers; ``a^b^c`` is refused, because programs disagree about its meaning. Text length, nesting and
-exponents are bounded here, the size of intermediate values in :mod:`orderconds.tableau.evaluate`.
+integers; ``a^b^c`` is refused, because programs disagree about its meaning. This module bounds the length of
+the text, the nesting and the exponents. The module :mod:`orderconds.tableau.evaluate` bounds the size of
+intermediate values.
 """
 
 from __future__ import annotations
@@ -49,9 +50,11 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """Operands joined from left to right by ``operators``, which are all ``+ -`` or all ``* /``.
+    """Operands that are combined from left to right by ``operators``. The operators are either + and - only,
+    or * and / only.
 
-    Because the chain is flat, the depth of an expression is the depth of its parentheses.
+    All operands are stored in one list. The nesting depth of an expression is therefore the nesting depth of
+    its parentheses.
     """
 
     operators: tuple[str, ...]
@@ -200,7 +203,10 @@ class _Parser:
     def sum(self) -> Expression:
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise self.error(f"parentheses {MAX_DEPTH} deep in {self.shown()}", "a flatter expression")
+            raise self.error(
+                f"more than {MAX_DEPTH} nested parentheses in {self.shown()}",
+                "an expression with fewer nested parentheses",
+            )
         result = self.chain("+-", self.product)
         self.depth -= 1
         return result
@@ -228,7 +234,9 @@ class _Parser:
             return base
         exponent = self.exponent()
         if self.accept("^"):
-            raise self.error(f"an iterated power in {self.shown()}", "parentheses, as in (a^b)^c")
+            raise self.error(
+                f"a power of a power without parentheses in {self.shown()}", "parentheses, as in (a^b)^c"
+            )
         return self.raised(base, exponent)
 
     def raised(self, base: Expression, exponent: Fraction) -> Expression:

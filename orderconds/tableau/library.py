@@ -41,8 +41,8 @@ def available() -> tuple[str, ...]:
 
 
 def find(name: str) -> Path:
-    """Return the file of the tableau ``name``; raise :class:`UnknownName`, with similar names, if there is
-    none.
+    """Return the file of the tableau ``name``. If there is no such tableau, raise :class:`UnknownName` with
+    similar names in the message.
 
     >>> find("gauss2").name
     'gauss2.toml'

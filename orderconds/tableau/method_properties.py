@@ -26,7 +26,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide x = y; an element is equal to itself, even if it is a ball."""
+    """Decide whether x = y. Even a ball is equal to itself, that is, if x and y are the same object."""
     return True if x is y else ring.is_zero(x - y)
 
 
@@ -150,10 +150,10 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 
 
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
-    """Whether a step of length -h undoes one of length h (HLW V.3).
+    """Whether a step of length -h undoes a step of length h (HLW V.3).
 
-    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. A splitting must read the same backwards. For
-    a Magnus method see :mod:`orderconds.tableau.reversal`.
+    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. A splitting must read the same backwards. The
+    condition for a Magnus method is in :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

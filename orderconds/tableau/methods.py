@@ -43,10 +43,11 @@ class RungeKutta:
         return RungeKutta(tuple(_converted(row, convert) for row in self.A), _converted(self.b, convert))
 
     def as_crouch_grossman(self, ring: Ring) -> CommutatorFree:
-        """Read the tableau as a Crouch-Grossman method: one exponential for each non-zero a_ij, ascending j.
+        """Return the Crouch-Grossman method of the tableau: one exponential for each non-zero a_ij, in the
+        order of increasing j.
 
-        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0, the update likewise with b (HLW IV.8.3, (1.4)).
-        A coefficient is skipped only if it is proved to be zero.
+        Stage i is exp(h a_is k_s) ... exp(h a_i1 k_1) y0. In the update, b_j replaces a_ij (HLW IV.8.3,
+        (1.4)). A coefficient is skipped only if it is proved to be zero.
         """
 
         def product(row: Row) -> Stage:
@@ -139,7 +140,8 @@ class CommutatorFree:
         )
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the tableau of the same method on an abelian group, where exponents add up."""
+        """Return the tableau of the same method on an abelian group. There a product of exponentials is the
+        exponential of the sum of the exponents."""
 
         def total(stage: Stage) -> Row:
             zero = (ring.zero,) * self.s
@@ -186,7 +188,7 @@ class Composition:
         return Composition(self.base, _converted(self.gamma, convert))
 
     def as_runge_kutta(self, ring: Ring) -> RungeKutta:
-        """Return the diagonally implicit tableau of composed midpoints.
+        """Return the diagonally implicit tableau of the composition of implicit midpoint steps.
 
         b_i = gamma_i, a_ii = gamma_i/2, a_ij = gamma_j for j < i (Lemma 3.5.4 of Bogfjellmo and Marthinsen).
         """
@@ -223,4 +225,5 @@ class EmbeddedUpdate:
 
 
 LowerOrder = Embedded | EmbeddedUpdate
-"""The data for an error estimate: weights of a Runge-Kutta method, or an update of a commutator-free one."""
+"""The data for an error estimate: a second row of weights of a Runge-Kutta method, or a second update of a
+commutator-free method."""

@@ -49,7 +49,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return a product of exponentials in which proportional neighbouring exponents are added up."""
+    """Return an equal product of exponentials. In it, neighbouring exponentials with proportional exponents
+    are replaced by one exponential, whose exponent is the sum."""
     reduced: list[Row] = []
     for row in rows:
         total = row
@@ -61,8 +62,8 @@ def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
 
 
 def _parallel(x: Row, y: Row, ring: Ring) -> bool:
-    # Most coefficients and minors are zero. The rows are not parallel if each has a non-zero entry where the
-    # other has a zero.
+    # Most coefficients and minors are zero. Two rows are not parallel if each of the two has a non-zero entry
+    # at a position where the other row has a zero.
     zeros = [(ring.is_zero(u), ring.is_zero(v)) for u, v in zip(x, y, strict=True)]
     if (False, True) in zeros and (True, False) in zeros:
         return False

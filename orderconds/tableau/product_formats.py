@@ -45,22 +45,23 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
-        """Check that the base allows the given steps, and that alpha and beta have the same length."""
+        """Check that the given steps fit the basic method, and that alpha and beta have the same length."""
         pair = self.base == "adjoint-pair"
         for key, row in (("gamma", self.gamma), ("alpha", self.alpha), ("beta", self.beta)):
             if (row is None) is (pair is (key != "gamma")):
                 raise TableauError(
-                    f"{'no ' if row is None else ''}{key} with base {self.base}",
+                    f"base = {self.base} {'without' if row is None else 'with'} the key {key}",
                     where=where,
-                    expected="alpha and beta with base adjoint-pair, gamma with base symmetric-2",
+                    expected="the keys alpha and beta for base adjoint-pair, the key gamma for base "
+                    "symmetric-2",
                 )
         for key, row in self._rows():
             counted(len(row), f"{where}: {key}")
         if self.alpha and self.beta and len(self.alpha) != len(self.beta):
             raise TableauError(
-                f"{len(self.beta)} entries for {len(self.alpha)} in alpha",
+                f"beta has {len(self.beta)} entries, alpha has {len(self.alpha)}",
                 where=f"{where}: beta",
-                expected="alpha and beta of one length",
+                expected="alpha and beta of the same length",
             )
 
     def _rows(self) -> Iterator[tuple[str, list[Coefficient]]]:
@@ -177,7 +178,9 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             if isinstance(leaf, str) and leaf not in known:
                 names = ", ".join(known) or "none"
                 raise TableauError(
-                    f"the name {leaf!r} in {key!r}", where=where, expected=f"an element before it ({names})"
+                    f"the name {leaf!r} in {key!r}",
+                    where=where,
+                    expected=f"one of the elements defined before it ({names})",
                 )
         if self.map == "exp" and has_product(term):
             raise TableauError(
@@ -206,14 +209,16 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # A bracket of elements lies in their Lie algebra. A product may not, so products are verified.
+        # A bracket of two elements is in the same Lie algebra as the elements. A product of elements need not
+        # be, so combinations of products are verified.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():
                 mirrored = series.get(word[::-1], ring.zero)
                 if ring.is_zero(value - mirrored if len(word) % 2 else value + mirrored) is False:
                     raise TableauError(
-                        f"a product that leaves quadratic groups in exponent {k + 1}",
+                        f"exponent {k + 1} contains a product that is not in the Lie algebra of every "
+                        f"quadratic group",
                         where=f"{self.name}: exponents[{k + 1}]",
                         expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite ones",
                     )

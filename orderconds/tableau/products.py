@@ -86,8 +86,8 @@ class AdjointComposition:
         """Return the splitting if Phi is the flow of part 0 and then of part 1, and Phi* is Phi in reverse
         order.
 
-        Neighbouring flows of one part are joined. The splitting has the order of the composition (McLachlan,
-        SIAM J. Sci. Comput. 16 (1995) 151).
+        Neighbouring flows of one part are combined to one flow. The splitting has the same order as the
+        composition (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
         """
         steps: list[tuple[int, Element]] = []
         for x, y in zip(self.alpha, self.beta, strict=True):
@@ -99,7 +99,8 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""Exponents with more products of nodes than this are compared without expanding their brackets."""
+"""If exponents contain more products of nodes than this, they are compared without expansion of their
+brackets."""
 
 
 @dataclass(frozen=True)

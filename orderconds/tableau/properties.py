@@ -52,7 +52,7 @@ def properties(tableau: Tableau) -> dict[str, Verdict]:
 
 
 def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, str]:
-    """Return the properties that are None, with the reason.
+    """Return the names of the undecided properties, each with the reason why it is undecided.
 
     >>> from orderconds.tableau import Tableau
     >>> rounded = Tableau.loads('name = "m"\\nfamily = "rk"\\nA = [["0.5~"]]\\nb = ["1"]')
@@ -60,7 +60,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
     'rounded decimals'
     """
     balls = isinstance(tableau.ring, Balls)
-    reason = "rounded decimals" if balls else "not computed: exact signs would take more than a second"
+    slow = "not computed: the exact computation of signs would take more than a second"
+    reason = "rounded decimals" if balls else slow
     return {name: reason for name, verdict in computed.items() if verdict is None}
 
 
@@ -101,7 +102,8 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """Whether a method is first-same-as-last: the first stage is the start value, the last is the update."""
+    """Whether a method is first-same-as-last: the first stage is the start value, and the last stage is equal
+    to the update."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

@@ -1,10 +1,10 @@
 """A file's method with random numbers in place of its rounded decimals and its radicals, over Q.
 
 If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
-probability. The reason is a bound on false identities between rational functions of degree at most D: such an
-identity holds at a random point, with 2^128 values for each coordinate, with probability at most D / 2^128
-(Schwartz 1980; Zippel 1979). The numbers are computed from a digest of the file. Hence nobody can construct a
-file for which the test is wrong. Arithmetic is exact, not modulo primes.
+probability. The reason is a theorem: two different rational functions of degree at most D have the same value
+at a random point, with 2^128 values for each coordinate, with probability at most D / 2^128 (Schwartz 1980;
+Zippel 1979). The numbers are computed from a digest of the file. Hence nobody can construct a file for which
+the test is wrong. Arithmetic is exact, not modulo primes.
 """
 
 from __future__ import annotations
@@ -27,7 +27,8 @@ BITS = 128
 """Bits of a random number. The size of values is bounded, so the degrees D stay far below 2^40."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
-"""The errors if a random method cannot be evaluated: its numbers grow too large, or a divisor is zero."""
+"""The errors that are raised if a random method cannot be evaluated: its numbers grow too large, or a divisor
+is zero."""
 
 
 class RandomMember(Rationals):
@@ -55,7 +56,7 @@ class RandomMember(Rationals):
     def method(self) -> Method:
         """Return the method.
 
-        Raises one of :data:`OUTSIDE` if it cannot be evaluated.
+        Raises one of the errors in :data:`OUTSIDE` if the method cannot be evaluated.
 
         >>> from orderconds.tableau import Tableau
         >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "0.5~" }\\n'

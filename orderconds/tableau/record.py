@@ -39,11 +39,13 @@ class Tableau:
     proof: Proof | None = field(default=None, compare=False)
     """The equations that the true values of the rounded decimals solve; None if the file names none."""
     file: File | None = field(default=None, compare=False, repr=False)
-    """The file that was read; None once the coefficients are no longer those of a file."""
+    """The file from which the tableau was read; None if the coefficients differ from the coefficients of the
+    file."""
 
     @staticmethod
     def load(path: str | Path) -> Tableau:
-        """Read a tableau file; raises :class:`orderconds.errors.TableauError` naming file and key."""
+        """Read a tableau file. Raises :class:`orderconds.errors.TableauError`, whose message names the file
+        and the key."""
         return load(path)
 
     @staticmethod
@@ -67,7 +69,8 @@ class Tableau:
         )
 
     def lower(self) -> Tableau | None:
-        """Return the method with the same stages and the embedded row as update, or None without such a row.
+        """Return the method with the same stages and with the embedded row as its update. Return None if
+        there is no embedded row.
 
         >>> from orderconds.tableau import find
         >>> [str(x) for x in Tableau.load(find("cg3")).lower().method.b]
@@ -110,7 +113,7 @@ class Tableau:
         if isinstance(self.method, RungeKutta):
             return self.method
         raise TableauError(
-            f"a tableau of format {self.family} is no Runge-Kutta method",
+            f"a tableau of format {self.family} is not a Runge-Kutta method",
             where=self.path or self.name,
             expected="format rk, prk, cf or composition",
         )

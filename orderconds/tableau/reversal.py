@@ -1,10 +1,11 @@
-"""Whether a Magnus method is symmetric: a step of length -h undoes one of length h.
+"""Whether a Magnus method is symmetric: a step of length -h undoes a step of length h.
 
 The reverse step has -A_{s+1-i} at node i. If the nodes are symmetric about 1/2, the reverse step undoes the
 step under this condition: substituting -A_{s+1-i} for A_i in the k-th exponent gives the negative of the k-th
 exponent from the end. A combination of nodes may be odd or even under this substitution. The parity of a
-bracket or product follows from the parities of its factors. Thus a single odd exponent is recognised without
-expanding nested brackets; other exponents are compared as combinations of products of nodes.
+bracket or product follows from the parities of its factors. Thus a method with one exponent, if the exponent
+is odd, is recognised without expanding nested brackets. In all other cases exponents are compared as
+combinations of products of nodes.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from orderconds.tableau.products import Magnus
 
 
 def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
-    """Whether a method is symmetric; None if balls are too wide, or brackets too many to expand.
+    """Whether a method is symmetric; None if balls are too wide to decide, or if there are too many brackets
+    to expand.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

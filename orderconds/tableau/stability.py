@@ -1,11 +1,11 @@
 """A- and L-stability of a Runge-Kutta tableau, decided from its stability function in exact arithmetic.
 
-R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), common factors removed. The method is
-A-stable iff every zero of Q has positive real part (Routh) and E(y) = |Q(iy)|^2 - |P(iy)|^2, a polynomial in
-y^2, is nowhere negative (Sturm). It is L-stable iff in addition deg P < deg Q (Hairer and Wanner, *Solving
-Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are decided in the field of the
-coefficients. The result is undecided for balls, and for fields in which the computation would take too long
-(:data:`LARGEST`).
+R(z) = P(z)/Q(z) with Q = det(I - zA) and P = det(I - z(A - 1 b^T)), where common factors of P and Q are
+removed. The method is A-stable iff every zero of Q has positive real part (Routh) and E(y) = |Q(iy)|^2 -
+|P(iy)|^2, a polynomial in y^2, is nowhere negative (Sturm). It is L-stable iff in addition deg P < deg Q
+(Hairer and Wanner, *Solving Ordinary Differential Equations II*, Sections IV.3 and IV.5). Signs are decided
+in the field of the coefficients. The result is undecided for balls, and for fields in which the computation
+would take too long (:data:`LARGEST`).
 """
 
 from __future__ import annotations
@@ -26,11 +26,12 @@ Polynomial = list[Element]
 
 
 LARGEST = 100
-"""Rational tableaux with a larger implicit block are left undecided; flint takes a second at this size."""
+"""If a rational tableau has a larger implicit block than this, the result is undecided. The computation with
+flint takes a second at this size."""
 
 EFFORT = 10**11
-"""The limit on the work over other fields, in products of two bits; this takes about a second. The limit is
-necessary because the remainders in Euclid's algorithm grow fast."""
+"""The limit on the work over other fields. The unit is the product of two bits, and this amount of work takes
+about a second. The limit is necessary because the remainders in Euclid's algorithm grow fast."""
 
 
 class SignedRing(Ring, Protocol):
@@ -90,8 +91,8 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
     """Return the result of :func:`stability` for midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the imaginary axis and at infinity. A negative step gives a pole in the left half plane, unless
-    a positive step cancels it.
+    |R| = 1 on the imaginary axis and at infinity. A negative step size gives a pole in the left half plane,
+    unless a positive step size cancels it.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -141,7 +142,8 @@ def _bits(x: Element) -> int:
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Count the work of ``count`` products of these numbers, linear or ``quadratic`` in their length."""
+    """Count the work of ``count`` products of these numbers. The work of one product is quadratic in the
+    length of the numbers if ``quadratic`` is true, else linear."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -180,7 +182,8 @@ def stability_function(method: RungeKutta, ring: Ring) -> StabilityFunction:
 
 
 def _determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial:
-    """Return det(I - zA) by the method of Faddeev and LeVerrier, block by block if A is block triangular."""
+    """Return det(I - zA) by the method of Faddeev and LeVerrier, separately for each diagonal block if A is
+    block triangular."""
     result = [ring.one]
     start = 0
     for end in range(1, len(A) + 1):

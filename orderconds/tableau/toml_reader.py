@@ -1,4 +1,5 @@
-"""Read TOML, but refuse long dotted keys: with thousands of parts they cost the standard reader gigabytes."""
+"""Read TOML, but refuse long dotted keys: for a key with thousands of parts, Python's TOML reader would need
+gigabytes of memory."""
 
 from __future__ import annotations
 
@@ -15,7 +16,7 @@ _LONG_KEY = re.compile(rf"(?<![\w.'\"-])(?>{_PART}[ \t]{{0,9}}+\.[ \t]{{0,9}}+){
 
 
 def parse_toml(text: str) -> Data:
-    """Return the keys and values; ValueError for invalid TOML, or for a key of very many parts.
+    """Return the keys and values. Raises ValueError for invalid TOML, and for a key with too many parts.
 
     >>> parse_toml('a.b = "1"')
     {'a': {'b': '1'}}

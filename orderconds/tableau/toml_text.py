@@ -1,4 +1,4 @@
-"""Format the keys and values of a tableau file as TOML text, as people write it.
+"""Format the keys and values of a tableau file as TOML text, in the layout of a file written by hand.
 
 A row is on one line. A matrix that is too long for one line has a line for each row. Tables have headings.
 """
@@ -16,7 +16,8 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+", re.ASCII)
 
 
 def toml_text(data: Mapping[str, object]) -> str:
-    """Return TOML that reads back as ``data``: strings, integers, booleans, lists and tables of them.
+    """Return TOML text for ``data``: strings, integers, booleans, and lists and tables of these. Reading the
+    text gives ``data`` again.
 
     >>> print(toml_text({"b": ["1"], "stage": [{}, {"exp": [["1"]]}], "claims": {"rk": 1}}), end="")
     b = ["1"]
@@ -30,7 +31,7 @@ def toml_text(data: Mapping[str, object]) -> str:
 
 
 def _entries(table: Mapping[str, object]) -> Iterator[str]:
-    """Yield the lines of the values without a heading."""
+    """Yield the lines of those values that have no heading of their own."""
     for key, value in table.items():
         if not _headed(key, value):
             yield _line(key, value)

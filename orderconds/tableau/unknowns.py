@@ -1,7 +1,8 @@
 """The rounded decimals of a file as unknowns of equations, and the ``[proof]`` table of the file.
 
 A decimal with ``~`` approximates a number without a known closed form. With a ``[proof]`` table it is an
-unknown: the true method solves the order conditions that the table names, near the decimals of the file.
+unknown: the exact coefficients solve the order conditions that the table names, and are near the decimals of
+the file.
 
 ::
 
@@ -12,8 +13,8 @@ unknown: the true method solves the order conditions that the table names, near 
     reduction = "symmetric"    # optional: a reason why fewer equations suffice
     printed = { a21 = "0.8177227988124852" }   # optional: the digits printed in the source
 
-The name of an unknown is its name under ``numbers``, or its place (``A[2][1]``). Equal decimals are the same
-unknown.
+The name of an unknown is its name under ``numbers``, or its position in the file (``A[2][1]``). Equal
+decimals are the same unknown.
 """
 
 from __future__ import annotations
@@ -53,8 +54,8 @@ class Unknown(Struct, frozen=True):
 class Proof:
     """The equations that the decimals of a file solve approximately.
 
-    The equations are solved for ``unknowns``; the decimals ``pinned`` are exact numbers. ``printed`` are the
-    numbers printed in the source.
+    The equations are solved for ``unknowns``. The decimals in ``pinned`` count as exact numbers. ``printed``
+    are the numbers printed in the source.
     """
 
     conditions: str
@@ -71,7 +72,8 @@ class Proof:
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
-        """Return the number with this name, or at this place, with ``values`` for the unknowns."""
+        """Return the number with this name, or at this position in the file, with ``values`` for the
+        unknowns."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:
@@ -95,7 +97,7 @@ class SymbolicCoefficients(Struct, frozen=True):
         return self.build(values, ring)
 
     def number(self, name: str, ring: RootedRing, known: Mapping[Constant, Element]) -> Element:
-        """Return one number of the file, by its name or its place."""
+        """Return one number of the file, given its name or its position in the file."""
         expression = {name: Name(name) if name in self.numbers else self.expressions[name]}
         return evaluate_in(_Substituted(ring, known), expression, self.numbers, self.where)[name]
 
@@ -114,7 +116,7 @@ class SymbolicCoefficients(Struct, frozen=True):
 
 
 class _Substituted:
-    """Scalars of a ring, with given values for the rounded decimals."""
+    """A ring in which the rounded decimals of the file have given values."""
 
     def __init__(self, ring: RootedRing, known: Mapping[Constant, Element]) -> None:
         self.ring, self.known = ring, known
@@ -132,4 +134,5 @@ class _Substituted:
 
     def size(self, x: Element) -> int:
         size = getattr(self.ring, "size", None)
-        return 0 if size is None else int(size(x))  # elements of this ring have no size (jets, residues)
+        # Some rings (jets, residues) do not define the size of an element.
+        return 0 if size is None else int(size(x))

@@ -1,6 +1,6 @@
 """The cost of a step in each family: field evaluations, exponentials and brackets.
 
-Evaluations are counted for the stages that enter the update. The first stage of an explicit
+A field evaluation is counted for each stage on which the update depends. The first stage of an explicit
 first-same-as-last method counts only in the first step, and an implicit method counts one sweep of its
 iteration. Equal exponents count as one exponential. Brackets are those of dexpinv at each stage, without
 simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
@@ -23,7 +23,7 @@ from orderconds.tableau.record import Tableau
 @dataclass(frozen=True)
 class Work:
     """Field evaluations, exponentials and brackets of one step. Exponentials and brackets are None for
-    methods that are not on groups."""
+    methods that are not Lie group methods."""
 
     evaluations: int
     exponentials: int | None = None
@@ -51,7 +51,8 @@ def evaluations(tableau: Tableau) -> Work | None:
 
 
 def commutator_free_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a commutator-free step; a Butcher tableau is read as a Crouch-Grossman method.
+    """Return the cost of a step of a commutator-free method. A Butcher tableau is interpreted as a
+    Crouch-Grossman method.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> commutator_free_work(heun)
@@ -81,7 +82,7 @@ def crouch_grossman_work(tableau: Tableau) -> Work | None:
 
 
 def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
-    """Return the cost of a step with dexpinv cut after the power ``cutoff``.
+    """Return the cost of a step with dexpinv truncated after the power ``cutoff``.
 
     >>> heun = Tableau.loads('name = "t"\\nfamily = "rk"\\nA = [[], [1]]\\nb = ["1/2", "1/2"]')
     >>> munthe_kaas_work(heun, 1)
@@ -144,7 +145,7 @@ def _linear(method: Magnus, ring: Ring) -> Work:
 
 
 def _nested(cutoff: int | None) -> int:
-    """Return the number of brackets of dexpinv: the highest power up to ``cutoff`` with B_k != 0."""
+    """Return the number of brackets of dexpinv: the highest power k up to ``cutoff`` with B_k != 0."""
     if cutoff is None or cutoff < 2:
         return cutoff or 0
     return cutoff - cutoff % 2

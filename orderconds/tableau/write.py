@@ -42,7 +42,7 @@ def dumps(tableau: Tableau) -> str:
 
 
 def as_data(tableau: Tableau) -> Data:
-    """Return the keys and values of the tableau's file; every part of the tableau is included.
+    """Return the keys and values of a file for the tableau, including source, claims and proof.
 
     >>> from orderconds.tableau import Tableau, find
     >>> as_data(Tableau.load(find("cg4")))["b"]
@@ -62,9 +62,11 @@ def as_data(tableau: Tableau) -> Data:
 
 
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the keys and values of a file with every coefficient in full, without names.
+    """Return the keys and values of a file in which every coefficient is written in full, without names of
+    numbers.
 
-    Exceptions are roots without a formula and, with ``name_radicals``, square roots inside other roots.
+    Names are used only for roots without a formula and, if ``name_radicals`` is true, for square roots inside
+    other roots.
 
     >>> from orderconds.tableau import Tableau
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["a"]]\\nb = ["2*a"]\\nnumbers = { a = "1/2" }\\n'
@@ -132,7 +134,7 @@ def _product(method: AdjointComposition | Splitting | Magnus, text: Spell) -> Da
 
 
 class _Radicals:
-    """Names r1, r2, ... for square roots that occur inside others."""
+    """Names r1, r2, ... for square roots that occur inside other roots."""
 
     def __init__(self, ring: Any) -> None:
         self.text: Spell = ring.text

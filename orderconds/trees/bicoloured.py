@@ -2,8 +2,8 @@
 
 Colour 0 (black) belongs to the first part y of a partitioned system, colour 1 (white) to the second, z.
 Encoding: one byte ``2 level + colour`` for each vertex, in preorder; branches are in descending order. Apart
-from the colour of the root, this is the encoding of :mod:`orderconds.trees.directed`: an edge to a white
-vertex has kind 1, so its coefficient belongs to the second method.
+from the colour of the root, the encoding is equal to the encoding in :mod:`orderconds.trees.directed`. An
+edge whose child is white has kind 1, because its coefficient ahat_ij belongs to the second tableau.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
 
     In such a tree any two neighbours differ in colour. These are the trees of symplectic partitioned methods
     for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). If a symmetry of the uncoloured tree
-    exchanges the two colourings, both colourings are the same tree.
+    exchanges the two colourings, both colourings give the same tree.
 
     >>> [text(tree) for n in (1, 2, 3) for tree in alternating_free_trees(n)]
     ['.', 'o', '[o]', '[oo]', '(..)']

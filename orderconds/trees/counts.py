@@ -10,7 +10,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of weight 1, 2, ..., given the numbers of elements of weight 1, 2, ...
+    """Return the numbers of multisets of total weight 1, 2, ..., if the numbers of elements of weight 1, 2,
+    ... are given.
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -94,8 +95,8 @@ def _in_equal_halves(vertices: int) -> int:
 
 
 def directed_free_tree_count(vertices: int) -> int:
-    """Return the number of free trees with directed edges (A000238): rooted trees minus trees rooted at an
-    edge (Otter).
+    """Return the number of free trees with directed edges (A000238). By Otter's theorem it is the number of
+    rooted trees minus the number of trees rooted at an edge.
 
     >>> [directed_free_tree_count(n) for n in range(1, 9)]
     [1, 1, 3, 8, 27, 91, 350, 1376]

@@ -19,7 +19,7 @@ from math import factorial, prod
 
 DirectedTree = bytes
 Branch = tuple[int, DirectedTree]
-"""A branch: the kind of the edge that leads to a subtree, and the subtree."""
+"""A branch of a vertex: the kind of its edge, and the subtree at the other end of the edge."""
 
 _LOWERED = bytes((0, 1)) + bytes(range(254))
 _RAISED = bytes(range(2, 256)) + bytes(2)
@@ -150,7 +150,8 @@ def rootings(tree: DirectedTree) -> Iterator[DirectedTree]:
 
 
 def moves(tree: DirectedTree) -> Iterator[tuple[DirectedTree, DirectedTree, DirectedTree]]:
-    r"""Yield, for each edge at the root, the parts u and v that the edge separates, and the tree rooted in v.
+    r"""For each edge at the root, yield the two parts u (with the root) and v that the edge separates, and
+    the whole tree with the root moved across the edge.
 
     >>> list(moves(b"\0\2"))
     [(b'\x00', b'\x00', b'\x00\x03')]
@@ -170,7 +171,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        hats[place] = hats[parents[place]] + 1 - 2 * kind  # the root moves across this edge
+        hats[place] = hats[parents[place]] + 1 - 2 * kind  # the edge across which the root moves
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
     places = [place for place, n in enumerate(rare) if n == least]
@@ -182,8 +183,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # The longest path from a vertex through its parent continues to the next ancestor or into another
-        # branch of the parent.
+        # The longest path that starts at a vertex and passes through the parent then leads to the parent of
+        # the parent, or into another branch of the parent.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])

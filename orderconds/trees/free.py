@@ -15,12 +15,12 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""Pairs of trees (u, v). Each pair describes a move of the root along one edge, from u o v to v o u."""
+"""A move of the root along one edge, from u o v to v o u, as the pair of trees (u, v)."""
 
 
 @lru_cache(maxsize=32)
 def free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return every free tree, each once, rooted at a vertex for which its height is least.
+    """Return every free tree once. The root is a vertex for which the height of the tree is least.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in free_trees(5)]
@@ -72,8 +72,8 @@ def moves(tree: Tree) -> Iterator[tuple[Tree, Tree, Tree]]:
 
 
 def rootings(tree: Tree) -> Iterator[tuple[Tree, tuple[Move, ...]]]:
-    r"""Yield a canonical tree rooted at each of its vertices in turn, with the moves of the root that lead
-    there.
+    r"""Yield, for each vertex of a canonical tree, the tree with this vertex as root, together with the moves
+    that bring the root to this vertex.
 
     >>> list(rootings(b"\0\1"))
     [(b'\x00\x01', ()), (b'\x00\x01', ((b'\x00', b'\x00'),))]

@@ -1,5 +1,5 @@
-"""Products of trees: Butcher's product, and grafting, which corresponds to differentiation of elementary
-differentials.
+"""Products of trees: Butcher's product, and grafting. Grafting corresponds to the derivative of one
+elementary differential along another.
 
 Let u > v denote the graft of u onto v. Then F(u > v) is the derivative of F(v) in the direction F(u).
 Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet 2001). Ordered trees
@@ -73,8 +73,8 @@ def left_graft(word: Forest, onto: Forest) -> tuple[Forest, ...]:
 
 
 def _left_graft_tree(word: Forest, tree: Tree) -> list[Tree]:
-    """Return the trees in which one subword is attached to the root, left of its branches, and the other
-    subword to the branches."""
+    """Return the trees in which one subword is attached to the root, left of the branches of the root, and
+    the other subword is attached to vertices of these branches."""
     grafted = []
     for root, above in deshuffles(word):
         grafted += [rooted_at_new_vertex(root + grown) for grown in left_graft(above, branches(tree))]

@@ -1,9 +1,9 @@
 """Level sequences: a forest is represented by the levels of its vertices in preorder, one byte for each
 vertex. Roots have level 0.
 
-A tree is a forest with one root. Bytes are used because they are fast to hash and to compare, and a subtree
-is a slice. Trees are printed in brackets: ``.`` is one vertex, ``[..]`` a root with two leaves; the trees of
-a forest are separated by spaces.
+A tree is a forest with one root. The type ``bytes`` is used because its values are fast to hash and to
+compare, and because a subtree is a slice of the sequence. Trees are printed in brackets: ``.`` is one vertex,
+``[..]`` a root with two leaves; the trees of a forest are separated by spaces.
 """
 
 from __future__ import annotations
@@ -84,8 +84,8 @@ def symmetry(tree: Tree) -> int:
 
 
 def canonical(tree: Tree) -> Tree:
-    r"""Return the greatest level sequence that a tree has under all orderings of the branches at its
-    vertices.
+    r"""Return the canonical form of a tree: the greatest level sequence among all orderings of the branches
+    at the vertices.
 
     >>> canonical(b"\0\1\1\2")
     b'\x00\x01\x02\x01'

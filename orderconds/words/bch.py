@@ -1,4 +1,5 @@
-"""The Baker-Campbell-Hausdorff series log(exp A exp B), from Goldberg's coefficients of words.
+"""The Baker-Campbell-Hausdorff series log(exp A exp B), computed from Goldberg's formula for the coefficients
+of words.
 
 A Lie element is determined by its coefficients at Lyndon words. A bracketed Lyndon word is equal to the word
 itself plus greater words. Hence the coordinates are computed by forward substitution within each multidegree
@@ -79,7 +80,8 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
-    """Return the coordinates within one multidegree; ``words`` are its Lyndon words in ascending order."""
+    """Return the coordinates within one multidegree (fixed numbers of letters A and B). ``words`` are the
+    Lyndon words of this multidegree in ascending order."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:

@@ -1,5 +1,5 @@
-"""Convolution of functions on words, and power series of a function; values are computed for one word at a
-time.
+"""Convolution of functions on words, and power series of a function with respect to convolution. Each call
+computes the value on one word.
 
 A function on words represents a series. The product of two functions is a sum over all divisions of the word
 into two parts, of which the first belongs to the first factor and acts first. Values are elements of any

@@ -63,8 +63,8 @@ def expand(bracket: Bracket) -> Series:
 
 
 def backwards(series: Mapping[Word, Fraction]) -> Series:
-    """Return the series with every word reversed. Words in the order of action become products, and products
-    become words.
+    """Return the series with every word reversed. Reversal converts a word in the order of action to the word
+    of the product, and conversely.
 
     >>> backwards({("A", "B"): Fraction(1)})
     {('B', 'A'): Fraction(1, 1)}
@@ -75,7 +75,8 @@ def backwards(series: Mapping[Word, Fraction]) -> Series:
 def coordinates_from_values(
     value: Callable[[Word], Element], words: Iterable[Word], key: Key | None = None
 ) -> dict[Word, Element]:
-    """Return the coordinates of a Lie element over any ring, from its values on Lyndon words alone.
+    """Return the coordinates of a Lie element over any ring, computed only from the values of the element on
+    Lyndon words.
 
     ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in rising
     order. ``value`` returns the coefficient of a word, read as a product. The function does not test whether

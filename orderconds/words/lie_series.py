@@ -111,8 +111,8 @@ def _from_values(
     letters: Callable[[int], tuple[str, ...]],
     weigh: Callable[[Letter], int],
 ) -> Callable[[int], Coordinates]:
-    """Return a function that computes, up to any weight, the coordinates of a Lie element from its
-    coefficients of products."""
+    """Return a function that computes the coordinates of a Lie element up to any weight. The argument
+    ``value`` returns the coefficient of a product of letters in the Lie element."""
 
     def coordinates(weight: int) -> Coordinates:
         place = {letter: number for number, letter in enumerate(letters(weight))}.__getitem__

@@ -42,8 +42,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
 
 
 def independent_on_lie(functionals: Sequence[Functional], length: int) -> tuple[Functional, ...]:
-    """Return a subset of functionals that is independent on Lie elements. Functionals named by Lyndon words
-    are preferred.
+    """Return a subset of the functionals that is linearly independent as functions on Lie elements.
+    Functionals named by Lyndon words are preferred.
 
     >>> independent_on_lie([(((0, 1), 1),), (((1, 0), 1),)], 2)
     ((((0, 1), 1),),)
@@ -81,8 +81,8 @@ def _by_content(letters: Sequence[int], length: int) -> dict[Word, list[Word]]:
 def _ideal(
     generators: Sequence[Series], letters: Sequence[int], length: int, content: Word
 ) -> Iterator[Series]:
-    """Yield the products u g v with the letters of ``content``, for every generator g and all words u and
-    v."""
+    """Yield the products u g v that consist of the letters in ``content``, for every generator g and all
+    words u and v."""
     for generator in generators:
         some = next(iter(generator))
         left = list(content)

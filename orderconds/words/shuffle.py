@@ -1,5 +1,5 @@
-"""The two products of words: the shuffle product, for products of values, and concatenation, for products of
-series."""
+"""The two products of words. The shuffle product corresponds to the product of two values of one
+group-like series. Concatenation corresponds to the product of two series."""
 
 from __future__ import annotations
 

@@ -13,11 +13,14 @@ from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.interpret import interpret
+from codegen.lab.distance import distance
 from codegen.lab.orders.local_error import exact_flow, valuation
+from codegen.lab.reference import cached_reference
 from codegen.loader import Statistics, Status, StepFailed, load
 from codegen.lower import lower, problem_for
 from codegen.method import Method, with_estimate
 from codegen.passes import optimise
+from codegen.scenes import load as load_scene
 from tests.promises import clean_c, clean_python
 from tests.strategies import field_scene, shipped
 
@@ -124,6 +127,25 @@ def test_an_accepted_step_has_an_estimate_within_the_tolerance():
     assert taken == [True, True, False, False]
 
 
+def test_a_run_without_a_given_size_needs_no_more_than_a_few_trials_of_a_smooth_motion():
+    """Two steps for a loose tolerance: a sixteenth of the interval, and the rest."""
+    assert run("free_rigid_body", "cf:cf43", "c", 1e2).accepted == 2
+    first, last = emitted("free_rigid_body", "cf:cf43", "c").manifest["span"]
+    given = run("free_rigid_body", "cf:cf43", "c", 1e2, h=(last - first) / 16)
+    assert given.accepted == 3  # the size that a caller gives grows by a factor of at most 5
+
+
+def test_step_sizes_follow_the_solution():
+    """On the heavy top, chosen steps are more accurate than the same number of equal steps."""
+    scene, method = "heavy_top", "ambient:dop853"
+    problem = load_scene(scene)
+    exact, found = cached_reference(problem).state, run(scene, method, "c", 1e-9)
+    emission = emitted(scene, method, "c")
+    (first, last), start = emission.manifest["span"], emission.manifest["initial"]
+    equal = load(emission).run(start, (last - first) / found.accepted, found.accepted, first)
+    assert distance(problem, found.state, exact) < 0.6 * distance(problem, equal, exact)
+
+
 @pytest.mark.parametrize("target", ["c", "python"])
 def test_runs_go_back_and_on(target):
     emission = emitted("driven_spin", "cg:cg3", target)
@@ -213,7 +235,7 @@ def test_without_a_request_there_is_no_estimate():
     [
         ("free_rigid_body", "cf:cf4", "expected a tableau with an embedded row"),
         ("free_rigid_body", "rkmk:dormand_prince5", r"write rkmk\(3\):dormand_prince5"),
-        ("dipole", "vcg:heun_euler", "expected one of rk, ambient, cf, cg, rkmk"),
+        ("dipole", "vcg:heun_euler", "expected a method of rk, ambient, cf, cg, rkmk"),
     ],
 )
 def test_methods_without_an_estimate_are_refused(scene, method, message):

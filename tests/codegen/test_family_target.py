@@ -12,14 +12,13 @@ from __future__ import annotations
 import random
 import shutil
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from typing import Any
 
 import mpmath
 import pytest
-from sympy import diag
 
 from codegen.artifact import Artifact
 from codegen.build import Compiler, compile_files
@@ -39,8 +38,8 @@ from codegen.printers import names as target_names
 from codegen.printers.c.module import FLAGS
 from codegen.scene.problem import Problem
 from codegen.scenes import load as gallery
+from tests.codegen.family_cases import CASES
 from tests.promises import clean_c, clean_python, ulps
-from tests.strategies import field_scene, hamiltonian_scene, top_scene
 
 EXPLICIT_ULPS = 8
 """How far emitted code may be from the interpreter: only Stumpff functions are rounded otherwise there."""
@@ -55,99 +54,8 @@ ROUNDING_ULPS = 256
 """How far the ends of a hundred steps may be apart: -O1 and -O2 call other library functions."""
 
 
-@dataclass(frozen=True)
-class Case:
-    """A method, a polynomial scene and one of the gallery that it is tried on, and the order it has."""
-
-    method: str
-    order: int
-    polynomial: Callable[[], Problem]
-    gallery: str
-
-
-SHORT = (Fraction(0), Fraction(1, 4))
-"""The span of polynomial scenes: their solutions may reach infinity soon after."""
-
-
-def place(name: str) -> Callable[[], Problem]:
-    return lambda: replace(field_scene(name), span=SHORT)
-
-
-def cotangent(name: str = "SO(3)") -> Callable[[], Problem]:
-    return lambda: replace(hamiltonian_scene(name), span=SHORT)
-
-
-def top(name: str) -> Callable[[], Problem]:
-    inertia = {"symmetric": (2, 3, 2), "asymmetric": (1, 2, 4)}[name]
-    return lambda: replace(top_scene(diag(*inertia)), span=SHORT)
-
-
-CASES = {
-    "rk": (
-        Case("rk:kutta3", 3, place("R^3"), "linear_oscillator"),
-        Case("rk:gauss2", 4, place("R^3"), "linear_oscillator"),
-    ),
-    "rkmk": (
-        Case("rkmk:rk4", 4, place("S^2"), "driven_spin"),
-        Case("rkmk(1):kutta3", 3, place("SO(3)"), "dipole"),
-        Case("rkmk(2):gauss2", 4, place("S^2"), "driven_spin"),
-    ),
-    "cg": (
-        Case("cg:cg3", 3, place("S^2"), "driven_spin"),
-        Case("cg:gauss1", 2, place("SO(3)"), "driven_spin"),
-    ),
-    "cf": (
-        Case("cf:cf4", 4, place("S^2"), "driven_spin"),
-        Case("cf:gauss1", 2, place("SO(3)"), "driven_spin"),
-    ),
-    "vcg": (
-        Case("vcg:midpoint", 2, cotangent(), "dipole"),
-        Case("vcg:triple_jump", 4, cotangent(), "dipole"),
-    ),
-    "vrkmk": (
-        Case("vrkmk(1):kutta3", 3, cotangent(), "dipole"),
-        Case("vrkmk(2):gauss2", 4, cotangent(), "dipole"),
-    ),
-    "vcf": (
-        Case("vcf:midpoint", 2, cotangent(), "dipole"),
-        Case("vcf:cf4", 4, cotangent(), "dipole"),
-    ),
-    "vrkmk_pade": (
-        Case("vrkmk_pade(1):kutta3", 3, cotangent(), "dipole"),
-        Case("vrkmk_pade(2):gauss2", 4, cotangent(), "dipole"),
-    ),
-    "slgi": (
-        Case("slgi:euler", 1, cotangent(), "dipole"),
-        Case("slgi:midpoint", 2, cotangent(), "dipole"),
-        Case("slgi:gauss2", 2, cotangent(), "dipole"),
-    ),
-    "discrete_gradient": (
-        Case("discrete_gradient:euler", 1, cotangent(), "dipole"),
-        Case("discrete_gradient:midpoint", 2, cotangent(), "free_rigid_body_s3"),
-        Case("discrete_gradient:gauss2", 2, cotangent(), "dipole"),
-    ),
-    "splitting": (
-        Case("splitting:forest_ruth4", 4, top("symmetric"), "fast_heavy_top"),
-        Case("splitting:ruth3", 3, top("asymmetric"), "dipole"),
-    ),
-    "ambient": (
-        Case("ambient:rk4", 4, place("S^2"), "driven_spin"),
-        Case("ambient:gauss2", 4, cotangent(), "dipole"),
-    ),
-    "taylor": (
-        Case("taylor(3)", 3, place("S^2"), "driven_spin"),
-        Case("taylor(4)", 4, cotangent(), "dipole"),
-        Case("taylor(5)", 5, place("R^3"), "linear_oscillator"),
-    ),
-    "composition": (
-        Case("composition:triple_jump", 4, top("asymmetric"), "linear_oscillator"),
-        Case("composition:mclachlan4", 4, top("symmetric"), "dipole"),
-    ),
-}
-"""Family to what it is tried with."""
-
 CLEAN = {"c": ("gcc", "clang"), "python": ("",)}
-"""Target to the compilers that its texts are checked with."""
+"""The compilers that check the texts of a target; other targets have such checks of their own."""
 
 ALL = [
     pytest.param(case, id=case.method, marks=() if case is cases[0] else pytest.mark.slow)
@@ -157,9 +65,8 @@ ALL = [
 """The first case of a family is tried in every run of the tests."""
 
 
-def test_every_family_and_every_target_is_tried():
+def test_every_family_is_tried():
     assert sorted(CASES) == sorted(names())
-    assert sorted(CLEAN) == sorted(target_names())
     assert all(case.method.startswith(family) for family, cases in CASES.items() for case in cases)
 
 

@@ -10,8 +10,10 @@ import pytest
 
 from codegen.build import CompileError, Compiler, compile_files, find_compiler
 from codegen.emitter import compile_method, emit_compiled
-from codegen.lower import names
+from codegen.lower import lowering
 from codegen.printers.c.module import FLAGS
+from codegen.scenes import load
+from tests.codegen.family_cases import CASES
 from tests.compilations import compiled
 
 EXPLICIT = {
@@ -35,6 +37,10 @@ IMPLICIT = {
     "slgi": ("dipole", "slgi:midpoint"),
     "discrete_gradient": ("free_rigid_body_s3", "discrete_gradient:midpoint"),
 }
+for family, cases in CASES.items():
+    if family not in {*EXPLICIT, *IMPLICIT}:
+        case = (cases[0].gallery, cases[0].method)
+        (IMPLICIT if compiled(*case).kernel.loops else EXPLICIT)[family] = case
 ALL = [*EXPLICIT.values(), *IMPLICIT.values()]
 
 
@@ -50,11 +56,6 @@ def texts(scene, method):
 def code(source):
     """C without comments."""
     return re.sub(r"/\*.*?\*/", "", source, flags=re.DOTALL)
-
-
-def test_every_family_is_looked_at():
-    assert sorted({*EXPLICIT, *IMPLICIT}) == sorted(names())
-    assert sorted({*ON_VECTOR_SPACES, *WITHOUT_TIME}) == sorted(names())
 
 
 SOLVING = ("sweep", "statistics", "NOT_CONVERGED", "previous", "greater", "fabs", "max(")
@@ -104,8 +105,12 @@ ON_VECTOR_SPACES = {
 WITH_BRACKETS = {"rkmk", "vcg", "vrkmk", "vcf", "vrkmk_pade", "slgi"}
 """Families whose programs have brackets or adjoint operations before the passes."""
 
-WITHOUT_TIME = {"discrete_gradient"}
-"""Families that do not serve a scene that depends on time."""
+ON_VECTOR_SPACES |= {
+    family: cases[0].method
+    for family, cases in CASES.items()
+    if family not in ON_VECTOR_SPACES and lowering(family).objection(load("linear_oscillator")) is None
+}
+"""The methods of all families that serve this scene, which depends on time."""
 
 
 @pytest.mark.parametrize("family", ON_VECTOR_SPACES)

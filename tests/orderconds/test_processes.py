@@ -137,7 +137,9 @@ def test_a_search_that_is_stopped_leaves_no_workers_and_goes_on_from_its_checkpo
         _, err = child.communicate(timeout=30)
     assert child.returncode == status
     if said:
-        assert err.decode().startswith(f"orderconds: {said}; finished starts are kept in ")
+        assert err.decode().startswith(
+            f"orderconds: {said}; the results of the finished random starts are saved in "
+        )
         assert err.count(b"\n") == 1
         assert os.listdir(tmp_path) == ["found.toml.search"]
     subprocess.run([*command, "64"], check=True, capture_output=True)

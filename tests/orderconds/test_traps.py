@@ -51,23 +51,23 @@ WRONG_ORDER = {
 
 BROKEN_CLAIM = {
     "cf43_embedded_exchanged": "the embedded row has order 2 (cf), claimed 3; [.] .: ",
-    "cg4a_proof_digit": "no proof: the box is not mapped into itself",
-    "dormand_prince_fsal": "fsal is false, claimed true",
+    "cg4a_proof_digit": "no proof: Krawczyk's operator does not map the box into itself",
+    "dormand_prince_fsal": "property fsal: the result is false, the claim is true",
     "fehlberg_embedded": "the embedded row has order 4 (rk), claimed 5; [[[[.]]]]: ",
-    "lobatto3a_l_stable": "l_stable is false, claimed true",
-    "rk4_symplectic": "symplectic is false, claimed true",
-    "sdirk3_stable": "a_stable is false, claimed true",
-    "strang_not_symmetric": "symmetric is false, claimed true",
+    "lobatto3a_l_stable": "property l_stable: the result is false, the claim is true",
+    "rk4_symplectic": "property symplectic: the result is false, the claim is true",
+    "sdirk3_stable": "property a_stable: the result is false, the claim is true",
+    "strang_not_symmetric": "property symmetric: the result is false, the claim is true",
 }
 
 REFUSED = {
-    "cf4_embedded_equal": "embedded: an embedded row equal to the main one",
+    "cf4_embedded_equal": "embedded: an embedded row that is equal to the main row",
     "coefficient_code": 'b[1]: "\'" in',
     "coefficient_divides_by_zero": "b[1]: division by zero",
-    "coefficient_explodes": "b[1]: an iterated power in '9^9^9^9'",
-    "embedded_equal": "its error estimate is identically zero",
+    "coefficient_explodes": "b[1]: a power of a power without parentheses in '9^9^9^9'",
+    "embedded_equal": "the error estimate would be identically zero",
     "name_twice": "Cannot overwrite a value",
-    "row_sums": "c_3 = 17/25, but row 3 of A sums to 17/24",
+    "row_sums": "c_3 = 17/25, but the sum of row 3 of A is 17/24",
     "unknown_family": "unknown_family.toml: claims.rkkm: unknown family 'rkkm'",
 }
 

@@ -30,9 +30,10 @@ class Action(ABC):
         0."""
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y moved back to the orbit of ``start``; a defect of size eps becomes O(eps^2).
+        """Return a point closer to the orbit of ``start`` than y: if the distance of y is eps, the distance
+        of the result is O(eps^2).
 
-        By default y is returned, as on an orbit that is open.
+        By default y is returned, which is correct if the orbit is open.
         """
         return y
 

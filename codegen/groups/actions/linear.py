@@ -20,14 +20,15 @@ class Linear(Action):
         return matvec(g, y)
 
     def actexp(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return exp(x) y; for rotations the matrix exp(x) is not formed."""
+        """Return exp(x) y; if the group consists of rotations, the matrix exp(x) is not formed."""
         rotations = group.offers(Rotations)
         return matvec(group.exp(d, x), y) if rotations is None else rotations.rotate(d, x, y)
 
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
-        """Return y with the length of ``start`` where the group keeps lengths; otherwise y.
+        """If the group preserves lengths, return y scaled to the length of ``start``; otherwise return y.
 
-        With e = 1 - (y.y)/(start.start), the factor 1 + e/2 + 3 e^2/8 leaves a defect O(e^3).
+        The factor is 1 + e/2 + 3 e^2/8 with e = 1 - (y.y)/(start.start), so the relative error of the length
+        is O(e^3).
         """
         if group.offers(Rotations) is None:
             return y

@@ -20,5 +20,5 @@ class Motion(Action):
         return group.require(PointMotions).move(d, g, y)
 
     def velocity(self, d: Domain, group: LieGroup, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the velocity of the point y under x."""
+        """Return the velocity of the point y under the motion exp(t x) at t = 0."""
         return group.require(PointMotions).point_velocity(d, x, y)

@@ -10,7 +10,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from codegen.lab.distance import distance
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
 from codegen.lab.efficiency.work_precision import MOST_STEPS, Row
 from codegen.lab.runner import RunFailed
@@ -71,7 +70,7 @@ class AdaptiveCandidate(EmittedCandidate):
         statistics = Statistics()
         try:
             arrival = self.arrive(control, statistics)
-            error = distance(self.scene, arrival.state, self.exact.state)
+            error = self.error(arrival.state)
             if not math.isfinite(error):
                 raise RunFailed("the final state is not finite")
         except ArithmeticError as failure:

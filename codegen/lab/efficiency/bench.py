@@ -15,14 +15,16 @@ from codegen.errors import MethodError
 from codegen.lab.default_methods import methods_for
 from codegen.lab.efficiency.adaptive_candidate import AdaptiveCandidate
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
+from codegen.lab.efficiency.equations import Equations, all_equations
 from codegen.lab.efficiency.peer_candidate import PeerCandidate
-from codegen.lab.efficiency.ranking import Place, places
+from codegen.lab.efficiency.ranking import Place, by_form, frontier, in_form, places
 from codegen.lab.efficiency.work_precision import Candidate, Refused, Row, measure_rows
 from codegen.lab.measurement_cache import MeasurementCache
 from codegen.lab.page.figures import Curve, efficiency_figure, standalone
-from codegen.lab.peers import find
+from codegen.lab.peers import Peer, find
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
+from codegen.lower import lowering
 from codegen.method import Method
 from codegen.printers import DEFAULT, names
 from codegen.scene.problem import Problem
@@ -45,10 +47,14 @@ class Result:
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """For each candidate: name, seconds of emission, and seconds of the longest compilation of a run."""
+        """For each candidate: name, seconds of emission, and seconds of the longest compilation of a run.
+
+        Each form of the equations is emitted and compiled separately.
+        """
         return tuple(
-            (label, rows[0].emit_seconds, max(r.compile_seconds for r in rows))
+            (in_form(label, form), own[0].emit_seconds, max(r.compile_seconds for r in own))
             for label, rows in self.entries.items()
+            for form, own in by_form(rows).items()
         )
 
 
@@ -69,9 +75,10 @@ class Bench:
         """
         name = self.scene.name
         own = MeasurementCache(self.folder / f".{name}.measured" if self.folder else None)
-        entries = {
-            entry_name(c): measure_rows(c, name, self.exact, cache or own, done) for c in self.candidates
-        }
+        entries: dict[str, tuple[Row, ...]] = {}
+        for c in self.candidates:
+            rows = measure_rows(c, name, self.exact, cache or own, done)
+            entries[entry_name(c)] = (*entries.get(entry_name(c), ()), *rows)
         result = Result(self.scene, entries, places(entries))
         if self.folder is None:
             return result
@@ -94,13 +101,15 @@ def bench(
     output: str | None,
     progress: Progress,
     adaptive: Sequence[str] = (),
+    forms: Sequence[str] = (),
 ) -> Bench:
     """Return a bench of methods and peers on a scene.
 
     If no methods are named, the default methods for the scene are used (:func:`methods_for`). The methods in
-    ``adaptive`` run with step-size control by their embedded rows. Names and options are checked before the
-    first measurement (InputError). If a method cannot be emitted for the scene, its only row contains the
-    reason.
+    ``adaptive`` run with step-size control by their embedded rows. ``forms`` are the keys of the classical
+    forms of the equations for peers and for methods in coordinates; by default all forms are measured. Names
+    and options are checked before the first measurement (InputError). If a method cannot be emitted for the
+    scene, its only row contains the reason.
     """
     for target in targets:
         if target not in names():
@@ -111,6 +120,7 @@ def bench(
     for method in controlled:
         replace(method, adaptive=True).embedded()  # raises MethodError if the tableau has no embedded row
     others = find(peers)
+    equations = all_equations(problem, forms)
     folder = _folder(output)
     progress(f"{problem.name}: reference solution")
     exact = cached_reference(problem)
@@ -118,9 +128,40 @@ def bench(
     for method, adapt in [*((m, False) for m in fixed), *((m, True) for m in controlled)]:
         for target in dict.fromkeys(targets):
             progress(f"{problem.name}: emitting {method.label}")
-            ours.append(emitted(problem, method, exact, target, budget, adaptive=adapt))
-    theirs = [PeerCandidate(problem, peer, exact, budget) for peer in others]
-    return Bench(problem, exact, (*ours, *theirs), folder)
+            ours += emitted_forms(problem, method, exact, target, budget, equations, adaptive=adapt)
+    return Bench(problem, exact, (*ours, *peer_forms(problem, others, exact, budget, equations)), folder)
+
+
+def emitted_forms(
+    scene: Problem,
+    method: Method,
+    exact: Reference,
+    target: str,
+    budget: float,
+    equations: Sequence[Equations],
+    *,
+    adaptive: bool = False,
+) -> list[Candidate]:
+    """Return the candidates of a method: one for each form of the equations that suits the method.
+
+    A method on the manifold of the scene has one candidate.
+    """
+    suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
+    return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]
+
+
+def peer_forms(
+    scene: Problem, peers: Sequence[Peer], exact: Reference, budget: float, equations: Sequence[Equations]
+) -> list[Candidate]:
+    """Return the candidates of peers: one for each form of the equations.
+
+    A peer that projects its states has one candidate, on the manifold of the scene.
+    """
+    return [
+        PeerCandidate(scene, peer, exact, budget, equations=e)
+        for peer in peers
+        for e in ([Equations(scene)] if peer.projects else equations)
+    ]
 
 
 def entry_name(candidate: Candidate) -> str:
@@ -130,14 +171,22 @@ def entry_name(candidate: Candidate) -> str:
 
 
 def emitted(
-    scene: Problem, method: Method, exact: Reference, target: str, budget: float, *, adaptive: bool = False
+    scene: Problem,
+    method: Method,
+    exact: Reference,
+    target: str,
+    budget: float,
+    *,
+    adaptive: bool = False,
+    equations: Equations | None = None,
 ) -> Candidate:
     """Return the candidate of a method; a :class:`Refused` if the method cannot be emitted for the scene."""
     kind = AdaptiveCandidate if adaptive else EmittedCandidate
     try:
-        return kind(scene, method, exact, target, budget)
+        return kind(scene, method, exact, target, budget, equations=equations)
     except (InputError, ArithmeticError) as error:
-        return Refused(f"adaptive {method.label}" if adaptive else method.label, target, str(error))
+        label = f"adaptive {method.label}" if adaptive else method.label
+        return Refused(label, target, str(error), form=equations.name if equations is not None else "")
 
 
 def _folder(output: str | None) -> Path | None:
@@ -166,10 +215,13 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def curves(result: Result) -> list[Curve]:
-    """Return error against CPU time of every candidate with at least one successful run."""
+    """Return error against CPU time of every candidate with at least one successful run.
+
+    A candidate that was measured on several forms of the equations has one curve, of the fastest runs.
+    """
     drawn = []
     for label, rows in result.entries.items():
-        points = [(r.seconds, r.error) for r in rows if r.error and r.seconds]
+        points = [(r.seconds, r.error) for r in frontier(rows) if r.error and r.seconds]
         if points:
             drawn.append(Curve(label, tuple(points), peer=rows[0].target == "peer"))
     return drawn

@@ -12,7 +12,7 @@ from codegen.certify import certified_order
 from codegen.emitter import Compiled, compile_method
 from codegen.ir.operations import Operation
 from codegen.ir.program import Assign
-from codegen.lab.distance import distance
+from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.work_precision import (
     BUDGET,
     COUNTED,
@@ -35,6 +35,7 @@ from codegen.scene.problem import Problem
 class EmittedCandidate:
     """A method emitted to a target, compiled, and run over the span in equal steps.
 
+    ``equations`` are the equations in some form of the scene; by default they are those as printed.
     ``precompiled`` is the result of :func:`compile_method`, if the caller has it. ``emit_seconds`` then does
     not include the time of :func:`compile_method`.
     """
@@ -45,11 +46,15 @@ class EmittedCandidate:
     target: str = DEFAULT
     budget: float = BUDGET
     precompiled: Compiled | None = None
+    equations: Equations | None = None
 
     def __post_init__(self) -> None:
         start = time.perf_counter()
-        self.compiled: Compiled = self.precompiled or compile_method(self.scene, self.method)
-        self.runner = Emitted(self.compiled, self.target, certified_order(self.method, self.scene))
+        self.equations = self.equations or Equations(self.scene)
+        self.form = self.equations.name
+        problem = self.equations.problem
+        self.compiled: Compiled = self.precompiled or compile_method(problem, self.method)
+        self.runner = Emitted(self.compiled, self.target, certified_order(self.method, problem))
         self.label = self.method.label
         self.key = repr(sorted(self.runner.artifact.manifest["files"].items()))
         self.emit_seconds = time.perf_counter() - start
@@ -67,6 +72,11 @@ class EmittedCandidate:
             self.compile_seconds = measure(self.runner.artifact.files)
         self.runner.final(0)
 
+    def error(self, state: Sequence[float]) -> float:
+        """Return the distance of a final state of a run from the reference, in the norm of the scene."""
+        assert self.equations is not None
+        return self.equations.error(state, self.exact)
+
     def measure(self, control: float) -> Row:
         """Run over the span in ``control`` steps."""
         steps = int(control)
@@ -75,7 +85,7 @@ class EmittedCandidate:
         statistics = Statistics()
         try:
             state = self.runner.final(steps, statistics)
-            error = distance(self.scene, state, self.exact.state)
+            error = self.error(state)
             if not math.isfinite(error):
                 raise RunFailed("the final state is not finite")
         except ArithmeticError as failure:
@@ -125,6 +135,7 @@ class EmittedCandidate:
             emit_seconds=self.emit_seconds,
             compile_seconds=self.compile_seconds,
             failure=failure,
+            form=self.form,
         )
 
     def _count(self, cost: Callable[[Operation], int], steps: int, iterations: Sequence[int]) -> int:

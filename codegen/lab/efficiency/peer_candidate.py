@@ -1,4 +1,4 @@
-"""A peer (another integrator) as a candidate of a work-precision diagram, on the ambient equations."""
+"""A peer (another integrator) as a candidate of a work-precision diagram, on one form of the equations."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from codegen.lab.distance import distance
+from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.work_precision import (
     BUDGET,
     COUNTED,
@@ -25,17 +25,22 @@ from orderconds.errors import InputError
 
 @dataclass
 class PeerCandidate:
-    """A peer on a scene. If the peer does not support the scene, its only row contains the reason."""
+    """A peer on a scene. If the peer does not support the scene, its only row contains the reason.
+
+    ``equations`` are the equations in some form of the scene; by default they are those as printed.
+    """
 
     scene: Problem
     peer: Peer
     exact: Reference
     budget: float = BUDGET
     target: str = "peer"
+    equations: Equations | None = None
 
     def __post_init__(self) -> None:
-        self.label = self.peer.name
-        self.key = self.peer.version
+        self.equations = self.equations or Equations(self.scene)
+        self.label, self.form = self.peer.name, self.equations.name
+        self.key = f"{self.peer.version} {self.form}".rstrip()
         self.refused = False
 
     def controls(self) -> Iterator[float]:
@@ -47,12 +52,13 @@ class PeerCandidate:
 
     def measure(self, control: float) -> Row:
         """Prepare the peer for one tolerance or number of steps, run it, and measure its CPU time."""
+        assert self.equations is not None
         start = time.perf_counter()
         try:
-            prepared = self.peer.prepare(self.scene, control)
+            prepared = self.peer.prepare(self.equations.problem, control)
             setup = time.perf_counter() - start
             outcome = prepared.run()
-            error = distance(self.scene, outcome.state, self.exact.state)
+            error = self.equations.error(outcome.state, self.exact)
             if not math.isfinite(error):
                 raise PeerFailed("the final state is not finite")
             spent = samples(prepared.run)
@@ -66,7 +72,7 @@ class PeerCandidate:
             if not isinstance(failure, PeerFailed | InputError):
                 reason = f"{type(failure).__name__}: {reason}"
             names = (self.scene.name, self.label, self.target)
-            return Row(*names, control, compile_seconds=setup, failure=reason)
+            return Row(*names, control, compile_seconds=setup, failure=reason, form=self.form)
         times = [s - min(overhead, s) for s in spent]
         first, last = map(float, self.scene.span)
         return Row(
@@ -82,6 +88,7 @@ class PeerCandidate:
             ns_per_step=1e9 * times[0] / max(outcome.steps, 1),
             evaluations=outcome.evaluations,
             compile_seconds=setup,
+            form=self.form,
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:

@@ -1,4 +1,8 @@
-"""The time to reach an accuracy, interpolated between runs, and the fastest candidate for each decade."""
+"""The time to reach an accuracy, interpolated between runs, and the fastest candidate for each decade.
+
+A candidate may have runs on several forms of the equations. Its time to an accuracy is that of the fastest
+form.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +15,30 @@ from codegen.lab.efficiency.work_precision import Row
 
 @dataclass(frozen=True)
 class Place:
-    """The fastest candidate for an error of 10^-decade, and the second fastest, with their CPU seconds."""
+    """The fastest candidate for an error of 10^-decade, and the second fastest, with their CPU seconds.
+
+    The name of a form follows the label of a candidate that was measured on several forms.
+    """
 
     decade: int
     winner: str
     seconds: float
     second: str = ""
     behind: float | None = None
+
+
+def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
+    """Return the rows of each form of the equations."""
+    return {form: [row for row in rows if row.form == form] for form in dict.fromkeys(r.form for r in rows)}
+
+
+def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
+    """Return the CPU seconds and the name of the form with which a candidate is the first to reach ``error``.
+
+    None if no form reaches it.
+    """
+    times = [(_seconds_to(own, error), form) for form, own in by_form(rows).items()]
+    return min(((t, form) for t, form in times if t is not None), default=None, key=lambda pair: pair[0])
 
 
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
@@ -38,6 +59,12 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     >>> seconds_to([row(1e-2, 8.0), row(1e-4, 4.0), row(1e-5, 3.0)], 1e-3)
     3.0
     """
+    fastest = fastest_form(rows, error)
+    return None if fastest is None else fastest[0]
+
+
+def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
+    """Return the CPU seconds to reach ``error`` with one form of the equations."""
     good = [r for r in rows if r.error is not None and r.seconds]
     if not good or _error(min(good, key=_error)) > error:
         return None
@@ -52,6 +79,39 @@ def seconds_to(rows: Sequence[Row], error: float) -> float | None:
     return min(least, float(_time(a) * (_time(b) / _time(a)) ** part))
 
 
+def in_form(label: str, form: str) -> str:
+    """Return the label of a candidate, followed by the name of a form in brackets unless the name is empty.
+
+    >>> in_form("heyoka", "as printed"), in_form("cf:cf4", "")
+    ('heyoka (as printed)', 'cf:cf4')
+    """
+    return f"{label} ({form})" if form else label
+
+
+def frontier(rows: Sequence[Row]) -> list[Row]:
+    """Return the successful rows, without those that another form of the equations beats.
+
+    The rows of several forms are ordered by their errors, from large to small.
+    """
+    forms = by_form(rows)
+    good = [r for r in rows if r.error and r.seconds]
+    if len(forms) == 1:
+        return good
+
+    def beaten(row: Row) -> bool:
+        others = (_seconds_to(own, _error(row)) for form, own in forms.items() if form != row.form)
+        return any(t is not None and t < _time(row) for t in others)
+
+    return sorted((r for r in good if not beaten(r)), key=lambda r: (-_error(r), _time(r)))
+
+
+def prevailing_form(rows: Sequence[Row]) -> list[Row]:
+    """Return the rows of the form that is the fastest for the most decades of accuracy."""
+    best = [reached[1] for d in DECADES if (reached := fastest_form(rows, 10.0**-d)) is not None]
+    forms = by_form(rows)
+    return forms[max(forms, key=best.count)]
+
+
 def _error(row: Row) -> float:
     assert row.error is not None
     return row.error
@@ -62,12 +122,16 @@ def _time(row: Row) -> float:
     return row.seconds
 
 
-def places(entries: Mapping[str, Sequence[Row]], decades: Sequence[int] = range(2, 15)) -> tuple[Place, ...]:
+DECADES = range(2, 15)
+"""The candidates are ranked for errors of 10^-k, for each k in this range."""
+
+
+def places(entries: Mapping[str, Sequence[Row]], decades: Sequence[int] = DECADES) -> tuple[Place, ...]:
     """Return the fastest candidate for each decade of accuracy that some candidate reaches."""
     result = []
     for decade in decades:
-        times = {label: seconds_to(rows, 10.0**-decade) for label, rows in entries.items()}
-        ordered = sorted((t, label) for label, t in times.items() if t is not None)
+        fastest = {label: fastest_form(rows, 10.0**-decade) for label, rows in entries.items()}
+        ordered = sorted((f[0], in_form(label, f[1])) for label, f in fastest.items() if f is not None)
         if ordered:
             (best, winner), *others = ordered
             behind, second = others[0] if others else (None, "")

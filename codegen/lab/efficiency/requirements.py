@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from codegen.artifact import Artifact
 from codegen.emitter import Compiled
-from codegen.lab.efficiency.ranking import seconds_to
+from codegen.lab.efficiency.ranking import fastest_form, in_form
 from codegen.lab.efficiency.work_precision import Row
 from codegen.lower import lowering
 from codegen.printers import target as known_target
@@ -128,7 +128,7 @@ def _best(
 ) -> tuple[tuple[str, float] | None, ...]:
     best = []
     for decade in DECADES:
-        times = [(seconds_to(entries[label], 10.0**-decade), label) for label in labels]
-        reached = sorted((t, label) for t, label in times if t is not None)
+        times = [(fastest_form(entries[label], 10.0**-decade), label) for label in labels]
+        reached = sorted((f[0], in_form(label, f[1])) for f, label in times if f is not None)
         best.append((reached[0][1], reached[0][0]) if reached else None)
     return tuple(best)

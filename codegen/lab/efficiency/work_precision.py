@@ -8,8 +8,9 @@ produces a row with the reason. A candidate that cannot be prepared produces a r
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import asdict, dataclass
+from itertools import pairwise
 from typing import Protocol
 
 from codegen.lab.measurement_cache import MeasurementCache
@@ -23,6 +24,9 @@ MOST_STEPS = 5 * 2**21
 COUNTED = 1e-3
 """The overhead of a call from Python is subtracted from times below this number of CPU seconds."""
 
+AGAIN = 3
+"""How often runs whose times are in the wrong order are measured again."""
+
 NEAR_ROUNDING = 1e-9
 """Below this error, relative to the size of the state, rounding errors may prevent further convergence."""
 
@@ -31,6 +35,7 @@ NEAR_ROUNDING = 1e-9
 class Row:
     """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step size.
 
+    ``form`` is the name of the classical form of the equations, '' if the scene has one form only.
     ``seconds`` is the least CPU time of several batches. ``spread`` is the largest CPU time divided by the
     least, minus 1. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; None if they
     are not counted. ``failure`` is the reason if the run failed, else ''.
@@ -52,6 +57,7 @@ class Row:
     emit_seconds: float = 0.0
     compile_seconds: float = 0.0
     failure: str = ""
+    form: str = ""
 
     def as_json(self) -> dict[str, str | float | int | None]:
         """Return plain data."""
@@ -59,11 +65,15 @@ class Row:
 
 
 class Candidate(Protocol):
-    """A method or peer to measure: ``label`` and ``target`` name it; ``key`` identifies its code."""
+    """A method or peer to measure: ``label`` and ``target`` name it; ``key`` identifies its code.
+
+    ``form`` is the name of the form of the equations; '' if the scene has one form only.
+    """
 
     label: str
     target: str
     key: str
+    form: str
 
     def controls(self) -> Iterator[float]:
         """Yield numbers of steps or tolerances, from coarse to fine."""
@@ -92,6 +102,7 @@ def measure_rows(
     """
     rows: list[Row] = []
     ready = False
+    fresh: set[float] = set()
     for control in candidate.controls():
         key = ("bench", candidate.label, candidate.target, candidate.key, control, exact.digits())
         row = cache.find(key, Row)
@@ -100,16 +111,50 @@ def measure_rows(
                 if not ready:
                     candidate.prepare()
             except (InputError, ArithmeticError) as error:
-                row = Row(scene, candidate.label, candidate.target, control, failure=str(error))
+                names = (scene, candidate.label, candidate.target)
+                row = Row(*names, control, failure=str(error), form=candidate.form)
                 return (*rows, row)
             ready = True
             row = candidate.measure(control)
+            fresh.add(control)
             cache.store(key, row)
         rows.append(row)
         done(row)
         if candidate.enough(rows):
             break
+    if fresh:
+        rows = monotone(rows, candidate.measure, fresh)
+        for row in rows:
+            key = ("bench", candidate.label, candidate.target, candidate.key, row.control, exact.digits())
+            cache.store(key, row)
     return tuple(rows)
+
+
+def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
+    """Return the rows with times that increase with the number of steps, as far as measurements permit.
+
+    If a run took longer than a run with more steps, both are measured again, at most :data:`AGAIN` times; the
+    smaller time counts. Only runs whose controls are in ``fresh`` are measured again.
+    """
+    kept = list(rows)
+    for _ in range(AGAIN):
+        wrong = [k for k, (a, b) in enumerate(pairwise(kept)) if _inverted(a, b)]
+        for k in sorted({*wrong, *(i + 1 for i in wrong)}):
+            if kept[k].control not in fresh:
+                continue
+            again, old = measure(kept[k].control), kept[k].seconds
+            if again.seconds is not None and old is not None and again.seconds < old:
+                kept[k] = again
+        if not wrong:
+            break
+    return kept
+
+
+def _inverted(a: Row, b: Row) -> bool:
+    """Whether the first of two rows has fewer steps and took longer."""
+    if None in (a.seconds, b.seconds, a.steps, b.steps):
+        return False
+    return (a.steps or 0) < (b.steps or 0) and (a.seconds or 0.0) > (b.seconds or 0.0)
 
 
 @dataclass
@@ -120,6 +165,7 @@ class Refused:
     target: str
     reason: str
     key: str = ""
+    form: str = ""
 
     def controls(self) -> Iterator[float]:
         """Yield one control, for the row with the reason."""

@@ -3,25 +3,55 @@
 Errors along one trajectory are correlated, so the interval of a least-squares line would be far too narrow.
 The record is cut into blocks much longer than its oscillations. Block means are nearly independent, and a
 line through them has a valid interval from Student's distribution (batch means).
+
+A modulation that is slower than the blocks also has a slope, and its interval may exclude zero. A drift
+therefore also has to persist: the means over five consecutive parts of the record must be monotone. A
+sinusoid passes this test only if its period is longer than 1.2 records.
+
+The growth of a deviation may end, for example at a fixed point of the method. A line through the whole record
+then has the slope of the constant part. A record that saturates is therefore fitted before it saturates.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy
 
 BLOCKS = 20
+FEWEST = 2 * BLOCKS
+"""Smallest number of samples of a fit."""
+
 CONFIDENCE = 0.95
+PARTS = 5
+"""A drift is monotone in the means of PARTS parts of the record."""
 
 LOST = 1.0
 """Relative deviation from which a quantity counts as lost: the error is as large as the quantity itself."""
 
 BOUNDED, WALK = 0.25, 0.75
-"""A deviation counts as bounded if its growth exponent is below BOUNDED, and as a random walk if the exponent
-is between BOUNDED and WALK."""
+"""A deviation may be bounded if its growth exponent is below BOUNDED, and a random walk if the exponent is
+between BOUNDED and WALK."""
+
+LATE = 1.5
+"""A bounded deviation is at most LATE times as large in the whole record as in its first half."""
+
+LEVEL, STAYS = 0.9, 0.5
+"""A record saturates if the deviation reaches LEVEL times its largest value in the first half, and never
+returns below STAYS times this value."""
+
+WALKING = (0.5, 1.6)
+"""The variance ratio of increments over k blocks is about 1/k for noise, 1 for a random walk, and up to k for
+a slow modulation. The ratios of a random walk are between these bounds."""
+
+TINY = 1e-24
+"""Smaller variances, relative to the square of the largest deviation, consist of rounding errors."""
+
+FINE, NEAR, FAR = 100, 5, 20
+"""A record has FINE blocks for the variance ratios of increments over NEAR and over FAR blocks."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +60,11 @@ class Drift:
 
     ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random
     walk, 1 for a drift. ``rounding`` is the largest deviation that rounding errors can explain. If too few
-    values are finite, the slope is NaN.
+    values are finite, the slope is NaN. ``persists`` is whether the deviation is monotone in the means of
+    consecutive parts. ``later`` is the largest deviation divided by the largest deviation of the first half.
+    ``ratios`` are the variance ratios of increments over NEAR and over FAR blocks. ``until`` is the time at
+    which the deviation saturates; the slope, its interval, ``exponent`` and ``persists`` are then those of
+    the record before.
     """
 
     slope: float
@@ -38,6 +72,10 @@ class Drift:
     largest: float
     exponent: float
     rounding: float = 0.0
+    persists: bool = True
+    later: float = 1.0
+    ratios: tuple[float, float] = (0.0, 0.0)
+    until: float | None = None
 
     @property
     def is_drift(self) -> bool:
@@ -48,22 +86,33 @@ class Drift:
     def law(self) -> str:
         """The verdict in words.
 
-        ``lost``: the deviation reaches the size of the quantity. ``exact``: there is no deviation.
-        ``rounding``: rounding errors can explain the deviation. Otherwise the growth exponent decides between
-        ``bounded``, ``random walk`` and ``drift``. The verdict is ``too short to tell`` if the deviation
-        grows but the interval of the slope contains zero.
+        ``lost``: the deviation reaches the size of the quantity, or saturates above half of it. ``exact``:
+        there is no deviation. ``rounding``: rounding errors can explain the deviation. ``drift``: the
+        interval of the slope excludes zero and the deviation is monotone in the means of consecutive parts.
+        ``bounded`` and ``random walk``: there is no drift, and the growth is that of noise or of a random
+        walk. Otherwise the verdict is ``too short to tell``.
         """
-        if not self.largest < LOST:
+        if not self.largest < LOST or (self.until is not None and self.largest >= STAYS * LOST):
             return "lost"
         if self.largest == 0.0:
             return "exact"
         if self.largest <= self.rounding:
             return "rounding"
-        if self.exponent < BOUNDED:
+        near, far = self.ratios
+        walks = WALKING[0] < near < WALKING[1]
+        grows_like_a_walk = walks and far > WALKING[0] and BOUNDED <= self.exponent < WALK
+        if self.is_drift and self.persists:
+            return "random walk" if grows_like_a_walk else "drift"
+        if self.until is not None:
             return "bounded"
-        if not self.is_drift:
-            return "too short to tell"
-        return "random walk" if self.exponent < WALK else "drift"
+        if self.later <= LATE and not walks and (self.exponent < BOUNDED or near < WALKING[0]):
+            return "bounded"
+        return "random walk" if grows_like_a_walk else "too short to tell"
+
+    @property
+    def drifts(self) -> bool | None:
+        """Whether the quantity drifts or is lost; None if the run is too short to tell."""
+        return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:
         """Return plain data; numbers that are not finite are null."""
@@ -73,7 +122,8 @@ class Drift:
             "half_width": self.half_width,
             "exponent": self.exponent,
         }
-        return {name: x if math.isfinite(x) else None for name, x in numbers.items()} | {"law": self.law}
+        data: dict[str, object] = {name: x if math.isfinite(x) else None for name, x in numbers.items()}
+        return data | {"saturates_at": self.until, "law": self.law, "drifts": self.drifts}
 
 
 def fit(
@@ -81,41 +131,106 @@ def fit(
     deviations: Sequence[float],
     peaks: Sequence[float] | None = None,
     rounding: float = 0.0,
+    lows: Sequence[float] | None = None,
 ) -> Drift:
     """Return the drift of a quantity from its relative deviations at sampled times.
 
     ``times`` are measured from the start; they decrease in a backward run. A peak is the largest absolute
-    deviation in the interval that ends at a sample; ``peaks`` are by default the absolute values of the
-    samples. If a value is not finite, the slope is fitted to the values before it, and the largest deviation
-    is infinite.
+    deviation in the interval that ends at a sample, a low the smallest; ``peaks`` and ``lows`` are by default
+    the absolute values of the samples. If a value is not finite, the slope is fitted to the values before it,
+    and the largest deviation is infinite. If the deviation saturates after at least :data:`FEWEST` samples,
+    the slope is fitted to the samples before.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
     ('1.0e-09', 'drift', True)
     """
-    if len(times) < 2 * BLOCKS:
-        raise ValueError(f"expected at least {2 * BLOCKS} samples, found {len(times)}")
+    if len(times) < FEWEST:
+        raise ValueError(f"expected at least {FEWEST} samples, found {len(times)}")
     t, y = numpy.array(times, dtype=float), numpy.array(deviations, dtype=float)
     size = numpy.abs(y) if peaks is None else numpy.array(peaks, dtype=float)
     finite = numpy.isfinite(y) & numpy.isfinite(size)
     count = len(t) if finite.all() else int(numpy.argmin(finite))
     largest = float(size.max()) if count == len(t) else math.inf
-    if count < 2 * BLOCKS:
+    if count < FEWEST:
         return Drift(math.nan, math.nan, largest, math.nan, rounding)
-    whole, scale = float(t[count - 1]), float(size[:count].max()) or 1.0
-    # The values are scaled, so that their squares do not overflow.
-    t, y, size = t[:count] / whole, y[:count] / scale, size[:count] / scale
+    least = numpy.abs(y) if lows is None else numpy.array(lows, dtype=float)
+    signs = numpy.sign(y)
+    least[1:][signs[1:] * signs[:-1] < 0] = 0.0  # the deviation crosses zero between two samples
+    level = None if count < len(t) else saturation(size, least)
+    until = None if level is None else float(t[level])
+    if level is not None and level >= FEWEST:
+        count = level
+    fitted = _fitted(t[:count], y[:count], size[:count])
+    return replace(fitted, largest=largest, rounding=rounding, until=until)
+
+
+def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
+    """Return the sample at which a deviation saturates; None if it does not.
+
+    >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
+    9
+    """
+    largest = max(peaks)
+    first = int(numpy.argmax(numpy.asarray(peaks) >= LEVEL * largest))
+    if not 0.0 < largest < math.inf or 2 * first >= len(peaks):
+        return None
+    return first if min(lows[first + 1 :]) >= STAYS * largest else None
+
+
+def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
+    """Return the drift of finite values; the caller sets ``largest``, ``rounding`` and ``until``."""
+    whole, scale = float(t[-1]), float(size.max()) or 1.0
+    t, y, size = t / whole, y / scale, size / scale  # so that squares do not overflow
     slope, half = _slope(t, y)
+    means = _means(t, y, PARTS)[1].tolist()
+    early = float(size[: (len(size) + 1) // 2].max())
     factor = scale / whole
-    return Drift(slope * factor, half * abs(factor), largest, _exponent(t, size), rounding)
+    return Drift(
+        slope * factor,
+        half * abs(factor),
+        scale,
+        _exponent(t, size),
+        persists=all((b - a) * slope > 0 for a, b in pairwise(means)),
+        later=1.0 / early if early else math.inf,
+        ratios=_variance_ratios(t, y),
+    )
+
+
+def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
+    """Return the variance ratios of block means after removal of a line; see :data:`WALKING`."""
+    x, z = _means(t, y, min(FINE, len(y) // 2))
+    rest = z - numpy.polyval(numpy.polyfit(x, z, 1), x)
+
+    def variance(lag: int) -> float:
+        return float(numpy.square(rest[lag:] - rest[:-lag]).mean())
+
+    one = variance(1)
+    far = min(FAR, len(rest) // 2)
+    if one < TINY:
+        return 0.0, 0.0
+    return variance(NEAR) / (NEAR * one), variance(far) / (far * one)
+
+
+def _means(t: numpy.ndarray, y: numpy.ndarray, blocks: int) -> tuple[numpy.ndarray, numpy.ndarray]:
+    """Return the means of times and values over blocks.
+
+    The weights decrease towards both ends of a block (Hann's window), so that oscillations of any period
+    shorter than half a block nearly cancel.
+    """
+    rows = []
+    for a, b in zip(numpy.array_split(t, blocks), numpy.array_split(y, blocks), strict=True):
+        weights = numpy.sin(math.pi * (numpy.arange(len(a)) + 0.5) / len(a)) ** 2
+        rows.append((weights @ a / weights.sum(), weights @ b / weights.sum()))
+    x, z = numpy.array(rows).T
+    return x, z
 
 
 def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
     """Return the slope of a line through block means, and the half width of its interval."""
     import scipy.stats
 
-    pairs = zip(numpy.array_split(t, BLOCKS), numpy.array_split(y, BLOCKS), strict=True)
-    x, z = numpy.array([(a.mean(), b.mean()) for a, b in pairs]).T
+    x, z = _means(t, y, BLOCKS)
     centred = x - x.mean()
     slope = float(centred @ z / (centred @ centred))
     residual = z - z.mean() - slope * centred

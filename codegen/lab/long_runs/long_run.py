@@ -9,16 +9,19 @@ symmetric method returns to the initial state up to rounding.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
-from contextlib import suppress
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
 
 from codegen.emitter import Compiled
-from codegen.ir.domain import NotConverged
 from codegen.lab.distance import distance
-from codegen.lab.long_runs.drift import BLOCKS, Drift, fit
-from codegen.lab.long_runs.rounding_growth import Growth, exactly_conserved, rounding_growth
-from codegen.lab.long_runs.symplecticity import symplectic_defect
+from codegen.lab.long_runs.drift import FEWEST, LEVEL, Drift, fit
+from codegen.lab.long_runs.rounding_growth import (
+    EXACT,
+    Growth,
+    changes_of_a_step,
+    rounding_growth,
+)
+from codegen.lab.long_runs.symplecticity import largest_defect
 from codegen.lab.long_runs.trajectory import Trajectory, record
 from codegen.lab.orders.step_sizes import rounding as rounding_bound
 from codegen.lab.runner import Emitted
@@ -28,11 +31,18 @@ ROUNDING_STEPS = 20_000
 """The growth of rounding errors is measured from several starts over at most this number of steps."""
 
 
+EPSILON = 2.0**-52
+UNSTABLE = 1000.0
+"""Rounding errors of an exactly conserved quantity may grow to UNSTABLE times the sum of one epsilon a step.
+A larger deviation has another cause, for example a solver that stops early."""
+
+
 @dataclass(frozen=True)
 class Kept:
     """One conserved quantity: its relative deviations and peaks at the sample times, and their drift.
 
-    A peak is the largest absolute deviation over all steps since the previous sample.
+    A deviation is the mean over all steps since the previous sample. A peak is the largest absolute deviation
+    of these steps.
     """
 
     name: str
@@ -50,9 +60,9 @@ class LongRun:
     and ``kept`` is empty if there are too few steps. ``reversals`` are pairs: a number of steps, and the
     distance from the initial state after that many steps forward and back. One pair is for the whole run and
     one for a hundredth of it, because chaos amplifies rounding errors in long runs. ``symplectic`` is the
-    symplectic defect of one step; None if the scene is not Hamiltonian, if the run failed, or if the step is
-    too long for the solver in 60 digits. ``rounding`` is the growth of rounding errors in the quantities that
-    the method conserves exactly.
+    largest symplectic defect of a step from several states of the run; None if it was not measured.
+    ``unmeasured`` is the reason, or '' if the scene is not Hamiltonian. ``rounding`` is the growth of
+    rounding errors in the quantities that the method conserves exactly.
     """
 
     scene: str
@@ -64,6 +74,7 @@ class LongRun:
     symplectic: float | None
     failure: str = ""
     rounding: tuple[Growth, ...] = ()
+    unmeasured: str = ""
 
     def as_json(self) -> dict[str, object]:
         """Return plain data, without the sampled deviations; numbers that are not finite are null."""
@@ -77,6 +88,7 @@ class LongRun:
                 {"steps": n, "distance": x if math.isfinite(x) else None} for n, x in self.reversals
             ],
             "symplectic_defect": self.symplectic,
+            "symplectic_not_measured": self.unmeasured,
             "failure": self.failure,
             "rounding": [g.as_json() for g in self.rounding],
         }
@@ -100,19 +112,33 @@ def long_run(
             reversals = _reversals(runner, trajectory, h)
         except StepFailed as failed:
             failure = f"in the run back, {failed}"
-    middle = len(trajectory.states) // 2
-    symplectic = None
-    if scene.is_hamiltonian and not failure:
-        with suppress(NotConverged):
-            symplectic = symplectic_defect(compiled, trajectory.states[middle], h)
-    starts = [(first, runner.initial), (trajectory.times[middle], trajectory.states[middle])]
-    conserved = tuple(exactly_conserved(compiled, starts, h))
+    symplectic, unmeasured = None, ""
+    if scene.is_hamiltonian:
+        try:
+            symplectic = largest_defect(compiled, runner, trajectory, h)
+        except (ArithmeticError, ValueError) as reason:
+            unmeasured = str(reason)
     growth: tuple[Growth, ...] = ()
     if rounding and not failure:
         growth = rounding_growth(compiled, h, min(steps, ROUNDING_STEPS))
-    kept = _kept(trajectory, conserved)
+
+    def early(count: int) -> Trajectory:
+        return record(scene, runner.integrator, runner.initial, h, count, first)
+
+    changes = {} if failure else changes_of_a_step(compiled, runner, h)
+    conserved = [name for name, x in changes.items() if x <= EXACT * trajectory.scales[name]]
+    kept = _kept(trajectory, conserved, changes, early)
     return LongRun(
-        scene.name, compiled.method.label, h, trajectory.steps, kept, reversals, symplectic, failure, growth
+        scene.name,
+        compiled.method.label,
+        h,
+        trajectory.steps,
+        kept,
+        reversals,
+        symplectic,
+        failure,
+        growth,
+        unmeasured,
     )
 
 
@@ -126,18 +152,55 @@ def _reversals(runner: Emitted, trajectory: Trajectory, h: float) -> tuple[tuple
     return tuple(reversals)
 
 
-def _kept(trajectory: Trajectory, conserved: Collection[str]) -> tuple[Kept, ...]:
+def _kept(
+    trajectory: Trajectory,
+    conserved: Collection[str],
+    changes: Mapping[str, float],
+    early: Callable[[int], Trajectory],
+) -> tuple[Kept, ...]:
     """Return the quantities with their drifts.
 
-    The method conserves the quantities in ``conserved`` exactly; their deviation counts as rounding.
+    The method conserves the quantities in ``conserved`` exactly; their deviation counts as rounding. The
+    deviation of another quantity counts as rounding only if ``changes``, the changes by one step in exact
+    arithmetic, are too small to explain it. ``early(n)`` records the first n steps again, for a quantity that
+    saturates within the first samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
-    if len(elapsed) < 2 * BLOCKS:
+    if len(elapsed) < FEWEST:
         return ()
-    bound = rounding_bound(trajectory.steps, 2.0**-52, 1.0)
     kept = []
     for name, series in trajectory.series.items():
-        deviations, peaks = series.relative()
-        drift = fit(elapsed, deviations, peaks, math.inf if name in conserved else bound)
+        scale = trajectory.scales[name]
+        deviations, peaks, lows = series.relative(scale)
+        whole = trajectory.steps * EPSILON
+        truncation = trajectory.steps * changes.get(name, math.inf) / scale
+        bound = rounding_bound(trajectory.steps, EPSILON, 1.0) * max(1.0, trajectory.magnitudes[name] / scale)
+        if name in conserved:
+            bound *= UNSTABLE
+        elif truncation > whole / 10:
+            bound = 0.0
+        drift = fit(elapsed, deviations, peaks, bound, lows)
+        if drift.largest <= bound:
+            drift = replace(drift, until=None)
+        elif drift.until is not None:
+            drift = _before_saturation(name, drift, trajectory, early)
         kept.append(Kept(name, tuple(elapsed), tuple(deviations), tuple(peaks), drift))
     return tuple(kept)
+
+
+def _before_saturation(
+    name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
+) -> Drift:
+    """Return the drift before the saturation if the record has too few samples of it."""
+    times = [t - trajectory.times[0] for t in trajectory.times[1:]]
+    level = times.index(whole.until) + 1 if whole.until is not None else 0
+    if level > FEWEST:
+        return whole
+    steps = max(trajectory.counts[level], FEWEST)
+    start = early(steps)
+    deviations, peaks, _ = start.series[name].relative(trajectory.scales[name])
+    elapsed = [t - start.times[0] for t in start.times[1:]]
+    reached = next((k for k, x in enumerate(peaks) if x >= LEVEL * whole.largest), len(peaks) - 1)
+    count = max(reached + 1, FEWEST)
+    growth = fit(elapsed[:count], deviations[:count], peaks[:count])
+    return replace(growth, largest=whole.largest, rounding=whole.rounding, until=elapsed[reached])

@@ -20,14 +20,17 @@ from dataclasses import dataclass
 from codegen.emitter import Compiled, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import NotConverged, PreciseDomain
-from codegen.lab.invariants import MANIFOLD, expressions
+from codegen.ir.expr import Expr
+from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.long_runs.compensated import compensated
 from codegen.lab.long_runs.drift import CONFIDENCE
-from codegen.lab.number_types import Evaluate, Vector
+from codegen.lab.long_runs.trajectory import scale
+from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.runner import Emitted
-from codegen.lab.stability.extreme_steps import DIGITS, precise_step
+from codegen.lab.stability.extreme_steps import DIGITS, precise_step, solved_step
 from codegen.lab.straight_line_field import straight_line
 from codegen.loader import Integrator, StepFailed, load
+from codegen.lower import problem_for
 from codegen.printers import DEFAULT
 
 STARTS = 16
@@ -40,6 +43,9 @@ TIMES = 9
 EXACT = 1e-30
 """A quantity counts as exactly conserved if one step in 60 digits has a smaller relative change."""
 
+
+CHAIN = 3
+"""Number of consecutive steps that show whether a step changes a quantity; it may be stationary at one."""
 
 NEARLY = 1e-14
 """The bound that replaces EXACT for a state that is off the manifold by rounding errors."""
@@ -101,9 +107,11 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
     try:
         starts = _starts(runs[-1], plain.initial, first, h)
         kept = exactly_conserved(compiled, (starts[0], starts[-1]), h)
+        scales = _Sizes(compiled, domain)
         for carried, integrator in runs:
             deviations = [
-                _deviations(kept, integrator, start, t, h, counts, domain, carried) for t, start in starts
+                _deviations(kept, scales, integrator, start, t, h, counts, domain, carried)
+                for t, start in starts
             ]
             for name in kept:
                 sizes = [[row[name] for row in member] for member in deviations]
@@ -141,36 +149,79 @@ def exactly_conserved(
     The result is empty if the interpreter cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
-    functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
-    quantities = {
-        name: straight_line(compiled.scene, exprs).python(domain.number, functions)
-        for name, exprs in expressions(compiled.scene).items()
-    }
+    quantities = _quantities(compiled, domain, expressions(compiled.scene))
+    sizes = _Sizes(compiled, domain)
     for k, (t, state) in enumerate(starts):
         numbers = [domain.context.mpf(x) for x in state]
         try:
             after = precise_step(compiled, numbers, t, h)
-            quantities = {
-                name: evaluate
-                for name, evaluate in quantities.items()
-                if _distance(name, evaluate(after, t + h), evaluate(numbers, t)) < (NEARLY if k else EXACT)
-            }
+            for name, evaluate in list(quantities.items()):
+                before = evaluate(numbers, t)
+                change = _distance(evaluate(after, t + h), before, sizes.size(name, before, numbers, t))
+                if not change < (NEARLY if k else EXACT):
+                    del quantities[name]
         except (NotConverged, ArithmeticError, ValueError):
             return {}
     return quantities
 
 
-def _distance(name: str, values: Vector, before: Vector) -> float:
-    """Return the largest change of a quantity.
+def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
+    """Return the largest change of each quantity by one of the first :data:`CHAIN` steps in 60 digits.
 
-    The change of an invariant is relative to its previous value, unless this value is zero.
+    The steps begin at the initial state of the scene in 60 digits, so all states are on the manifold. The
+    result is empty if the interpreter cannot make the steps.
     """
-    scale = 1 if name == MANIFOLD else max(abs(x) for x in before) or 1
+    domain = PreciseDomain(0, DIGITS)
+    problem = problem_for(compiled.scene, compiled.method)
+    quantities = _quantities(compiled, domain, expressions(compiled.scene))
+    number = domain.context.mpf
+    state: Sequence[Scalar] = problem.initial(domain)
+    t, changes = number(float(compiled.scene.span[0])), dict.fromkeys(quantities, 0.0)
+    try:
+        for _ in range(CHAIN):
+            after = solved_step(compiled, runner, state, t, h)
+            for name, evaluate in quantities.items():
+                pairs = zip(evaluate(after, t + h), evaluate(state, t), strict=True)
+                changes[name] = max(changes[name], float(max(abs(a - b) for a, b in pairs)))
+            state, t = after, t + h
+    except (NotConverged, ArithmeticError, ValueError):
+        return {}
+    return changes
+
+
+def _quantities(
+    compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
+) -> dict[str, Evaluate]:
+    """Return expressions as functions of numbers with 60 digits."""
+    functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+    return {
+        name: straight_line(compiled.scene, exprs).python(domain.number, functions)
+        for name, exprs in kept.items()
+    }
+
+
+def _distance(values: Vector, before: Vector, scale: Scalar) -> float:
+    """Return the largest change of a quantity relative to its size."""
     return float(max(abs(a - b) for a, b in zip(values, before, strict=True)) / scale)
+
+
+class _Sizes:
+    """The sizes of quantities: their absolute values, or their magnitudes if their terms cancel."""
+
+    def __init__(self, compiled: Compiled, domain: PreciseDomain) -> None:
+        self.magnitudes = _quantities(compiled, domain, magnitudes(compiled.scene))
+
+    def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
+        """Return the size of a quantity with a value at a state. The size of manifold equations is one."""
+        if name == MANIFOLD:
+            return 1
+        (magnitude,) = self.magnitudes[name](state, t)
+        return scale(value[0], magnitude)
 
 
 def _deviations(
     kept: dict[str, Evaluate],
+    sizes: _Sizes,
     integrator: Integrator,
     start: list[float],
     t: float,
@@ -189,10 +240,12 @@ def _deviations(
 
     state, done, rows = [*start, *([0.0] * size if carried else [])], 0, []
     before = values(state)
+    numbers = [number(x) for x in start]
+    scales = {name: sizes.size(name, x, numbers, t) for name, x in before.items()}
     for count in counts:
         state = integrator.run(state, h, count - done, t + done * h)
         done = count
-        rows.append({name: _distance(name, x, before[name]) for name, x in values(state).items()})
+        rows.append({name: _distance(x, before[name], scales[name]) for name, x in values(state).items()})
     return rows
 
 

@@ -2,39 +2,87 @@
 
 In right trivialisation the form at (q, mu) is <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H.
 Marthinsen, *Lie group integrators*, eq. (2.26)). The interpreter computes the tangent map by central
-differences in 60 digits. The error of the difference quotients is therefore negligible beside the defect of
+differences in 40 digits. The error of the difference quotients is therefore negligible beside the defect of
 the method.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy
 
 from codegen.emitter import Compiled
 from codegen.ir.domain import PreciseDomain
-from codegen.ir.interpret import flatten, interpret
+from codegen.lab.invariants import FUNCTIONS
+from codegen.lab.long_runs.trajectory import Trajectory
 from codegen.lab.number_types import Scalar, Vector
-from codegen.lab.runner import split_state
-from codegen.lower import problem_for
+from codegen.lab.runner import Emitted
+from codegen.lab.stability.extreme_steps import CORRECTIONS, precise_step, solutions
+from codegen.lab.straight_line_field import velocity
 
-DIGITS = 60
-OFFSET = 15
+DIGITS = 40
+OFFSET = 10
 """The offset of a central difference is 10^-OFFSET; the error of the difference is about 10^(-2 OFFSET)."""
 
-SWEEPS = 100
-"""Largest number of iterations of an implicit block. Longer steps may converge too slowly for 60 digits."""
+SWEEPS = 40
+"""Largest number of fixed-point iterations of an implicit block; then Newton's method is used."""
+
+LEFT = 0.5
+"""Relative deviation of a conserved quantity from which a state does not belong to the motion."""
 
 
-def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: float = 0.0) -> float:
+def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
+    """Return the largest symplectic defect of a step from the initial state and from other states of a run.
+
+    The other states are the middle of the run and the state with the fastest motion, for example the
+    pericentre of an orbit. States are used only as long as no conserved quantity has left its initial value
+    by more than :data:`LEFT`. ArithmeticError if the step from some state has no solution in 40 digits.
+    """
+    defects = [
+        symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
+        for t, state in _measured_states(compiled, trajectory)
+    ]
+    return max(defects)
+
+
+def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
+    """Return times and states: the initial one, the middle, and the one with the fastest motion."""
+    valid = 1
+    for k in range(1, len(trajectory.states)):
+        peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())
+        if not all(x <= LEFT for x in peaks):
+            break
+        valid = k + 1
+    field = velocity(compiled.scene).python(float, FUNCTIONS)
+
+    def speed(k: int) -> float:
+        try:
+            return math.hypot(*field(trajectory.states[k], trajectory.times[k]))
+        except (ArithmeticError, ValueError):
+            return 0.0
+
+    chosen = {0, valid // 2, max(range(valid), key=speed)}
+    return [(trajectory.times[k], trajectory.states[k]) for k in sorted(chosen)]
+
+
+def symplectic_defect(
+    compiled: Compiled,
+    state: Sequence[float],
+    h: float,
+    t: float = 0.0,
+    near: list[list[float]] | None = None,
+) -> float:
     """Return the largest entry of J^T Omega(end) J - Omega(start) divided by the largest entry of
     Omega(start).
 
     Entries are compared by absolute value.
 
     ``state`` contains the coordinates of the group element, then the momentum. The scene must be Hamiltonian.
-    Raises :class:`NotConverged` if an implicit block takes more than :data:`SWEEPS` iterations.
+    Implicit blocks are solved by fixed-point iteration. If it does not converge, Newton's method begins at
+    ``near``, the solutions of emitted code. Raises :class:`NotConverged` if Newton's method does
+    not converge either.
     """
     scene = compiled.scene
     domain = PreciseDomain(h, DIGITS)
@@ -43,10 +91,19 @@ def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: f
     q, mu = tuple(map(number, state[: group.size])), tuple(map(number, state[group.size :]))
     epsilon = domain.context.mpf(10) ** -OFFSET
 
-    def step(q: Vector, mu: Vector) -> tuple[Vector, Vector]:
-        return _step(compiled, domain, q, mu, number(t))
+    solution: list[list[Scalar]] | None = None
 
-    end, momentum = step(q, mu)
+    def step(q: Vector, mu: Vector) -> tuple[Vector, Vector]:
+        start = None if solution is None else [list(block) for block in solution]
+        return _step(compiled, domain, q, mu, number(t), start)
+
+    try:
+        end, momentum = step(q, mu)
+    except (ArithmeticError, ValueError):
+        if near is None:
+            raise
+        solution = [list(block) for block in near]
+        end, momentum = _step(compiled, domain, q, mu, number(t), solution)  # solution becomes exact
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T
     columns = []
@@ -72,15 +129,17 @@ def symplectic_defect(compiled: Compiled, state: Sequence[float], h: float, t: f
 
 
 def _step(
-    compiled: Compiled, domain: PreciseDomain, q: Vector, mu: Vector, t: Scalar
+    compiled: Compiled,
+    domain: PreciseDomain,
+    q: Vector,
+    mu: Vector,
+    t: Scalar,
+    near: list[list[Scalar]] | None,
 ) -> tuple[Vector, Vector]:
-    problem = problem_for(compiled.scene, compiled.method)
-    values: dict[str, Scalar] = {"t": t, **split_state(problem, (*q, *mu))}
-    program = compiled.program
-    inputs = {v.name: values[v.name] for v in program.inputs}
-    outputs = interpret(program, problem, domain, inputs, limit=SWEEPS, newton=False)
-    state = tuple(x for block in problem.state for x in flatten(block.kind, outputs[block.name]))
-    return state[: len(q)], state[len(q) :]
+    newton = near is not None
+    limit = CORRECTIONS if newton else SWEEPS
+    state = precise_step(compiled, (*q, *mu), t, domain.h, near, limit=limit, newton=newton, digits=DIGITS)
+    return tuple(state[: len(q)]), tuple(state[len(q) :])
 
 
 def _form(compiled: Compiled, domain: PreciseDomain, mu: Vector) -> numpy.ndarray:

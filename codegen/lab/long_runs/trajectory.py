@@ -13,13 +13,17 @@ from typing import TypeAlias
 
 import numpy
 
-from codegen.lab.invariants import MANIFOLD, expressions
+from codegen.ir.expr import Expr
+from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import straight_line
 from codegen.loader import Integrator, StepFailed
 from codegen.scene.problem import Problem
 
 SAMPLES = 1000
+CANCELLED = 1e-2
+"""The terms of a quantity cancel if its value is at most CANCELLED times its magnitude."""
+
 CHUNK = 100_000
 """Number of steps whose states are in memory at the same time."""
 
@@ -31,29 +35,40 @@ FUNCTIONS = {name: getattr(numpy, name) for name in ("sqrt", "sin", "cos", "exp"
 
 @dataclass
 class Series:
-    """One quantity: signed deviations at the samples, and peaks, the largest deviations between samples.
+    """One quantity: its mean deviation, its peak and its low in each interval between samples.
 
     Deviations are differences from ``start``: the initial value of an invariant, or zero for the manifold
-    equations.
+    equations. A mean is signed. A peak is the largest absolute deviation of an interval. A low is the
+    smallest; it is zero if the deviation changes its sign.
     """
 
     start: float
     deviations: list[float] = field(default_factory=list)
     peaks: list[float] = field(default_factory=list)
+    lows: list[float] = field(default_factory=list)
 
-    def relative(self) -> tuple[list[float], list[float]]:
-        """Return deviations and peaks relative to the initial value.
+    def append(self, values: numpy.ndarray) -> None:
+        """Append the signed deviations of one interval."""
+        absolute = numpy.abs(values)
+        crosses = values.min() < 0.0 < values.max()
+        with numpy.errstate(all="ignore"):  # the sum of large deviations may overflow
+            self.deviations.append(float(values.mean()))
+        self.peaks.append(float(absolute.max()))
+        self.lows.append(0.0 if crosses else float(absolute.min()))
 
-        If the initial value is zero, they are divided by the largest peak, or by one if this peak is smaller.
-        """
-        finite = (x for x in self.peaks if math.isfinite(x))
-        scale = abs(self.start) or max(1.0, *finite, 1.0)
-        return [x / scale for x in self.deviations], [x / scale for x in self.peaks]
+    def relative(self, scale: float) -> tuple[list[float], list[float], list[float]]:
+        """Return deviations, peaks and lows divided by ``scale``."""
+        rows = (self.deviations, self.peaks, self.lows)
+        deviations, peaks, lows = ([x / scale for x in row] for row in rows)
+        return deviations, peaks, lows
 
 
 @dataclass
 class Trajectory:
-    """Times, states and numbers of steps at the samples, the quantities, and the message of a failed step."""
+    """Times, states and numbers of steps at the samples, the quantities, and the message of a failed step.
+
+    ``scales`` are the sizes of the quantities (:func:`scales`).
+    """
 
     times: list[float]
     states: list[list[float]]
@@ -61,6 +76,8 @@ class Trajectory:
     steps: int = 0
     failure: str = ""
     counts: list[int] = field(default_factory=lambda: [0])
+    scales: dict[str, float] = field(default_factory=dict)
+    magnitudes: dict[str, float] = field(default_factory=dict)
 
 
 def record(
@@ -85,11 +102,44 @@ def record(
             rows = integrator.trajectory(state, h, count, 1, t)
         _append(trajectory, rows, first, h, stride, evaluate)
         state = rows[-1]
+    trajectory.magnitudes = _magnitudes(scene, trajectory)
+    trajectory.scales = {
+        name: scale(s.start, trajectory.magnitudes[name]) for name, s in trajectory.series.items()
+    }
     return trajectory
 
 
-def array_functions(scene: Problem) -> dict[str, ArrayFunction]:
-    """Return each conserved quantity as a function of arrays; values that are not finite become infinite."""
+def scale(start: float, magnitude: float) -> float:
+    """Return the size of a quantity: its absolute initial value, or its magnitude if its terms cancel.
+
+    >>> scale(-2.0, 3.0), scale(1e-12, 3.0), scale(0.0, 0.0)
+    (2.0, 3.0, 1.0)
+    """
+    return abs(start) if abs(start) > CANCELLED * magnitude else magnitude or 1.0
+
+
+def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
+    """Return the initial magnitudes of the quantities.
+
+    The largest magnitude in the first tenth of the record replaces an initial magnitude of zero. Later states
+    would hide that a quantity is lost. The magnitude of the manifold equations is one.
+    """
+    count = max(len(trajectory.states) // 10, 1)
+    states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])
+    sizes = {MANIFOLD: 1.0}
+    for name, evaluate in array_functions(scene, magnitudes(scene)).items():
+        values = evaluate(states, times)[0]
+        sizes[name] = float(values[0] or values[numpy.isfinite(values)].max())
+    return sizes
+
+
+def array_functions(
+    scene: Problem, kept: Mapping[str, tuple[Expr, ...]] | None = None
+) -> dict[str, ArrayFunction]:
+    """Return expressions as functions of arrays; values that are not finite become infinite.
+
+    ``kept`` are by default the conserved quantities of the scene.
+    """
 
     def vectorised(f: Evaluate) -> ArrayFunction:
         def evaluate(y: numpy.ndarray, t: numpy.ndarray) -> numpy.ndarray:
@@ -99,9 +149,9 @@ def array_functions(scene: Problem) -> dict[str, ArrayFunction]:
 
         return evaluate
 
-    kept = expressions(scene)
     return {
-        name: vectorised(straight_line(scene, exprs).python(float, FUNCTIONS)) for name, exprs in kept.items()
+        name: vectorised(straight_line(scene, exprs).python(float, FUNCTIONS))
+        for name, exprs in (kept or expressions(scene)).items()
     }
 
 
@@ -123,8 +173,8 @@ def _append(
     for name, series in trajectory.series.items():
         values = evaluate[name](rows[1:].T, times)
         signed = numpy.abs(values).max(axis=0) if name == MANIFOLD else values[0] - series.start
-        series.deviations += [float(signed[end - 1]) for end in ends]
-        series.peaks += [float(numpy.abs(signed[a:b]).max()) for a, b in zip(starts, ends, strict=True)]
+        for a, b in zip(starts, ends, strict=True):
+            series.append(signed[a:b])
     trajectory.times += [float(times[end - 1]) for end in ends]
     trajectory.states += [rows[end].tolist() for end in ends]
     trajectory.counts += [trajectory.steps + end for end in ends]

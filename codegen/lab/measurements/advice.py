@@ -39,7 +39,7 @@ class Advice(Measurement[Recommendations]):
         known += [
             features(c.compiled, c.runner.artifact, c.label)
             for c in cost.candidates
-            if isinstance(c, EmittedCandidate) and c.method.adaptive
+            if isinstance(c, EmittedCandidate) and c.method.adaptive and c.equations and c.equations.printed
         ]
         return Recommendations(advise(cost.result.entries, known), tuple(known))
 

@@ -7,15 +7,17 @@ from dataclasses import dataclass
 
 from markupsafe import Markup
 
-from codegen.lab.efficiency.bench import Bench, Result, curves, emitted, table
+from codegen.lab.efficiency.bench import Bench, Result, curves, emitted_forms, peer_forms, table
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
-from codegen.lab.efficiency.peer_candidate import PeerCandidate
+from codegen.lab.efficiency.equations import all_equations
+from codegen.lab.efficiency.ranking import in_form, prevailing_form
 from codegen.lab.efficiency.work_precision import Candidate, Refused, Row
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.page.figures import efficiency_figure
 from codegen.lab.page.formatting import Picture, decade, duration
 from codegen.lab.peers import find
 from codegen.lab.subject import Subject
+from codegen.lower import lowering
 from codegen.printers import DEFAULT
 
 
@@ -38,13 +40,21 @@ class Cost(Measurement[CostResult]):
         """Measure all methods with equal steps, the methods with step-size control, and the peers."""
         scene, exact, budget = subject.scene, subject.exact, subject.effort.budget
         candidates: list[Candidate] = []
+        equations = all_equations(scene)
         for method in subject.compiled.measured:
-            own = EmittedCandidate(scene, method.compiled.method, exact, DEFAULT, budget, method.compiled)
+            suited = equations[0] if lowering(method.compiled.method.family).in_coordinates else None
+            own = EmittedCandidate(
+                scene, method.compiled.method, exact, DEFAULT, budget, method.compiled, suited
+            )
             own.emit_seconds += method.seconds
             candidates.append(own)
+            if lowering(method.compiled.method.family).in_coordinates:
+                kind = method.compiled.method
+                candidates += emitted_forms(scene, kind, exact, DEFAULT, budget, equations[1:])
         candidates += [Refused(f.method, DEFAULT, f.reason) for f in subject.compiled.failures]
-        candidates += [emitted(scene, m, exact, DEFAULT, budget, adaptive=True) for m in subject.adaptive]
-        candidates += [PeerCandidate(scene, peer, exact, budget) for peer in find(subject.peers)]
+        for m in subject.adaptive:
+            candidates += emitted_forms(scene, m, exact, DEFAULT, budget, equations, adaptive=True)
+        candidates += peer_forms(scene, find(subject.peers), exact, budget, equations)
 
         def done(row: Row) -> None:
             unit = "" if row.steps is None else "steps"
@@ -99,14 +109,15 @@ def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
     """Return the operations of a step in the finest run of each candidate, and its set-up times."""
     lines = []
     for label, rows in entries.items():
-        good = [r for r in rows if r.steps and r.error is not None]
+        chosen = prevailing_form(rows)
+        good = [r for r in chosen if r.steps and r.error is not None]
         if not good:
             continue
         last = good[-1]
-        emit_seconds, compile_seconds = rows[0].emit_seconds, max(r.compile_seconds for r in rows)
+        emit_seconds, compile_seconds = chosen[0].emit_seconds, max(r.compile_seconds for r in chosen)
         lines.append(
             {
-                "label": label,
+                "label": in_form(label, last.form),
                 "evaluations": _per_step(last.evaluations, last.steps),
                 "exponentials": _per_step(last.exponentials, last.steps),
                 "iterations": _per_step(last.iterations, last.steps),

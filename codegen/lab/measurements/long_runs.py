@@ -36,7 +36,7 @@ class LongRuns(Measurement[Result]):
 
         def measure(m: CompiledMethod) -> LongRun:
             subject.progress(f"{scene.name}, {m.label}: {effort.steps} steps")
-            key = ("long", m.files, h, effort.steps, effort.back, effort.rounding)
+            key = ("long runs", m.files, h, effort.steps, effort.back, effort.rounding)
             return subject.cache.get(
                 key,
                 LongRun,
@@ -112,6 +112,12 @@ def _growth(run: LongRun, name: str) -> tuple[tuple[float, float], ...]:
     return ()
 
 
+def _defect(run: LongRun) -> str:
+    if run.symplectic is not None:
+        return scientific(run.symplectic)
+    return f"not measured: {run.unmeasured}" if run.unmeasured else "–"
+
+
 def _run(run: LongRun) -> dict[str, object]:
     return {
         "label": run.method,
@@ -121,11 +127,11 @@ def _run(run: LongRun) -> dict[str, object]:
                 "largest": scientific(k.drift.largest),
                 "slope": f"{scientific(k.drift.slope)} ± {scientific(k.drift.half_width, 1)}",
                 "exponent": f"{k.drift.exponent:.2f}" if math.isfinite(k.drift.exponent) else "–",
-                "law": k.drift.law,
+                "law": k.drift.law + ("" if (t := k.drift.until) is None else f", saturates at t = {t:.3g}"),
             }
             for k in run.kept
         ],
-        "symplectic": "–" if run.symplectic is None else scientific(run.symplectic),
+        "symplectic": _defect(run),
         "back": "; ".join(f"{scientific(x)} after {n}" for n, x in run.reversals),
         "failure": run.failure,
         "rounding": [

@@ -30,11 +30,13 @@ class StabilityTests(Measurement[Result]):
 
     def run(self, subject: Subject) -> Result:
         """Run all stability tests of every method."""
-        effort, scene, exact = subject.effort, subject.scene, subject.exact
+        effort, scene = subject.effort, subject.scene
+        exact = subject.exact_or_reason
+        known = exact if isinstance(exact, str) else exact.digits()
         stiff = stiff_scenes(scene, subject.progress) if effort.stiff else StiffScenes()
 
         def measure(m: CompiledMethod) -> Stability:
-            key = ("stability", m.files, exact.digits(), effort.stiff, effort.endurance)
+            key = ("stability", m.files, known, effort.stiff, effort.endurance)
             measured = subject.cache.get(
                 key,
                 Findings,

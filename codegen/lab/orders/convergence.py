@@ -10,17 +10,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from codegen.certify import CertifiedOrder
 from codegen.lab.distance import distance
-from codegen.lab.orders.step_sizes import CLEAR, Refinement, Run, refine, rounding
+from codegen.lab.orders.short_steps import order_of_short_steps
+from codegen.lab.orders.step_sizes import CLEAR, TOLERANCE, Refinement, Run, refine, rounding
 from codegen.lab.reference import Reference
 from codegen.lab.runner import RunFailed, Runner
+from codegen.scene.classical_forms import ClassicalForm
 from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
+UNPROVED = ("stated", "claimed")
+"""Certificates of orders that no order conditions prove; very short steps must confirm them."""
+
 FEWEST = 4
 """Number of runs that are needed for three slopes."""
 
@@ -61,7 +66,10 @@ class Convergence:
             "excluded": [r.excluded for r in runs],
             "slopes": [round(s, 4) for s in self.refinement.slopes],
             "observed_order": None if observed is None else round(observed, 4),
+            "order_of_short_steps": None if (short := self.refinement.short) is None else round(short, 4),
             "verdict": self.verdict,
+            "reason": self.sentence(),
+            "failure": "",
         }
 
     def sentence(self) -> str:
@@ -72,15 +80,62 @@ class Convergence:
         about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
         if self.verdict == "undecided":
             return f"undecided: {about}, but {self._unsettled()}"
-        return f"{self.verdict}: {about}"
+        if self.refinement.short is None or abs(self.refinement.short - self.observed) <= TOLERANCE:
+            return f"{self.verdict}: {about}"
+        return f"{self.verdict}: {about}; {self._short()}"
+
+    def _short(self) -> str:
+        """Return the order of very short steps, and why it differs from the observed order."""
+        text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
+        if not self.refinement.settled:
+            return f"rounding ends the runs, but {text}"
+        return f"{text}, so at longer steps a small parameter hides the leading term of the error"
 
     def _unsettled(self) -> str:
-        """Return why the slopes have not settled, and what the user can do."""
+        """Return why the slopes do not decide, and what the user can do."""
+        if self.refinement.settled:
+            return f"{self._short()}; try finer steps"
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
             return "rounding dominates before the slopes settle; use --target interpreter --digits 40"
         if len(self.refinement.clean) < FEWEST:
             return f"only {len(self.refinement.clean)} of {FEWEST} required runs are usable; try other steps"
         return "the slopes have not settled; try finer steps"
+
+
+@dataclass(frozen=True)
+class NotEmitted:
+    """A method that cannot be emitted for the scene, and the reason."""
+
+    scene: str
+    method: str
+    target: str
+    failure: str
+    verdict: str = "fails"
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of ``orderconds converge``, without runs."""
+        empty: list[object] = []
+        return {
+            "scene": self.scene,
+            "method": self.method,
+            "target": self.target,
+            "stated_order": None,
+            "certificate": "none",
+            "steps": empty,
+            "h": empty,
+            "error": empty,
+            "excluded": empty,
+            "slopes": empty,
+            "observed_order": None,
+            "order_of_short_steps": None,
+            "verdict": self.verdict,
+            "reason": self.sentence(),
+            "failure": self.failure,
+        }
+
+    def sentence(self) -> str:
+        """Return the verdict and its reason in one line."""
+        return f"{self.verdict}: {self.failure}"
 
 
 def converge(
@@ -90,31 +145,49 @@ def converge(
     *,
     steps: Sequence[int] = (),
     to_rounding: bool = False,
+    form: ClassicalForm | None = None,
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return its convergence.
 
     ``steps`` prescribes the numbers of steps. By default the first run has five steps, and each next run has
     twice the number. The last run is the one after which the slopes have settled (with ``to_rounding``: after
-    which rounding dominates), or the longest run that ``runner.most_steps`` permits.
+    which rounding dominates), or the longest run that ``runner.most_steps`` permits. ``form`` is the
+    classical form of the equations that ``runner`` integrates; errors are measured on the state of the scene.
     """
-    scene = runner.compiled.scene
+    scene = runner.compiled.scene if form is None else form.scene
+    label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"
     size = math.hypot(*(float(x) for x in exact.state))
 
     def run(n: int) -> Run:
-        return _rung(scene, runner, exact, n, size)
+        return _rung(scene, runner, exact, n, size, form)
 
     refinement = (
         Refinement(tuple(run(n) for n in sorted(steps)))
         if steps
         else refine(run, runner.most_steps, to_rounding)
     )
-    return Convergence(scene.name, runner.compiled.method.label, runner.target, stated, refinement)
+    result = Convergence(scene.name, label, runner.target, stated, refinement)
+    proved = stated.certificate not in UNPROVED
+    if result.observed is None or (result.verdict == "holds" and proved):
+        return result
+    short = order_of_short_steps(runner.compiled, stated.order)
+    return replace(result, refinement=replace(refinement, short=short))
 
 
-def _rung(scene: Problem, runner: Runner, exact: Reference, steps: int, size: float) -> Run:
+def _rung(
+    scene: Problem,
+    runner: Runner,
+    exact: Reference,
+    steps: int,
+    size: float,
+    form: ClassicalForm | None,
+) -> Run:
     h = float(Fraction(scene.span[1] - scene.span[0]) / steps)
     try:
-        error = distance(scene, runner.final(steps), exact.state)
+        state = runner.final(steps)
+        if form is not None:
+            state = form.scene_state(runner.domain, state)
+        error = distance(scene, state, exact.state)
     except RunFailed as failure:
         return Run(steps, h, math.inf, f"no run: {failure}")
     if not math.isfinite(error):

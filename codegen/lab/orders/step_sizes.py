@@ -23,6 +23,9 @@ CLEAR = 100.0
 """A run is used if its error is more than CLEAR times the possible rounding error. Rounding then changes a
 slope by less than 0.03."""
 
+ZERO = 0.5
+"""Very short steps have order zero if the coefficients are decimals: an order below ZERO is no evidence."""
+
 FIRST = 5
 """Number of steps in the first run."""
 
@@ -42,9 +45,14 @@ class Run:
 
 @dataclass(frozen=True)
 class Refinement:
-    """Runs from long to short steps, and the order estimated from their slopes."""
+    """Runs from long to short steps, and the order estimated from their slopes.
+
+    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`); None if it was not
+    needed or is unknown.
+    """
 
     runs: tuple[Run, ...]
+    short: float | None = None
 
     @property
     def clean(self) -> tuple[Run, ...]:
@@ -76,10 +84,32 @@ class Refinement:
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
-        """Return ``holds``, ``fails`` or, if the slopes have not settled, ``undecided``."""
-        if self.observed is None or not self.settled:
+        """Return ``holds``, ``fails`` or ``undecided``.
+
+        The slopes decide if they have settled. If very short steps have the stated order, settled slopes
+        above it show that a small parameter hides the leading term, and the order holds. Settled slopes below
+        it are then undecided. If rounding ends the runs before the slopes settle, the order of very short
+        steps decides, provided that the last slope is not below it. An order of very short steps below the
+        stated order is a failure, whatever the slopes are.
+        """
+        if self.observed is None:
             return "undecided"
-        return "holds" if abs(self.observed - stated) <= TOLERANCE else "fails"
+        if self.settled and self.short is not None and ZERO < self.short < stated - TOLERANCE:
+            return "fails"
+        near = abs(self.observed - stated) <= TOLERANCE
+        confirmed = self.short is not None and abs(self.short - stated) <= TOLERANCE
+        if confirmed and (self.settled or self.too_fine) and (near or self.observed > stated):
+            return "holds"
+        if not self.settled:
+            return "undecided"
+        if near:
+            return "holds"
+        return "undecided" if confirmed else "fails"
+
+    @property
+    def too_fine(self) -> bool:
+        """Whether the errors of the finest runs are too small to be used."""
+        return any(r.excluded and math.isfinite(r.error) for r in self.runs)
 
 
 def slopes(runs: Sequence[Run]) -> tuple[float, ...]:

@@ -43,7 +43,7 @@ def strict(
     ``alter`` changes the step program before the runs. Tests use it to insert errors that the protocol must
     find.
     """
-    for scene in strict_scenes(lowering(method.family).hamiltonian):
+    for scene in strict_scenes(lowering(method.family)):
         tell(f"{method.label} on {scene.name}")
         compiled = alter(optimise_method(scene, method))
         yield converge(Interpreted(compiled, DIGITS), stated, cached_reference(scene))

@@ -6,7 +6,7 @@ module, every field f is polynomial and depends on state and time, and the value
 not commute. On the sphere, f has a component along the state.
 The groups are SO(3), GL(3) and the unipotent 4 x 4 matrices, which are nilpotent of class three, acting on
 themselves or on vectors. Variational methods run on T*G with Hamiltonians that have no symmetry and depend
-on time.
+on time. Splittings run on Hamiltonians in three parts with exact flows; no two of these flows commute.
 """
 
 from __future__ import annotations
@@ -15,7 +15,9 @@ from functools import cache
 
 from sympy import Matrix, Rational, Symbol
 
-from codegen.groups import GL, SO3, LeftMultiplication, MatrixGroup, Rotation
+from codegen.groups import GL, SO3, LeftMultiplication, MatrixGroup, Rn, Rotation
+from codegen.lower.base import Lowering
+from codegen.lower.flow_words import FlowLowering
 from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
@@ -136,6 +138,60 @@ def hamiltonians() -> tuple[Problem, ...]:
     return tuple(problems)
 
 
-def strict_scenes(variational: bool) -> tuple[Problem, ...]:
-    """Return the Hamiltonian scenes if ``variational``, else the field scenes."""
-    return hamiltonians() if variational else fields()
+@cache
+def split_hamiltonians() -> tuple[Problem, ...]:
+    """Return Hamiltonian scenes in three parts with exact flows; G is the gyroscopic term of a rotating
+    frame."""
+    return _rotating_plane(), _rotating_top()
+
+
+def _rotating_plane() -> Problem:
+    """Return a particle in a potential without symmetry, in a rotating plane."""
+    q, p = Rn(2).point("q"), Rn(2).dual("p")
+    parts = {
+        "T": p.dot(p) / 2,
+        "G": Rational(3, 2) * (q[1] * p[0] - q[0] * p[1]),
+        "V": q[0] ** 2 + q[0] * q[1] ** 2 / 2 + q[1] ** 4 / 3 + q[0] * q[1] / 2,
+    }
+    return HamiltonianScene(
+        name="T*R^2, rotating frame",
+        group=Rn(2),
+        q=q,
+        mu=p,
+        H=sum(parts.values()),
+        parts=parts,
+        q0=[1, Rational(-1, 2)],
+        mu0=Matrix([Rational(2, 3), Rational(1, 3)]),
+        span=_span(),
+    )
+
+
+def _rotating_top() -> Problem:
+    """Return a symmetric top in a potential without symmetry, in a rotating frame."""
+    group = SO3()
+    q, mu = group.point("q"), group.dual("p")
+    inverse = Matrix.diag(1, 1, Rational(5, 2))
+    rate = Matrix([Rational(1, 2), -1, Rational(3, 2)])
+    parts = {
+        "T": mu.dot(q * inverse * q.T * mu) / 2,
+        "G": rate.dot(mu),
+        "V": q[0, 1] + q[1, 2] * q[2, 0] / 2 - q[2, 2] ** 2,
+    }
+    return HamiltonianScene(
+        name="T*SO(3), rotating frame",
+        group=group,
+        q=q,
+        mu=mu,
+        H=sum(parts.values()),
+        parts=parts,
+        q0=_turn(),
+        mu0=Matrix([1, Rational(-1, 2), Rational(2, 3)]),
+        span=_span(),
+    )
+
+
+def strict_scenes(family: Lowering) -> tuple[Problem, ...]:
+    """Return the scenes for a family: field scenes, Hamiltonian scenes, or Hamiltonians with exact flows."""
+    if isinstance(family, FlowLowering):
+        return split_hamiltonians()
+    return hamiltonians() if family.hamiltonian else fields()

@@ -50,12 +50,14 @@ class Peer:
 
     ``controlled`` is ``"tolerance"`` or ``"steps"``. ``prepare(scene, control)`` returns a run over the span
     of the scene with this tolerance or number of steps. ``version`` is the name and version of the software.
+    A peer that ``projects`` needs the manifold of the scene.
     """
 
     name: str
     controlled: str
     prepare: Callable[[Problem, float], Prepared]
     version: str
+    projects: bool = False
 
 
 class PeerModule(Protocol):

@@ -34,7 +34,7 @@ def peer(name: str) -> Peer:
     """Return c-dop853 (controlled by a tolerance) or c-rk4-projected (controlled by the number of steps)."""
     controlled = "tolerance" if name == "c-dop853" else "steps"
     template = "dop853.c.j2" if name == "c-dop853" else "rk4.c.j2"
-    return Peer(name, controlled, partial(_prepare, template), "generated C")
+    return Peer(name, controlled, partial(_prepare, template), "generated C", controlled == "steps")
 
 
 def source(template: str, scene: Problem) -> str:

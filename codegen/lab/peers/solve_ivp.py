@@ -21,8 +21,9 @@ def peer(name: str) -> Peer:
     import scipy
 
     method = {"dop853": "DOP853", "radau": "Radau", "lsoda": "LSODA"}[name.split("-")[1]]
-    prepare = partial(_prepare, method, name.endswith("-projected"))
-    return Peer(name, "tolerance", prepare, f"scipy {scipy.__version__}")
+    projects = name.endswith("-projected")
+    prepare = partial(_prepare, method, projects)
+    return Peer(name, "tolerance", prepare, f"scipy {scipy.__version__}", projects)
 
 
 def _prepare(method: str, projected: bool, scene: Problem, tolerance: float) -> Prepared:

@@ -28,7 +28,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 
-from codegen.emitter import Compiled
+from codegen.emitter import Compiled, Optimised
 from codegen.groups import Rotation
 from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
@@ -54,6 +54,9 @@ PROBES = 4
 
 SWEEPS, CORRECTIONS = 60, 30
 """Largest numbers of fixed-point iterations and of Newton iterations in the interpreter."""
+
+PATIENCE = 100
+"""Largest number of fixed-point iterations for a step of usual size, before Newton's method is used."""
 
 ACCURATE, WRONG = "accurate", "WRONG"
 SILENT = f"undetermined: rounding leaves fewer than {LEAST} digits"
@@ -290,7 +293,7 @@ class Rounding(PreciseDomain):
 
 
 def precise_step(
-    compiled: Compiled,
+    compiled: Optimised,
     state: Sequence[Scalar],
     t: Scalar,
     h: Scalar,
@@ -315,3 +318,20 @@ def precise_step(
     inputs = {v.name: values[v.name] for v in program.inputs}
     outputs = interpret(program, problem, domain, inputs, limit=limit, newton=newton, near=near)
     return [x for block in problem.state for x in flatten(block.kind, outputs[block.name])]
+
+
+def solved_step(
+    compiled: Compiled, runner: Emitted, state: Sequence[Scalar], t: Scalar, h: Scalar
+) -> list[Scalar]:
+    """Return the state after one step in many digits.
+
+    Implicit blocks are solved by fixed-point iteration. If it does not converge, Newton's method begins at
+    the solution of emitted code. ArithmeticError if there is no solution.
+    """
+    try:
+        return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)
+    except (ArithmeticError, ValueError):
+        near = solutions(runner, [float(x) for x in state], float(t), float(h))
+        if near is None:
+            raise
+        return precise_step(compiled, state, t, h, near, limit=CORRECTIONS)

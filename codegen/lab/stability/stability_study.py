@@ -19,6 +19,7 @@ from codegen.method import Method
 from codegen.scene.problem import Problem
 from codegen.scene.stiff_variant import StiffVariant
 from codegen.scenes import stiff_variants
+from orderconds.errors import InputError
 
 
 @dataclass(frozen=True)
@@ -63,6 +64,7 @@ class Stability:
             "scene": self.scene,
             "method": self.method,
             "verdict": "holds" if self.held else "fails",
+            "failure": "",
             "linear": None if self.region is None else self.region.as_json(),
             "largest_step": results.limit.as_json(),
             "cases": [a.as_json() for a in results.answers],
@@ -70,6 +72,20 @@ class Stability:
             "endurance": [e.as_json() for e in results.endurance],
             "notes": list(results.notes),
         }
+
+
+@dataclass(frozen=True)
+class NotTested:
+    """A method that could not be tested, and the reason."""
+
+    scene: str
+    method: str
+    failure: str
+    held = False
+
+    def as_json(self) -> dict[str, object]:
+        """Return plain data."""
+        return {"scene": self.scene, "method": self.method, "verdict": "fails", "failure": self.failure}
 
 
 @dataclass(frozen=True)
@@ -82,16 +98,31 @@ class StiffScenes:
 
 def stability(
     scene: Problem, methods: Sequence[Method], progress: Progress, *, endurance: bool = True
-) -> Iterator[Stability]:
-    """Yield the stability of each method on a scene; ``endurance`` includes runs of many steps."""
+) -> Iterator[Stability | NotTested]:
+    """Yield the stability of each method on a scene; ``endurance`` includes runs of many steps.
+
+    A method that cannot be emitted yields the reason. On a scene without a reference solution, the largest
+    usable step is not measured.
+    """
     progress(f"{scene.name}: reference solution")
-    exact = cached_reference(scene)
+    exact = reference_or_reason(scene)
     stiff = stiff_scenes(scene, progress)
     for method in methods:
         progress(f"{scene.name}, {method.label}: emitting")
-        compiled = compile_method(scene, method)
-        results = findings(compiled, exact, stiff, progress, endurance=endurance)
-        yield Stability(scene.name, method.label, region(method), results)
+        try:
+            compiled = compile_method(scene, method)
+            results = findings(compiled, exact, stiff, progress, endurance=endurance)
+            yield Stability(scene.name, method.label, region(method), results)
+        except (InputError, ArithmeticError) as error:
+            yield NotTested(scene.name, method.label, str(error))
+
+
+def reference_or_reason(scene: Problem) -> Reference | str:
+    """Return the reference of a scene, or the reason why there is none."""
+    try:
+        return cached_reference(scene)
+    except SceneError as error:
+        return str(error)
 
 
 def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
@@ -108,9 +139,17 @@ def stiff_scenes(scene: Problem, progress: Progress) -> StiffScenes:
 
 
 def findings(
-    compiled: Compiled, exact: Reference, stiff: StiffScenes, progress: Progress, *, endurance: bool = True
+    compiled: Compiled,
+    exact: Reference | str,
+    stiff: StiffScenes,
+    progress: Progress,
+    *,
+    endurance: bool = True,
 ) -> Findings:
-    """Run all stability tests of one compiled method, on its scene and on the stiff variants given."""
+    """Run all stability tests of one compiled method, on its scene and on the stiff variants given.
+
+    ``exact`` is the reference solution of the scene, or the reason why there is none.
+    """
     method = compiled.method
     name = f"{compiled.scene.name}, {method.label}"
     runner = Emitted(compiled)
@@ -119,7 +158,11 @@ def findings(
         progress(f"{name}: {case.name}")
         answers.append(answer(compiled, runner, case))
     progress(f"{name}: largest step")
-    limit = largest_step(compiled, runner, exact)
+    limit = (
+        Limit(None, None, f"not measured: {exact}")
+        if isinstance(exact, str)
+        else largest_step(compiled, runner, exact)
+    )
     reductions, notes = [], list(stiff.notes)
     for variant, reference in stiff.variants:
         progress(f"{name}: {variant.name}")

@@ -136,7 +136,7 @@ def test_expressions_that_are_linear_in_the_time_cost_one_term():
         (1 / (1 + y), {Quotient}),
         (y / (1 + y) ** (3 * HALF), {Convolution, Power}),
     ],
-    ids=str,
+    ids=["power of a sum", "root", "quotient", "product of a power"],
 )
 def test_powers_of_one_expression_are_one_recurrence(field, kinds):
     domain = ExprDomain()

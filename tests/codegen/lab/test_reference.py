@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import mpmath
 import pytest
-from sympy import Matrix, Rational, sqrt, symbols
+from sympy import Matrix, Rational, exp, sqrt, symbols
 
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
@@ -75,3 +75,40 @@ def test_a_field_with_a_pole_on_the_way_is_an_error_of_the_scene() -> None:
 def test_a_solution_that_ends_within_the_span_is_an_error_that_says_when() -> None:
     with pytest.raises(SceneError, match=r"beyond t = 0\.6[01]"):
         reference(scene(lambda y: Matrix([-1 - sqrt(y[0])]), [1], (0, 3)))
+
+
+def test_a_power_of_a_coordinate_near_zero_is_a_number() -> None:
+    """A ball that contains zero has no power in python-flint, but its product with itself."""
+    start = [Rational(1, 3), Rational(1, 3), 0]
+    found = reference(scene(lambda y: Matrix([y[0] / 3, y[0] / 3, y[0] - y[1] + y[2] ** 2]), start, (0, 1)))
+    assert found.state[2] == 0
+
+
+def test_a_periodic_toda_lattice_at_rest_in_its_centre_of_mass_has_a_reference() -> None:
+    def field(y: Matrix) -> Matrix:
+        force = [exp(y[k] - y[(k + 1) % 3]) for k in range(3)]
+        return Matrix([*y[3:], *(force[k - 1] - force[k] for k in range(3))])
+
+    start = [Rational(1, 5), Rational(-1, 5), 0, Rational(1, 3), Rational(-1, 3), 0]
+    found = reference(scene(field, start, (0, 1)))
+    assert abs(sum(found.state[:3])) < 1e-30
+    assert abs(sum(found.state[3:])) < 1e-30
+
+
+def test_toda_lattice_in_flaschka_variables_has_a_reference() -> None:
+    def field(y: Matrix) -> Matrix:
+        a, b = y[:2], y[2:]
+        return Matrix(
+            [
+                a[0] * (b[1] - b[0]),
+                a[1] * (b[2] - b[1]),
+                2 * a[0] ** 2,
+                2 * (a[1] ** 2 - a[0] ** 2),
+                -2 * a[1] ** 2,
+            ]
+        )
+
+    start = [Rational(1, 2), 0, Rational(1, 3), Rational(-1, 3), 0]
+    found = reference(scene(field, start, (0, 1)))
+    assert found.state[1] == 0
+    assert abs(sum(found.state[2:])) < 1e-30

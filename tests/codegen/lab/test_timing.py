@@ -46,3 +46,24 @@ def test_a_batch_lasts_long_enough_for_the_clock(clock: Clock) -> None:
 def test_no_time_is_negative(clock: Clock) -> None:
     (found,) = timing.timings(lambda n: clock.run(0), (7,), batch=1e-4)
     assert found.seconds >= 0
+
+
+def test_batches_are_repeated_until_two_agree_on_the_least_time(clock: Clock) -> None:
+    times = iter([9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.01, 1.0, 0.5])
+
+    def call() -> None:
+        clock.now += next(times)
+
+    found = timing.samples(call, batch=1e-3)
+    assert len(found) == timing.FEWER  # a call that is longer than LONG is not repeated
+    times = iter([1e-3 * x for x in (9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.01, 1.0, 0.5)])
+    assert timing.samples(call, batch=1e-3)[:2] == pytest.approx((1e-3, 1.01e-3))
+
+
+def test_batches_that_never_agree_end(clock: Clock) -> None:
+    times = iter(0.1 / 2**k for k in range(100))
+
+    def call() -> None:
+        clock.now += next(times)
+
+    assert len(timing.samples(call, batch=1e-30)) == timing.MOST

@@ -71,10 +71,10 @@ def test_a_name_belongs_to_one_target(toy: Target) -> None:
 
 
 def test_a_registered_target_is_listed_until_it_is_removed(toy: Target) -> None:
-    assert names() == ("c", "python", "toy")
+    assert names()[-1] == "toy"
     assert {"name": "toy", "about": "a toy"} in printers.listing()
     unregister("toy")
-    assert names() == ("c", "python")
+    assert "toy" not in names()
 
 
 def test_a_module_is_loaded_by_its_target(toy: Target) -> None:
@@ -114,7 +114,8 @@ def test_the_order_study_of_the_report_covers_every_target(toy: Target) -> None:
     compiled = compile_method("free_rigid_body", METHOD)
     study = order_study(compiled, cached_reference(compiled.scene), str)
     data = study.as_json()
-    assert list(study.convergences) == ["c", "python", toy.name]
+    assert toy.name in names()
+    assert list(study.convergences) == list(names())
     assert all(isinstance(data[name], dict) for name in names())
     assert study.verdict == "holds"
     assert study.artifact.manifest["target"] == DEFAULT

@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import random
+from fractions import Fraction
+
 import pytest
+from click.testing import CliRunner
 from sympy import Matrix, Rational
 
+from codegen.commands.emit import command as emit_command
 from codegen.commands.emit import explanation
 from codegen.emitter import compile_method, emit_compiled, start_of
 from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
+from codegen.loader import StepFailed, load
 from codegen.run import solver_choice
-from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate
+from codegen.run.execute import _inverted
+from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate, is_linear
 from codegen.run.step_cost import Amounts, StepCost
 from codegen.scene import FieldScene
 from orderconds.errors import UnknownName
@@ -200,6 +207,55 @@ def test_an_unknown_solver_is_named_with_those_there_are():
 def test_a_robust_solver_may_not_take_many_times_as_long(monkeypatch):
     """With no price at all to be paid, the faster fixed point stays; the reason warns of longer steps."""
     monkeypatch.setattr(solver_choice, "PRICE", 1.0)
+    monkeypatch.setattr(solver_choice, "is_linear", lambda loop: False)
     choice, _ = chosen_from(heat(32, 20), monkeypatch)
     assert choice.solver == FIXED_POINT
     assert choice.reason.endswith("; does not converge in a step of 8 h: longer steps may fail")
+
+
+def test_stiff_linear_equations_are_solved_by_newtons_method_at_any_price(monkeypatch):
+    """With 72 unknowns, a step of Newton's method takes more than PRICE times as long as the fixed point."""
+    choice, built = chosen_from(heat(36, 20), monkeypatch)
+    assert (choice.solver, choice.unknowns) == (NEWTON, 72)
+    assert choice.reason.endswith("; fixed point: would be faster, but does not converge in a step of 8 h")
+    assert built == [{NEWTON}]
+
+
+def test_a_scene_that_no_solver_solves_is_announced_by_emit():
+    words = ["stiff_driven_spin", "--method", "rkmk(0):gauss1", "--json"]
+    done = CliRunner().invoke(emit_command, words, standalone_mode=False)
+    assert done.exception is None
+    assert "warning: stiff_driven_spin, rkmk(0):gauss1: " in done.stderr
+    assert "no solver converges" in done.stderr
+    quiet = CliRunner().invoke(
+        emit_command, ["dipole", "-m", "vcg:midpoint", "--json"], standalone_mode=False
+    )
+    assert quiet.stderr == ""
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_failure_to_converge_names_the_other_solvers(target):
+    made = compiled("dipole", "vcg:midpoint", FIXED_POINT)
+    integrator = load(emit_compiled(made, target))
+    start = list(start_of(made.scene))
+    with pytest.raises(StepFailed, match="or emit with --solver newton or simplified-newton"):
+        integrator.run(start, 5.0, 3)
+
+
+def test_the_inverse_of_the_executor_is_that_of_emitted_code_in_every_bit():
+    draw = random.Random(1)
+    for n in (1, 3, 7):
+        matrix = [draw.gauss(0, 10.0 ** draw.randint(-3, 3)) for _ in range(n * n)]
+        given, objects = list(matrix), [Fraction(x) for x in matrix]
+        assert _inverted(n, given) == _inverted(n, objects) == 1
+        assert all(isinstance(x, float) for x in given)
+        exact = max(abs(float(x) - y) / max(1.0, abs(y)) for x, y in zip(objects, given, strict=True))
+        assert exact < 1e-9
+    assert _inverted(2, [0.0] * 4) == 0
+
+
+def test_linear_equations_are_recognised():
+    assert is_linear(compile_method(heat(4, 1), "ambient:gauss2").kernel.loops[0])
+    assert is_linear(compile_method(heat(4, 1), "ambient:midpoint").kernel.loops[0])
+    for scene, method in (("dipole", "vcg:midpoint"), ("duffing", "ambient:gauss2")):
+        assert not is_linear(compiled(scene, method, FIXED_POINT).kernel.loops[0])

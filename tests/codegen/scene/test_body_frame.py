@@ -11,7 +11,7 @@ from codegen import scenes
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.expr import evaluate, walk
 from codegen.ir.number import Number
-from codegen.scene.body_frame import body_field
+from codegen.scene.body_frame import body_field, field_in_body
 from tests.strategies import hamiltonian_scene, top_scene
 
 D = PreciseDomain(0, 40)
@@ -53,6 +53,23 @@ def test_the_inertia_of_a_top_is_found():
     assert inverse == tuple(
         tuple(Number.rational(int(Rational(x).p), int(Rational(x).q)) for x in row) for row in expected
     )
+
+
+def test_small_energies_are_compared_too():
+    """The energy of the free rigid body is below 1 at some points of the comparison."""
+    body = scenes.load("free_rigid_body_attitude").body
+    read = {n.payload for n in walk([*body.velocity, *body.force]) if n.op == "sym"}
+    assert read == {"mu0", "mu1", "mu2"}
+    assert body.inverse[0][0] == Number.rational(3, 5)
+
+
+def test_a_field_without_hamiltonian_is_carried_to_the_body_frame():
+    """The torques of the actuated body act in the body, so the field in the body does not depend on q."""
+    scene = scenes.load("actuated_rigid_body")
+    q, mu = (block.symbols for block in scene.state)
+    velocity, force = field_in_body(scene.group, q, mu, scene.open_roots)
+    read = {n.payload for n in walk([*velocity, *force]) if n.op == "sym"}
+    assert read == {"mu0", "mu1", "mu2", "u0", "u1", "u2"}
 
 
 def test_an_inertia_fixed_in_space_is_no_constant_in_the_body():

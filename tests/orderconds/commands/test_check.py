@@ -131,7 +131,7 @@ def test_bad_input_exits_2_with_one_message_that_names_the_place(
     ("args", "said"),
     [
         (["no_such_file.toml"], "no_such_file.toml"),
-        ([""], "an empty name ''"),
+        ([""], "the argument '' is empty"),
         (["rk44"], "rk4"),
         (["rk4", "--family", "vgc"], "vcg"),
         (["rk4", "--family", "rk(2)"], "rk"),

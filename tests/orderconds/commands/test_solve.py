@@ -123,10 +123,13 @@ def test_nothing_found_says_what_was_tried() -> None:
         ("vcf --stages 2 --order 4 --explicit --symmetric", "--explicit with --symmetric"),
         ("rk --stages 2 --order 2 -o nowhere/found.toml", "no such folder"),
         ("rk --stages 2 --order 2 --fix a21=sqrt(2)", "not linear"),
-        ("rk --stages 2 --order 2 -o found.toml --checkpoint ./found.toml", "the file of --output"),
+        (
+            "rk --stages 2 --order 2 -o found.toml --checkpoint ./found.toml",
+            "this is also the file of --output",
+        ),
         ("symplectic_rk --stages 2 --order 2 --explicit", "no methods with --explicit"),
         ("symplectic_rk --stages 2 --order 2 --fix a12=0 --fix a21=1", "both a12 and a21"),
-        ("vcg --stages 4 --order 12", "vcg: 51677 trees of order 7, and more at each further order"),
+        ("vcg --stages 4 --order 12", "vcg: there are 51677 trees of order 7, and still more"),
     ],
 )
 def test_bad_input_is_one_message(args: str, said: str) -> None:

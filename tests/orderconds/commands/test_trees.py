@@ -109,7 +109,10 @@ def test_a_misspelt_kind_is_told_the_right_one() -> None:
 def test_more_trees_than_anyone_reads_are_refused_before_the_first(words: list[str]) -> None:
     result = run("graded", "--order", "40", *words)
     assert result.exit_code == 2
-    assert "trees graded: 27487764474 members of order 40; expected at most 100000" in result.stderr
+    assert (
+        "trees graded: there are 27487764474 trees or words of order 40; expected at most 100000"
+        in result.stderr
+    )
 
 
 def test_their_number_has_no_such_bound() -> None:

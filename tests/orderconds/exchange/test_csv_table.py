@@ -39,7 +39,7 @@ def test_the_order_of_embedded_weights_is_computed_where_a_table_states_none() -
 
 
 def test_a_plain_table_whose_nodes_are_not_row_sums_is_refused() -> None:
-    with pytest.raises(InputError, match="c_2 = 1/3, but row 2 of A sums to 1/2"):
+    with pytest.raises(InputError, match="c_2 = 1/3, but the sum of row 2 of A is 1/2"):
         from_data(read_data(b"0,0,0\n1/3,1/2,0\n,0,1\n", "csv", "x.csv"))
 
 

@@ -65,7 +65,7 @@ def test_a_pair_reads_back_as_written_and_misshapen_ones_are_refused():
     assert Tableau.loads(dumps(tableau)) == tableau
     with pytest.raises(TableauError, match="square A_hat"):
         Tableau.loads(VERLET.replace('A_hat = [["1/2"], ["1/2"]]', 'A_hat = [["1/2"]]'))
-    with pytest.raises(TableauError, match="one length"):
+    with pytest.raises(TableauError, match="same length"):
         Tableau.loads(VERLET.replace('b_hat = ["1/2", "1/2"]', 'b_hat = ["1/2"]'))
     with pytest.raises(TableauError, match="at most 2"):
         Tableau.loads(VERLET.replace('A_hat = [["1/2"]', 'A_hat = [["1/2", "0", "1"]'))

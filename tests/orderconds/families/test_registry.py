@@ -16,7 +16,7 @@ from orderconds.checking import claimable_families
 from orderconds.cli import program
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError, UnknownName
-from orderconds.families import Family
+from orderconds.families import Family, registry
 from orderconds.families.base import expect
 from orderconds.formula import coefficient, index_sum, product
 from orderconds.proof.implications import consequences
@@ -259,3 +259,11 @@ def test_slgi_is_vrkmk_without_brackets_and_ambient_is_rk(name: str) -> None:
 def test_dexp_cut_after_r_brackets_has_order_r_plus_two_at_least(cutoff: int) -> None:
     (found,) = check("gauss3", family=f"vrkmk_pade({cutoff})").orders
     assert found.order >= cutoff + 2
+
+
+def test_a_module_of_the_list_that_registers_no_family_is_an_error_with_the_reason(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setitem(registry.BUILT_IN, "absent", "orderconds.families.memo")
+    with pytest.raises(AssertionError, match=r"orderconds\.families\.memo .* @register"):
+        families.get("absent")

@@ -153,7 +153,9 @@ def test_digits_that_are_not_the_solution_rounded_fail(digits: str, right: str) 
     report = check(Tableau.loads(midpoint(digits)))
     assert report.verdict == "fails"
     (broken,) = report.broken_claims
-    assert broken.startswith(f"the decimal a = {digits}~ is not the solution, which rounds to {right}~")
+    assert broken.startswith(
+        f"the decimal a = {digits}~ is not correctly rounded: the solution rounds to {right}~"
+    )
 
 
 def test_embedded_orders_carry_a_certificate() -> None:

@@ -73,7 +73,7 @@ def test_one_unit_more_in_a_digit_is_no_solution() -> None:
     report = check(Tableau.loads(text("cg4a").replace(digits, changed)), family="cg")
     assert report.proof is None
     assert report.verdict == "fails"
-    assert "no proof: the box is not mapped into itself" in report.broken_claims[0]
+    assert "no proof: Krawczyk's operator does not map the box into itself" in report.broken_claims[0]
 
 
 def test_equations_that_hold_whatever_the_decimals_are_do_not_count() -> None:
@@ -150,7 +150,7 @@ def test_the_digits_that_a_source_prints_are_refined_and_recorded() -> None:
 
 def test_refining_what_solves_nothing_is_refused() -> None:
     wrong = text("cg4a").replace('b1 = "0.1', 'b1 = "0.9')
-    with pytest.raises(NotProved, match="leaves the decimals"):
+    with pytest.raises(NotProved, match="moves away from the decimals"):
         refine(wrong)
 
 

@@ -21,7 +21,7 @@ def test_the_zero_of_a_regular_system_is_enclosed_to_the_working_precision() -> 
 
 
 def test_a_box_beside_the_zero_gives_no_proof() -> None:
-    with pytest.raises(NotProved, match="not mapped into itself"):
+    with pytest.raises(NotProved, match="does not map the box into itself"):
         enclose(circle_and_line, [arb(0.70, 1e-3), arb(0.70, 1e-3)], 300)
 
 

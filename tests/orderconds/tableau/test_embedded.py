@@ -101,7 +101,7 @@ def test_an_embedded_update_that_is_the_update_is_refused(product: str) -> None:
         .read_text(encoding="utf-8")
         .replace("[claims]", f"[embedded]\norder = 3\nexp = {product}\n[claims]")
     )
-    with pytest.raises(TableauError, match="embedded: an embedded row equal to the main one"):
+    with pytest.raises(TableauError, match="embedded: an embedded row that is equal to the main row"):
         Tableau.loads(text)
 
 

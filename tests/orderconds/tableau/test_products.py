@@ -161,15 +161,19 @@ MALFORMED = {
     ),
     "gamma of a pair": (
         PAIR + 'gamma = ["1"]\nalpha = ["1"]\nbeta = ["0"]\n',
-        "gamma with base",
+        "base = adjoint-pair with the key gamma",
         "alpha and beta",
     ),
-    "a pair without beta": (PAIR + 'alpha = ["1"]\n', "no beta", "alpha and beta"),
-    "beta too short": (PAIR + 'alpha = ["1", "2"]\nbeta = ["0"]\n', "beta: 1 entries for 2", "one length"),
+    "a pair without beta": (PAIR + 'alpha = ["1"]\n', "without the key beta", "alpha and beta"),
+    "beta too short": (
+        PAIR + 'alpha = ["1", "2"]\nbeta = ["0"]\n',
+        "beta has 1 entries, alpha has 2",
+        "same length",
+    ),
     "alpha of a symmetric base": (
         'name = "t"\nfamily = "composition"\nbase = "symmetric-2"\nalpha = ["1"]\n',
-        "no gamma",
-        "gamma with base symmetric-2",
+        "base = symmetric-2 without the key gamma",
+        "the key gamma for base symmetric-2",
     ),
     "another base": ('name = "t"\nfamily = "composition"\nbase = "euler"\n', "base", ""),
     "a node beyond c": (MAGNUS + 'exponents = [{ "3" = 1 }]\n', "the node 3", "1 to 2"),
@@ -200,7 +204,7 @@ MALFORMED = {
     "a product in an exponential": (MAGNUS + 'exponents = [{ "1*2" = 1 }]\n', "the product '1*2'", "cay"),
     "a product that leaves the algebra": (
         MAGNUS + 'map = "cay"\nexponents = [{ "1*2" = 1 }]\n',
-        "leaves quadratic groups",
+        "that is not in the Lie algebra of every quadratic group",
         "opposite",
     ),
     "no exponents": (MAGNUS + "exponents = []\n", "0 exponents", "1 to 200"),
@@ -272,7 +276,7 @@ def test_without_claims_the_format_names_the_family() -> None:
         ("magnus", MAGNUS + 'map = "cay"\nexponents = [{ "1" = 1 }]', "use the family 'cayley'"),
         ("cayley", MAGNUS + 'exponents = [{ "1" = 1 }]', "use the family 'magnus'"),
         ("fer", MAGNUS + 'exponents = [{ "1" = 1 }, { "[1,2]" = 1 }]', "last exponent"),
-        ("rk", MAGNUS + 'exponents = [{ "1" = 1 }]', "is no Runge-Kutta method"),
+        ("rk", MAGNUS + 'exponents = [{ "1" = 1 }]', "is not a Runge-Kutta method"),
         ("magnus", SPLITTING + 'step = [["T", 1]]', "cannot be read in family magnus"),
     ],
 )

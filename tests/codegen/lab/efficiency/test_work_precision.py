@@ -22,7 +22,7 @@ from codegen.lab.efficiency.adaptive_candidate import AdaptiveCandidate
 from codegen.lab.efficiency.bench import Bench, bench, table
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
 from codegen.lab.efficiency.ranking import places, seconds_to
-from codegen.lab.efficiency.work_precision import Candidate, Row, measure_rows
+from codegen.lab.efficiency.work_precision import Candidate, Row, measure_rows, monotone
 from codegen.lab.measurement_cache import MeasurementCache
 from codegen.lab.peers import PeerFailed, Prepared, find
 from codegen.lab.reference import Reference, cached_reference
@@ -310,3 +310,20 @@ def test_a_contestant_and_a_peer_have_one_face(body: Bench) -> None:
     candidate: Candidate = body.candidates[-1]
     assert candidate.target == "peer"
     assert isinstance(find(["c-dop853"])[0].prepare(body.scene, 1e-6), Prepared)
+
+
+def test_times_in_the_wrong_order_are_measured_again() -> None:
+    def row(steps: float, seconds: float) -> Row:
+        return Row("s", "m", "c", steps, steps=int(steps), error=1e-3, seconds=seconds)
+
+    asked: list[float] = []
+
+    def measure(control: float) -> Row:
+        asked.append(control)
+        return row(control, control)
+
+    rows = [row(8, 8.0), row(16, 40.0), row(32, 32.0), row(64, 64.0)]
+    assert [r.seconds for r in monotone(rows, measure, (16, 32, 64))] == [8.0, 16.0, 32.0, 64.0]
+    assert asked == [16, 32]
+    failed = [replace(rows[0], seconds=None, error=None, failure="no"), *rows[2:]]
+    assert monotone(failed, measure, (8, 16)) == failed

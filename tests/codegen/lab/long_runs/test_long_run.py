@@ -8,16 +8,20 @@ import random
 
 import pytest
 from click.testing import CliRunner
+from sympy import Matrix, Rational, sqrt, symbols
 
 from codegen import emitter
 from codegen.commands.longrun import command
 from codegen.emitter import compile_method
 from codegen.errors import MethodError
+from codegen.groups import LeftMultiplication, Rn
+from codegen.ir.domain import NotConverged
 from codegen.lab.invariants import functions
 from codegen.lab.long_runs.drift import fit
 from codegen.lab.long_runs.long_run import LongRun, long_run
 from codegen.lab.long_runs.symplecticity import symplectic_defect
 from codegen.lab.runner import Emitted
+from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.errors import InputError
 
 
@@ -269,3 +273,205 @@ def test_rounding_that_grows_beyond_its_usual_bound_is_still_rounding():
     assert manifold.drift.largest > steps * 2.0**-52
     assert manifold.drift.law == "rounding"
     assert kept(run, "energy").drift.law != "rounding"
+
+
+def laws(*words: str) -> dict[tuple[str, str], dict[str, object]]:
+    """Return the quantities that ``longrun --json`` prints, by method and name."""
+    arguments = [*words, "--one-way", "--no-rounding", "--json"]
+    done = CliRunner().invoke(command, arguments, standalone_mode=False)
+    assert done.exception is None
+    return {(run["method"], k["name"]): k | run for run in json.loads(done.output) for k in run["kept"]}
+
+
+def test_table_2_1_is_reproduced():
+    """Marthinsen's thesis: RKMK with theta = 0 drifts; the symplectic methods and theta = 1/2 do not."""
+    methods = ("rkmk(0):euler", "rkmk(0):midpoint", "slgi:euler", "slgi:midpoint")
+    options = [word for m in methods for word in ("-m", m)]
+    found = laws("heavy_top", *options, "--h", "0.05", "--steps", "2500")
+    energies = [found[m, "energy"] for m in methods]
+    assert [e["drifts"] for e in energies] == [True, False, False, False]
+    assert [e["law"] for e in energies] == ["lost", "bounded", "bounded", "bounded"]
+    assert energies[0]["largest"] == pytest.approx(4.2, abs=0.05)
+    defects = [e["symplectic_defect"] for e in energies]
+    assert min(defects[:2]) > 1e-9
+    assert max(defects[2:]) < 1e-12
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("heavy_top", "-m", "rkmk(0):euler", "--h", "0.05", "--steps", "2000"),
+        ("free_rigid_body_s3", "-m", "rkmk:heun", "--h", "0.015625", "--steps", "8000"),
+        ("linear_oscillator+u", "-m", "rk:lobatto3c2", "--h", "0.3", "--steps", "8000"),
+        ("duffing", "-m", "rkmk(0):euler", "--h", "0.02", "--steps", "10000"),
+    ],
+)
+def test_a_method_that_loses_the_energy_says_so(words):
+    done = CliRunner().invoke(command, [*words, "--one-way", "--no-rounding", "--json"])
+    assert "Traceback" not in done.output
+    (run,) = json.loads(done.output)
+    energy = next(k for k in run["kept"] if k["name"] == "energy")
+    assert (energy["law"], energy["drifts"]) == ("lost", True)
+
+
+def test_a_slow_drift_beside_a_large_oscillation_is_a_drift():
+    deviations = [1e-6 * math.sin(2 * math.pi * k / 17) + 1e-10 * k for k in range(1000)]
+    found = fit([float(k) for k in range(1, 1001)], deviations)
+    assert found.exponent < 0.1
+    assert found.slope == pytest.approx(1e-10, rel=0.1)
+    assert found.law == "drift"
+
+
+@pytest.mark.parametrize("period", [300, 700, 1000, 1190])
+@pytest.mark.parametrize("phase", [0.0, 0.8, math.pi / 2])
+def test_a_slow_modulation_is_no_drift(period, phase):
+    found = law_of(
+        [1e-6 * (math.sin(2 * math.pi * k / period + phase) - math.sin(phase)) for k in range(1000)]
+    )
+    assert found in ("bounded", "too short to tell")
+
+
+@pytest.mark.parametrize("begin", [800, 950, 990, 995])
+def test_growth_that_starts_late_is_not_bounded(begin):
+    deviations = [1e-9 * math.sin(k) + max(0.0, 1e-9 * (k - begin)) for k in range(1, 1001)]
+    assert law_of(deviations) not in ("bounded", "exact", "rounding")
+
+
+def test_a_random_walk_is_rarely_called_bounded():
+    wrong = 0
+    for seed in range(100):
+        draw, value, series = random.Random(seed), 0.0, []
+        for _ in range(1000):
+            value += draw.gauss(0, 1e-6)
+            series.append(value)
+        wrong += law_of(series) == "bounded"
+    assert wrong <= 5
+
+
+def test_noise_is_bounded():
+    noise = [random.Random(seed) for seed in range(50)]
+    assert {law_of([draw.gauss(0, 1e-6) for _ in range(1000)]) for draw in noise} == {"bounded"}
+
+
+@pytest.mark.parametrize(("level", "law"), [(0.3, "drift"), (0.6, "lost"), (0.99, "lost")])
+def test_what_saturates_is_fitted_before_it_saturates(level, law):
+    found = fit([float(k) for k in range(1, 1001)], [-level * (1 - math.exp(-k / 100)) for k in range(1000)])
+    assert found.until == pytest.approx(100 * math.log(10), abs=5)
+    assert found.slope < -level / 500
+    assert found.law == law
+
+
+def test_an_oscillation_that_returns_to_zero_does_not_saturate():
+    assert fit([float(k) for k in range(1, 401)], [1 - math.cos(k) for k in range(400)]).until is None
+    alternating = [0.3 * (-1) ** k for k in range(400)]
+    assert fit([float(k) for k in range(1, 401)], alternating).until is None
+
+
+def test_a_quantity_that_saturates_within_the_first_samples_is_fitted_by_steps():
+    """The energy of the heavy top is lost in five steps; a sample is 20 steps long."""
+    run = long_run(compile_method("heavy_top", "rkmk(0):euler"), 0.05, 20_000, back=False)
+    drift = kept(run, "energy").drift
+    assert drift.until is not None
+    assert drift.until < 1.0
+    assert drift.slope > 0
+
+
+def scene_of(field, start, invariants, span=(0, 1)):
+    """A field on R^n with invariants; ``field`` and ``invariants`` take the coordinates."""
+    y = Matrix(symbols(f"y0:{len(start)}", real=True))
+    return FieldScene(
+        group=Rn(len(start)),
+        action=LeftMultiplication(),
+        y=y,
+        f=Matrix(field(y)),
+        y0=Matrix(start),
+        span=span,
+        name="s",
+        invariants={name: f(y) for name, f in invariants.items()},
+    )
+
+
+def test_an_invariant_that_is_zero_is_lost_relative_to_its_terms():
+    """x p_y - y p_x vanishes on a line through the origin; Lie-Euler leaves it alone, the energy grows."""
+    oscillator = scene_of(
+        lambda y: [y[1], -y[0]],
+        [1, 1],
+        {"difference": lambda y: y[0] ** 2 + y[1] ** 2 - 2, "energy": lambda y: y[0] ** 2 + y[1] ** 2},
+    )
+    run = long_run(compile_method(oscillator, "ambient:euler"), 0.05, 4000, back=False)
+    assert {k.drift.law for k in run.kept} == {"lost"}
+    good = long_run(compile_method(oscillator, "ambient:midpoint"), 0.05, 4000, back=False)
+    assert {k.drift.law for k in good.kept} == {"rounding"}
+
+
+def test_a_quantity_near_zero_is_not_lost_by_rounding():
+    nearly = scene_of(
+        lambda y: [y[1], -y[0]],
+        [1, 1],
+        {"difference": lambda y: y[0] ** 2 + y[1] ** 2 - 2 + Rational(1, 10**13)},
+    )
+    run = long_run(compile_method(nearly, "ambient:midpoint"), 0.05, 4000, back=False)
+    assert kept(run, "difference").drift.law == "rounding"
+    assert kept(run, "difference").drift.largest < 1e-11
+
+
+def test_a_small_truncation_error_is_no_rounding():
+    """A drift of 1e-12 in all is less than one rounding error a step, but the exact step has it as well."""
+    oscillator = scene_of(lambda y: [y[1], -y[0]], [1, 1], {"energy": lambda y: y[0] ** 2 + y[1] ** 2})
+    h = 0.0045  # RK4 loses h^6/72 of the energy in a step
+    run = long_run(compile_method(oscillator, "ambient:rk4"), h, 20_000, back=False)
+    energy = kept(run, "energy").drift
+    assert energy.largest < 20_000 * 2.0**-52
+    assert energy.law != "rounding"
+
+
+def test_a_backward_run_and_a_span_that_is_no_multiple_of_the_step_have_the_same_laws():
+    made = compile_method("free_rigid_body", "cf:cf4")
+    for h in (-0.1, 0.0973):
+        energy = kept(long_run(made, h, 2345, back=False), "energy").drift
+        assert (energy.law, energy.is_drift) == ("drift", True)
+
+
+def kepler():
+    """Kepler's problem in the plane, eccentricity 0.9, from the pericentre."""
+    q, p = Rn(2).point("q"), Rn(2).dual("p")
+    return HamiltonianScene(
+        name="kepler",
+        group=Rn(2),
+        q=q,
+        mu=p,
+        H=p.dot(p) / 2 - 1 / sqrt(q.dot(q)),
+        q0=[Rational(1, 10), 0],
+        mu0=Matrix([0, sqrt(19)]),
+        span=(0, 5),
+    )
+
+
+def test_the_symplectic_defect_is_the_largest_of_the_run():
+    """RK4 leaves the orbit in the first revolution; far away its steps look symplectic."""
+    scene, h = kepler(), 0.05
+    run = long_run(compile_method(scene, "cf:cf4"), h, 2000, back=False)
+    start = symplectic_defect(
+        compile_method(scene, "cf:cf4"), Emitted(compile_method(scene, "cf:cf4")).initial, h
+    )
+    assert start > 1.0
+    assert run.symplectic is not None
+    assert run.symplectic >= start
+
+
+def test_a_defect_is_measured_where_fixed_point_iteration_diverges():
+    run = long_run(compile_method("linear_oscillator+u", "vcg:triple_jump"), 1.5, 400, back=False)
+    assert run.failure or run.unmeasured or run.symplectic is not None
+    stiff = long_run(compile_method("heavy_top", "slgi:midpoint"), 0.1, 400, back=False)
+    assert stiff.failure or stiff.unmeasured or (stiff.symplectic is not None and stiff.symplectic < 1e-10)
+
+
+def test_a_defect_that_is_not_measured_has_a_reason(monkeypatch):
+    def fail(*arguments, **options):
+        raise NotConverged("stage 1 did not converge")
+
+    monkeypatch.setattr("codegen.lab.long_runs.symplecticity.precise_step", fail)
+    done = CliRunner().invoke(
+        command, ["dipole", "-m", "vcg:midpoint", "--steps", "200", "--one-way", "--no-rounding"]
+    )
+    assert "symplectic defect: not measured: stage 1 did not converge" in done.output

@@ -6,9 +6,11 @@ import random
 from dataclasses import replace
 
 import pytest
+from sympy import Matrix, symbols
 
 from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError
+from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.kernel import Kernel
@@ -17,6 +19,7 @@ from codegen.lab.long_runs.compensated import CARRY, Increments, compensated, wi
 from codegen.lab.long_runs.rounding_growth import STARTS, TIMES, _growth, rounding_growth
 from codegen.lab.runner import Emitted
 from codegen.loader import load
+from codegen.scene import FieldScene
 
 METHODS = [("free_rigid_body", "cf:cf4"), ("dipole", "cf:cf4"), ("linear_oscillator", "splitting:strang")]
 
@@ -121,3 +124,20 @@ def test_each_exponent_has_its_law(exponent, law):
     found = _growth("radius", False, counts, members)
     assert found.law == law
     assert abs(found.exponent - exponent) <= max(found.half_width, 0.1)
+
+
+def test_the_growth_in_a_quantity_near_zero_is_relative_to_its_terms():
+    y = Matrix(symbols("y0:2", real=True))
+    scene = FieldScene(
+        group=Rn(2),
+        action=LeftMultiplication(),
+        y=y,
+        f=Matrix([y[1], -y[0]]),
+        y0=Matrix([1, 1]),
+        span=(0, 1),
+        name="s",
+        invariants={"difference": y[0] ** 2 + y[1] ** 2 - 2},
+    )
+    growths = rounding_growth(compile_method(scene, "ambient:midpoint"), 0.05, 512)
+    assert {g.quantity for g in growths} == {"difference"}
+    assert all(g.sizes[-1] < 1e-12 for g in growths)

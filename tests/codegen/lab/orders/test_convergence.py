@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
+from click.testing import CliRunner
 from sympy import Matrix, Rational, cos, sin, symbols
 
 from codegen.certify import CertifiedOrder
-from codegen.emitter import compile_method
+from codegen.commands.converge import command
+from codegen.emitter import Compiled, compile_method
+from codegen.errors import MethodError
 from codegen.groups import SO3, Rotation
 from codegen.ir.number import Number
 from codegen.ir.operations import Advance
 from codegen.ir.program import Assign
 from codegen.ir.values import Coefficient
+from codegen.lab import runner as lab_runner
+from codegen.lab.orders import convergence
 from codegen.lab.orders.convergence import Convergence, converge
 from codegen.lab.reference import Reference, reference
 from codegen.lab.runner import Interpreted, runner
@@ -114,10 +120,65 @@ def test_thirty_digits_decide_what_rounding_hides_from_doubles(exact: Exact) -> 
     assert found.refinement.observed == pytest.approx(6, abs=0.15)
 
 
-def test_an_order_that_rounding_hides_is_undecided_and_says_how_to_see_it(exact: Exact) -> None:
+def test_an_order_that_rounding_hides_is_undecided_and_says_how_to_see_it(
+    exact: Exact, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(convergence, "order_of_short_steps", lambda compiled, stated: None)
     found = measure(exact, "free_rigid_body", "rkmk(4):gauss3", 6)
     assert found.verdict == "undecided"
     assert "--digits 40" in found.sentence()
+
+
+@pytest.mark.parametrize(
+    ("scene", "method", "order"),
+    [
+        ("dipole", "ambient:dop853", 8),
+        ("free_rigid_body", "rkmk(6):dop853", 8),
+        ("free_rigid_body", "rkmk(4):gauss3", 6),
+    ],
+)
+def test_very_short_steps_confirm_an_order_that_rounding_hides(
+    scene: str, method: str, order: int, exact: Exact
+) -> None:
+    found = measure(exact, scene, method, order)
+    assert found.verdict == "holds", found.sentence()
+    assert found.refinement.short == pytest.approx(order, abs=0.01)
+    for other in (order - 1, order + 1):
+        assert replace(found, stated=CertifiedOrder(other, "exact")).verdict != "holds"
+
+
+@pytest.mark.parametrize(("method", "order", "seen"), [("cf:cf4", 4, 5.1), ("slgi:euler", 1, 2.0)])
+def test_a_small_parameter_that_hides_the_leading_term_is_no_failure(
+    method: str, order: int, seen: float, exact: Exact
+) -> None:
+    """The potential energy of the heavy top is 10^-5 of the kinetic energy."""
+    found = measure(exact, "heavy_top", method, order)
+    assert found.observed == pytest.approx(seen, abs=0.1)
+    assert found.verdict == "holds", found.sentence()
+    assert "small parameter" in found.sentence()
+    words = ["heavy_top", "-m", method, "--stated", str(order + 1), "--json"]
+    (wrong,) = json.loads(CliRunner().invoke(command, words, standalone_mode=False).output)
+    assert (wrong["verdict"], wrong["stated_order"]) == ("fails", order + 1), wrong["reason"]
+
+
+def test_a_method_that_cannot_be_emitted_is_a_row_and_the_others_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    real = lab_runner.compile_method
+
+    def refuse(scene: Problem, method: Method) -> Compiled:
+        if method.label == "cf:cf4":
+            raise MethodError("no lowering")
+        return real(scene, method)
+
+    monkeypatch.setattr(lab_runner, "compile_method", refuse)
+    done = CliRunner().invoke(
+        command, ["free_rigid_body", "-m", "cf:cf4", "-m", "cg:cg3", "--json"], standalone_mode=False
+    )
+    assert done.exception is None
+    assert done.return_value == 1
+    refused, measured = json.loads(done.output)
+    assert (refused["method"], refused["verdict"], refused["failure"]) == ("cf:cf4", "fails", "no lowering")
+    assert (measured["method"], measured["verdict"], measured["failure"]) == ("cg:cg3", "holds", "")
+    assert refused.keys() == measured.keys()
 
 
 def swapped(method: Method) -> Method:

@@ -1,0 +1,119 @@
+"""The order of the error estimate of an embedded method, compared with the order of the error.
+
+The estimate is the difference of the results of two rows. The estimate is called blind if it has a higher
+order than the local error, that is, if both rows have the same leading error term. RKMK methods with a small
+cut-off are an example: the same brackets are missing in both rows. If the orders of the rows differ, the
+estimate is not blind. Otherwise the orders of the estimate and of the local error are computed from very
+short steps in 100 digits. The local error is measured by the difference between one step of size h and two
+steps of size h/2.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from codegen.certify import certified_order
+from codegen.errors import MethodError
+from codegen.ir.domain import PreciseDomain, Scalar
+from codegen.ir.interpret import flatten, interpret
+from codegen.lower import lower, problem_for
+from codegen.method import Method
+from codegen.scene.problem import Problem
+
+DIGITS = 100
+SMALLEST = 60
+"""The local error in the shortest step is about 10^-SMALLEST."""
+
+RATIO = 8
+HIGHER = 0.5
+"""An estimate is blind if its order exceeds the order of the local error by more than HIGHER."""
+
+LARGEST_CUTOFF = 12
+
+State = tuple[Scalar, ...]
+
+
+def order_of_estimate(method: Method, scene: Problem) -> int:
+    """Return the power of h in the error estimate of an adaptive method.
+
+    :class:`MethodError` is raised if the method has no embedded row, or if the estimate is blind on the
+    scene.
+    """
+    embedded = method.embedded()
+    if embedded is None:
+        raise MethodError(f"an estimate of the error for {method.label}", expected="an adaptive method")
+    order, lower_order = (certified_order(m, scene).order for m in (method, embedded))
+    if order == lower_order and is_blind(method, embedded, scene, order):
+        raise MethodError(
+            f"no error estimate for {method.label}: both rows have order {order} and the same leading error",
+            where=scene.name,
+            expected="rows of different orders",
+            hint=_hint(method, scene),
+        )
+    return 1 + min(order, lower_order)
+
+
+def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
+    """Whether the difference of two rows has a higher order than the local error, from very short steps.
+
+    ``order`` is the order of both rows. An estimate that is always zero is blind. If the steps cannot be
+    computed, the result is False.
+    """
+    h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
+    main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))
+    try:
+        start = problem_for(scene, method).initial(PreciseDomain(0, DIGITS))
+        estimate, error = [], []
+        for size in (h, RATIO * h):
+            one = main(start, 0.0, size)
+            middle = main(start, 0.0, size / 2)
+            estimate.append(_gap(one, other(start, 0.0, size)))
+            error.append(_gap(one, main(middle, size / 2, size / 2)))
+    except (ArithmeticError, ValueError):
+        return False
+    if not all(error):
+        return False
+    return not all(estimate) or _slope(estimate) > _slope(error) + HIGHER
+
+
+def _stepper(method: Method, scene: Problem) -> Callable[[Sequence[Scalar], float, float], State]:
+    """Return a function that computes a step of a method in many digits; the arguments are a state and a time
+    after the start of the span."""
+    problem, program = problem_for(scene, method), lower(scene, method)
+
+    def step(state: Sequence[Scalar], elapsed: float, h: float) -> State:
+        domain = PreciseDomain(h, DIGITS)
+        t = domain.rational(*scene.span[0].as_integer_ratio()) + domain.context.mpf(elapsed)
+        values: dict[str, Scalar] = {"t": t}
+        place = 0
+        for field in problem.state:
+            values[field.name] = tuple(state[place : place + len(field.symbols)])
+            place += len(field.symbols)
+        results = interpret(program, problem, domain, {v.name: values[v.name] for v in program.inputs})
+        return tuple(x for field in problem.state for x in flatten(field.kind, results[field.name]))
+
+    return step
+
+
+def _gap(a: State, b: State) -> Scalar:
+    return max(abs(x - y) for x, y in zip(a, b, strict=True))
+
+
+def _slope(gaps: Sequence[Scalar]) -> float:
+    return math.log(float(gaps[1] / gaps[0])) / math.log(RATIO)
+
+
+def _hint(method: Method, scene: Problem) -> str:
+    """Return a hint for the user that names the smallest larger cut-off for which the estimate is not
+    blind."""
+    if method.cutoff is not None:
+        for cutoff in range(method.cutoff + 1, LARGEST_CUTOFF + 1):
+            longer = replace(method, cutoff=cutoff)
+            try:
+                order_of_estimate(longer, scene)
+            except MethodError:
+                continue
+            return f"write {longer.label}"
+    return "use another tableau with an embedded row"

@@ -1,0 +1,65 @@
+"""The order of a step that is far shorter than every time scale of the scene.
+
+A small parameter can hide the leading term of the error: with e << 1, the error e h^p + h^(p+1) has the slope
+p + 1 at every usual step size. In 100 digits a step can be so short that the leading term dominates. The
+difference between one step of h and two steps of h/2 is (1 - 2^-p) C h^(p+1), where C h^(p+1) is the local
+error, so it shows the order p without a reference solution.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+from codegen.emitter import Optimised
+from codegen.ir.domain import PreciseDomain
+from codegen.lab.number_types import Scalar
+from codegen.lab.stability.extreme_steps import precise_step
+from codegen.lower import problem_for
+
+DIGITS = 100
+SMALLEST = 70
+"""The shortest steps have local errors of about 10^-SMALLEST."""
+
+STEPS, RATIO = 3, 8
+"""Number of step sizes, and the ratio of neighbouring step sizes."""
+
+AGREEMENT = 0.1
+"""Largest difference of the two slopes."""
+
+SWEEPS = 400
+
+
+def order_of_short_steps(compiled: Optimised, stated: int) -> float | None:
+    """Return the order of very short steps from the initial state of the scene.
+
+    ``stated`` is the expected order; it determines the step sizes. None if the steps cannot be computed, if
+    the difference is zero, or if the slopes do not agree.
+    """
+    problem = problem_for(compiled.scene, compiled.method)
+    first, last = problem.span
+    power = -Fraction(SMALLEST, stated + 2)
+    h = float(last - first) * 10.0 ** float(power)
+    try:
+        sizes = [h * RATIO**k for k in range(STEPS)]
+        state = problem.initial(PreciseDomain(0, DIGITS))
+        gaps = [_gap(compiled, state, float(first), size) for size in sizes]
+        slopes = [math.log(float(b / a)) / math.log(RATIO) - 1 for a, b in pairwise(gaps)]
+    except (ArithmeticError, ValueError):
+        return None
+    return slopes[0] if max(slopes) - min(slopes) <= AGREEMENT else None
+
+
+def _gap(compiled: Optimised, state: Sequence[Scalar], first: float, size: float) -> Scalar:
+    """Return the largest difference of a coordinate after one step and after two half steps."""
+    context = PreciseDomain(0, DIGITS).context
+    t, h = context.mpf(first), context.mpf(size)
+
+    def step(start: Sequence[Scalar], time: Scalar, length: Scalar) -> list[Scalar]:
+        return precise_step(compiled, start, time, length, limit=SWEEPS, digits=DIGITS)
+
+    one = step(state, t, h)
+    two = step(step(state, t, h / 2), t + h / 2, h / 2)
+    return max(abs(a - b) for a, b in zip(one, two, strict=True))
