@@ -80,7 +80,7 @@ class Prediction:
         """Return the predicted number of steps for an error; infinite if the interpreted runs failed."""
         if not math.isfinite(self.error):
             return math.inf
-        return max(1.0, self.steps * (self.error / error) ** (1 / max(self.order, 1)))
+        return max(1.0, self.steps * math.pow(self.error / error, 1 / max(self.order, 1)))
 
     def seconds(self, error: float) -> float:
         """Return the predicted CPU seconds of a run that reaches an error."""
@@ -96,7 +96,7 @@ class Prediction:
     def error_within(self, seconds: float) -> float:
         """Return the predicted error of a run that takes some seconds; infinite if a step takes longer."""
         steps = seconds / (1e-9 * (CALL + self.once + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
-        return self.error * (self.steps / steps) ** self.order if steps >= 1 else math.inf
+        return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
 
 
 class _Counted(FloatDomain):

@@ -26,7 +26,8 @@ from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
 from codegen.lab.efficiency.race import Entry, Racer, Result, entry
 from codegen.lab.efficiency.requirements import Features
-from codegen.lab.long_runs.long_run import long_run
+from codegen.lab.long_runs.drift import LOST
+from codegen.lab.long_runs.trajectory import record
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lower import families_for, lowering
@@ -59,9 +60,6 @@ BUDGET = 50.0
 
 LONG_STEPS = 2000
 """Steps of the long run that a symplectic recommendation must survive."""
-
-LOST = ("lost",)
-"""Verdicts of a long run that exclude a recipe from a need that includes long times."""
 
 
 @dataclass(frozen=True)
@@ -447,10 +445,11 @@ class Search:
 
     def _loses(self, result: Result) -> bool:
         """Whether a conserved quantity is lost, or a step fails, in a long run with the step of a result."""
-        first, last = map(float, self.problem.span)
-        compiled = compile_method(self.problem, _method(self.problem, result.entry.recipe))
-        done = long_run(compiled, (last - first) / result.steps, LONG_STEPS, back=False)
-        return bool(done.failure) or any(k.drift.law in LOST for k in done.kept)
+        racer = Racer(self.problem, self.exact.state, result.entry)
+        h = (racer.last - racer.first) / result.steps
+        done = record(self.problem, racer.integrator, racer.initial, h, LONG_STEPS, racer.first)
+        largest = (max(s.peaks, default=0.0) / done.scales[name] for name, s in done.series.items())
+        return bool(done.failure) or any(x >= LOST for x in largest)
 
 
 def recommend(request: Request, progress: Progress = str) -> Recommendation:
