@@ -28,8 +28,9 @@ TURNS = 5
 
 def timed(scene: str, results: list[Result]) -> list[float]:
     """Return the least CPU seconds of several runs, timed alternately."""
-    problem = Request(scene, 1.0).problem()
-    racers = [Racer(problem, cached_reference(problem).state, r.entry) for r in results]
+    asked = Request(scene, 1.0)
+    exact = cached_reference(asked.problem())
+    racers = [Racer(asked.equations(r.entry.recipe.form), exact, r.entry) for r in results]
     for racer, result in zip(racers, results, strict=True):
         racer.error(result.control)
     turns = [[x.seconds(r.control) for x, r in zip(racers, results, strict=True)] for _ in range(TURNS)]

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from codegen.emitter import quoted
-from codegen.lower import families_for
+from codegen.lower import families_for, lowering
 from codegen.method import Method, with_estimate
+from codegen.scene.classical_forms import PRINTED, classical_forms
 from codegen.scene.problem import Problem
 from orderconds.families import Family, family_class
 from orderconds.tableau import RungeKutta, Tableau, available, find
-
-PRINTED = "printed"
-"""The equations of the scene as printed."""
 
 SEARCHED = 5
 """The search for the fewest brackets takes seconds from order six on, so such methods have a cut-off only."""
@@ -63,6 +61,17 @@ class Recipe:
 
 def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for a scene, from the named tableaux or from the whole library.
+
+    Families that integrate coordinates have a recipe for each classical form of the scene.
+    """
+    forms = [form.key for form in classical_forms(problem)]
+    for recipe in in_printed_form(problem, tableaux):
+        for form in forms if lowering(recipe.family).in_coordinates else forms[:1]:
+            yield replace(recipe, form=form)
+
+
+def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
+    """Yield the recipes for the equations of a scene as printed.
 
     On an abelian group, families that reduce to one classical family give the same methods; only the first
     of them is used. A recipe may still be refused when its method is compiled.

@@ -18,8 +18,9 @@ from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Assign, Program, Solve
 from codegen.ir.values import Kind, Var
-from codegen.lab.distance import distance
+from codegen.lab.efficiency.equations import Equations
 from codegen.lab.number_types import Scalar, Vector
+from codegen.lab.reference import Reference
 from codegen.lab.runner import split_state
 from codegen.lower import lower, lower_composed, problem_for
 from codegen.method import Method
@@ -120,11 +121,13 @@ class Bar:
 
     ``least`` are the least errors within these seconds of the methods of the next higher orders, by family
     and by whether they are explicit; the family '' is the least of all families.
+    ``steps`` is the number of steps of the first interpreted run.
     """
 
     error: float
     seconds: float = math.inf
     least: tuple[tuple[str, bool, float], ...] = ()
+    steps: int = FEW_STEPS
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
         """Whether a method whose step takes at least ``step_seconds`` cannot reach the bar.
@@ -143,10 +146,10 @@ class Bar:
 
 @dataclass
 class Predictor:
-    """Predicts recipes on one scene; the costs of its operations are computed once."""
+    """Predicts recipes for one form of a scene; the costs of its operations are computed once."""
 
-    scene: Problem
-    exact: Vector
+    equations: Equations
+    exact: Reference
     costs: dict[str, tuple[float, tuple[int, ...]]] = field(default_factory=dict)
 
     def predict(self, method: Method, order: int, bar: Bar) -> Prediction:
@@ -154,25 +157,26 @@ class Predictor:
 
         If the method cannot reach the bar, no step is interpreted and the error is infinite.
         """
-        problem = problem_for(self.scene, method)
-        program = lower_composed(self.scene, method) or lower(self.scene, method)
+        scene = self.equations.problem
+        problem = problem_for(scene, method)
+        program = lower_composed(scene, method) or lower(scene, method)
         for each in plain_passes(problem):
             program = each.run(program)
         once, sweep = self.cost(program, problem)
         explicit = not any(isinstance(s, Solve) for s in program.body)
         if bar.too_high(method.family, explicit, 1e-9 * (once + USUAL_SWEEPS * sweep)):
             return Prediction(method.label, order, method.family, explicit, once, sweep)
-        steps, error, sweeps = self._reached(program, problem)
+        steps, error, sweeps = self._reached(program, problem, bar.steps)
         return Prediction(method.label, order, method.family, explicit, once, sweep, sweeps, steps, error)
 
-    def _reached(self, program: Program, problem: Problem) -> tuple[int, float, float]:
+    def _reached(self, program: Program, problem: Problem, steps: int) -> tuple[int, float, float]:
         """Return a number of steps with a small error, the error, and the sweeps of a step."""
-        size = max(1.0, math.hypot(*map(float, self.exact)))
-        steps, start, best = FEW_STEPS, time.process_time(), (FEW_STEPS, math.inf, 0.0)
-        while steps <= MANY_STEPS and time.process_time() - start < PATIENCE:
+        size = max(1.0, math.hypot(*map(float, self.exact.state)))
+        end, best = time.process_time() + PATIENCE, (FEW_STEPS, math.inf, 0.0)
+        while steps <= MANY_STEPS and time.process_time() < end:
             try:
-                state, sweeps = run(program, problem, steps)
-                error = distance(self.scene, state, self.exact)
+                state, sweeps = run(program, problem, steps, end)
+                error = self.equations.error(state, self.exact)
             except (ArithmeticError, ValueError):
                 error, sweeps = math.inf, 0.0
             if error < best[1]:
@@ -242,10 +246,11 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
 
-def run(program: Program, problem: Problem, steps: int) -> tuple[Vector, float]:
+def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
     """Return the state at the end of the span after equal steps, and the average sweeps of a step.
 
     Blocks are solved by fixed-point iteration only, because difference quotients would take too long.
+    ArithmeticError if the run is not finished when the process has used ``end`` CPU seconds.
     """
     first, last = problem.span
     domain = _Counted(float((last - first) / steps))
@@ -260,5 +265,7 @@ def run(program: Program, problem: Problem, steps: int) -> tuple[Vector, float]:
         state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
         if not all(map(math.isfinite, state)):
             raise ArithmeticError("a number is not finite")
+        if time.process_time() > end:
+            raise ArithmeticError("the run takes too long")
     blocks = sum(isinstance(s, Solve) for s in program.body) * max(1, len(program.substeps))
     return state, 2 * domain.swept[0] / steps / max(1, blocks)

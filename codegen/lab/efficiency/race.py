@@ -9,22 +9,23 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from codegen.artifact import Artifact
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, emit_compiled
 from codegen.ir.domain import FloatDomain
-from codegen.lab.distance import distance
 from codegen.lab.efficiency.candidates import Recipe
+from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.requirements import Features, features
 from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
+from codegen.lab.reference import Reference
 from codegen.lab.timing import samples
 from codegen.loader import Integrator, load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
-from codegen.scene.problem import Problem
+from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
 """Bisections of the number of steps or of the tolerance."""
@@ -67,7 +68,11 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     """Return a compiled recipe as an entry of the race."""
     order = certified_order(compiled.method, compiled.scene)
     artifact = emit_compiled(compiled, DEFAULT, order=order)
-    return Entry(recipe, artifact, features(compiled, artifact, recipe.label), compiled.method.label)
+    found = features(compiled, artifact, recipe.label)
+    if recipe.form != PRINTED:
+        # The coordinates of a form are a vector space, but the state of the scene is not.
+        found = replace(found, on_manifold=False)
+    return Entry(recipe, artifact, found, compiled.method.label)
 
 
 @dataclass(frozen=True)
@@ -94,10 +99,10 @@ class Result:
 
 @dataclass
 class Racer:
-    """One entry on a scene; ``exact`` is the reference at the end of the span."""
+    """One entry; ``equations`` are those of its form, ``exact`` is the reference at the end of the span."""
 
-    scene: Problem
-    exact: Vector
+    equations: Equations
+    exact: Reference
     entry: Entry
     least: float = math.inf
     errors: dict[float, float] = field(default_factory=dict)
@@ -105,8 +110,9 @@ class Racer:
 
     def __post_init__(self) -> None:
         self.integrator: Integrator = load(self.entry.artifact)
-        self.initial = list(self.scene.initial(FloatDomain(0.0)))
-        self.first, self.last = map(float, self.scene.span)
+        problem = self.equations.problem
+        self.initial = list(problem.initial(FloatDomain(0.0)))
+        self.first, self.last = map(float, problem.span)
 
     def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
         """Return the state and the number of steps of a run over a multiple of the span."""
@@ -126,7 +132,7 @@ class Racer:
         if control not in self.errors:
             try:
                 state, self.counts[control] = self.run(control)
-                self.errors[control] = distance(self.scene, state, self.exact)
+                self.errors[control] = self.equations.error(state, self.exact)
             except ArithmeticError:
                 self.errors[control] = math.inf
         return self.errors[control]
@@ -179,7 +185,7 @@ class Racer:
     def _at_rounding(self, error: float) -> bool:
         """Whether the last three refinements did not reduce an error that is near rounding."""
         values = list(self.errors.values())
-        size = max(1.0, math.hypot(*map(float, self.exact)))
+        size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
 
     def _finer(self, control: float) -> float:

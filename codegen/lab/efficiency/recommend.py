@@ -1,8 +1,8 @@
 """The search for the fastest recipe of the library that reaches an error and meets the needs.
 
 The search has three stages. First, each recipe is predicted by a few interpreted steps
-(:mod:`codegen.lab.efficiency.prediction`). Methods are dropped without a run if their steps take too long, or
-if methods of higher order are far from the error. Then recipes are emitted and raced in C in the order of their
+(:mod:`codegen.lab.efficiency.prediction`). Methods are dropped without a run if their steps take too long,
+or if methods of higher order are far from the error. Then recipes are emitted and raced in C in the order of their
 predicted times. The ratio of measured to predicted times of each kind of recipe corrects the later
 predictions. A recipe is left out if its corrected prediction exceeds the best measured time by a safety
 factor. Last, the leaders are timed again, with more repetitions.
@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import time
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, partial
@@ -23,6 +23,7 @@ from codegen.build import build
 from codegen.emitter import compile_method
 from codegen.errors import SceneError
 from codegen.lab.efficiency.candidates import Recipe, candidates
+from codegen.lab.efficiency.equations import Equations, all_equations
 from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
 from codegen.lab.efficiency.race import Entry, Racer, Result, entry
 from codegen.lab.efficiency.requirements import Features
@@ -32,6 +33,7 @@ from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lower import families_for, lowering
 from codegen.method import Method, parse
+from codegen.scene.classical_forms import PRINTED
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
 from orderconds.families import family_class
@@ -109,6 +111,10 @@ class Request:
         """Return the scene with the span of the request."""
         return _problem(self.scene, self.span)
 
+    def equations(self, form: str) -> Equations:
+        """Return the equations of the scene in a form."""
+        return _equations(self.scene, self.span, form)
+
     @property
     def long(self) -> bool:
         """Whether a need includes long times."""
@@ -119,7 +125,8 @@ class Request:
         kind = family_class(recipe.family)
         if "adaptive" in self.needs and not recipe.adaptive:
             return False
-        if "manifold" in self.needs and not (kind.keeps_manifold or problem.group.abelian):
+        kept = recipe.form == PRINTED and (kind.keeps_manifold or problem.group.abelian)
+        if "manifold" in self.needs and not kept:
             return False
         if "symplectic" not in self.needs:
             return True
@@ -213,6 +220,12 @@ def _problem(scene: str, span: tuple[Fraction, Fraction] | None) -> Problem:
     return problem if span is None else replace(problem, span=span)
 
 
+@cache
+def _equations(scene: str, span: tuple[Fraction, Fraction] | None, form: str) -> Equations:
+    (found,) = all_equations(_problem(scene, span), (form,))
+    return found
+
+
 def _method(problem: Problem, recipe: Recipe) -> Method:
     """Return the method of a recipe; MethodError if the scene or the family refuses it."""
     method = replace(parse(recipe.method, families_for(problem)), adaptive=recipe.adaptive)
@@ -233,22 +246,21 @@ def _predicted(shared: _Predicting, recipe: Recipe) -> Prediction:
     problem = shared.request.problem()
     try:
         method = replace(_method(problem, recipe), adaptive=False)
-        return _predictor(shared.request).predict(method, recipe.order, shared.bar)
+        return _predictor(shared.request, recipe.form).predict(method, recipe.order, shared.bar)
     except (InputError, ArithmeticError) as error:
         return Prediction(recipe.method, recipe.order, failure=str(error))
 
 
 @cache
-def _predictor(request: Request) -> Predictor:
-    problem = request.problem()
-    return Predictor(problem, cached_reference(problem).state)
+def _predictor(request: Request, form: str) -> Predictor:
+    return Predictor(request.equations(form), cached_reference(request.problem()))
 
 
 def _emitted(request: Request, recipe: Recipe) -> Entry | Failed:
     """Return a recipe as a compiled module in the cache; runs in a worker process."""
     problem = request.problem()
     try:
-        found = entry(recipe, compile_method(problem, _method(problem, recipe)))
+        found = entry(recipe, compile_method(problem, _method(problem, recipe), form=recipe.form))
         build(found.artifact.files)
     except (InputError, ArithmeticError) as error:
         return Failed(recipe, str(error))
@@ -265,7 +277,7 @@ class Search:
 
     request: Request
     progress: Progress = str
-    predictions: dict[str, Prediction] = field(default_factory=dict)
+    predictions: dict[tuple[str, str], Prediction] = field(default_factory=dict)
     ratios: dict[Kind, list[float]] = field(default_factory=lambda: defaultdict(list))
     results: list[Result] = field(default_factory=list)
     raced: set[Recipe] = field(default_factory=set)
@@ -312,19 +324,19 @@ class Search:
         """Predict all recipes until the part of the budget for predictions is used.
 
         The usual order for the error is first. The other orders follow by their distance from it, and within
-        an order, methods with few stages are first.
+        an order the families take turns, each with few stages first.
         """
-        methods = {r.method: replace(r, adaptive=False) for r in self.recipes}
+        methods = {(r.method, r.form): replace(r, adaptive=False) for r in self.recipes}
         usual = 2 - math.log10(self.request.error) / 2
         for order in sorted({r.order for r in methods.values()}, key=lambda p: (abs(p - usual), p)):
-            same = sorted((r for r in methods.values() if r.order == order), key=lambda r: r.stages)
+            same = in_turns(r for r in methods.values() if r.order == order)
             for k in range(0, len(same), GROUP):
                 self.progress(f"{self.problem.name}: predicting methods of order {order}")
                 bar = self._bar(order)
                 chosen = [r for r in same[k : k + GROUP] if not bar.hopeless(r.family)]
                 work = partial(_predicted, _Predicting(self.request, bar))
-                for prediction in in_processes(work, chosen):
-                    self.predictions[prediction.method] = prediction
+                for recipe, prediction in zip(chosen, in_processes(work, chosen), strict=True):
+                    self.predictions[recipe.method, recipe.form] = prediction
                     if self.spent > PREDICTING:
                         self.complete = False
                         return
@@ -335,17 +347,20 @@ class Search:
         seconds = 2 * SAFETY * min(times, default=math.inf)
         if not math.isfinite(seconds):
             return Bar(self.request.error)
+        # All methods need short steps on a fast scene, so that long steps need not be tried again.
+        steps = min(p.steps for p in self.predictions.values() if math.isfinite(p.error))
         least: dict[tuple[str, bool], float] = {}
-        for known in self.predictions.values():
-            if not known.failure and order < known.order <= order + 2:
-                for family in (known.family, ""):
-                    key = family, known.explicit
-                    least[key] = min(least.get(key, math.inf), known.error_within(seconds))
-        return Bar(self.request.error, seconds, tuple((*key, error) for key, error in least.items()))
+        for p in self.predictions.values():
+            if not p.failure and order < p.order <= order + 2:
+                for family in (p.family, ""):
+                    key = family, p.explicit
+                    least[key] = min(least.get(key, math.inf), p.error_within(seconds))
+        known = tuple((*key, error) for key, error in least.items())
+        return Bar(self.request.error, seconds, known, steps)
 
     def expected(self, recipe: Recipe) -> float:
         """Return the predicted seconds of a recipe, corrected by the ratio of its kind."""
-        prediction = self.predictions.get(recipe.method)
+        prediction = self.predictions.get((recipe.method, recipe.form))
         if prediction is None or prediction.failure:
             return math.inf
         seconds = prediction.seconds(self.request.error)
@@ -356,7 +371,7 @@ class Search:
 
     def kind(self, recipe: Recipe) -> Kind:
         """Return the kind of a recipe."""
-        prediction = self.predictions.get(recipe.method)
+        prediction = self.predictions.get((recipe.method, recipe.form))
         return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
 
     def _scale(self) -> float:
@@ -404,7 +419,7 @@ class Search:
         return chosen[:ROUND]
 
     def _unknown(self, recipe: Recipe) -> bool:
-        prediction = self.predictions.get(recipe.method)
+        prediction = self.predictions.get((recipe.method, recipe.form))
         return prediction is not None and not prediction.failure
 
     @property
@@ -412,12 +427,16 @@ class Search:
         """The best measured seconds so far."""
         return min((r.seconds for r in self.results if r.reached), default=math.inf)
 
+    def racer(self, found: Entry) -> Racer:
+        """Return a racer for an entry."""
+        return Racer(self.request.equations(found.recipe.form), self.exact, found)
+
     def _measure(self, found: Entry) -> None:
         """Race an entry and record the ratio of its kind."""
-        racer = Racer(self.problem, self.exact.state, found)
+        racer = self.racer(found)
         result = racer.reach(self.request.error, self.best)
         self.results.append(result)
-        predicted = self.predictions[found.recipe.method].seconds(self.request.error)
+        predicted = self.predictions[found.recipe.method, found.recipe.form].seconds(self.request.error)
         if math.isfinite(predicted):
             # A recipe that left the race is slower than the best by more than its safety factor.
             seconds = result.seconds if result.reached else max(predicted, 2 * SAFETY * self.best)
@@ -430,7 +449,7 @@ class Search:
         close = [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]
         again = []
         for result in close:
-            racer = Racer(self.problem, self.exact.state, result.entry)
+            racer = self.racer(result.entry)
             racer.error(result.control)
             seconds = racer.seconds(result.control, 0.004, 9)
             again.append(replace(result, seconds=min(seconds, result.seconds)))
@@ -445,11 +464,21 @@ class Search:
 
     def _loses(self, result: Result) -> bool:
         """Whether a conserved quantity is lost, or a step fails, in a long run with the step of a result."""
-        racer = Racer(self.problem, self.exact.state, result.entry)
+        racer = self.racer(result.entry)
         h = (racer.last - racer.first) / result.steps
         done = record(self.problem, racer.integrator, racer.initial, h, LONG_STEPS, racer.first)
         largest = (max(s.peaks, default=0.0) / done.scales[name] for name, s in done.series.items())
         return bool(done.failure) or any(x >= LOST for x in largest)
+
+
+def in_turns(recipes: Iterable[Recipe]) -> list[Recipe]:
+    """Return recipes with few stages first, so that families and forms take turns."""
+    places: dict[tuple[str, str], int] = defaultdict(int)
+    ranked = []
+    for recipe in sorted(recipes, key=lambda r: r.stages):
+        places[recipe.family, recipe.form] += 1
+        ranked.append((places[recipe.family, recipe.form], recipe))
+    return [recipe for _, recipe in sorted(ranked, key=lambda pair: pair[0])]
 
 
 def recommend(request: Request, progress: Progress = str) -> Recommendation:
@@ -460,13 +489,12 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
 def race_all(request: Request, errors: Sequence[float]) -> dict[float, list[Result]]:
     """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark."""
     search = Search(request)
-    exact = search.exact.state
     results: dict[float, list[Result]] = {error: [] for error in errors}
     for found in in_processes(partial(_emitted, request), search.recipes):
         if isinstance(found, Entry) and request.met(found.features):
             for error, known in results.items():
                 best = min((r.seconds for r in known if r.reached), default=math.inf)
-                known.append(Racer(search.problem, exact, found).reach(error, best))
+                known.append(search.racer(found).reach(error, best))
     return results
 
 
