@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from codegen.emitter import quoted
+from codegen.errors import MethodError
 from codegen.lower import families_for, lowering
 from codegen.method import Method, with_estimate
 from codegen.scene.classical_forms import PRINTED, classical_forms
@@ -92,7 +93,7 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
             if classical in seen:
                 continue
             seen.add(classical)
-            yield from recipes(tableau, kind, family)
+            yield from recipes(tableau, kind, family, problem)
 
 
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
@@ -105,7 +106,7 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
     return True
 
 
-def recipes(tableau: Tableau, kind: type[Family], family: str) -> Iterator[Recipe]:
+def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
     For each order only the smallest cut-off is used. An order below half the classical order wastes stages:
@@ -117,7 +118,12 @@ def recipes(tableau: Tableau, kind: type[Family], family: str) -> Iterator[Recip
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        order = max(own.values(), default=0) or kind().implied_order(stated)
+        # On some scenes a family has fewer conditions, and a method has a higher order.
+        try:
+            here = lowering(family).conditions(Method(family, tableau), problem).label()
+        except MethodError:  # the tableau does not suit the scene
+            return
+        order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:
             yield from _both(f"{family}:{name}", order, stages, name, controlled)
         return

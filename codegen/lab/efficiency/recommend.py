@@ -2,8 +2,8 @@
 
 The search has three stages. First, each recipe is predicted by a few interpreted steps
 (:mod:`codegen.lab.efficiency.prediction`). Methods are dropped without a run if their steps take too long,
-or if methods of higher order are far from the error. Then recipes are emitted and raced in C in the order of their
-predicted times. The ratio of measured to predicted times of each kind of recipe corrects the later
+or if methods of higher order are far from the error. Then recipes are emitted and raced in C in the order of
+their predicted times. The ratio of measured to predicted times of each kind of recipe corrects the later
 predictions. A recipe is left out if its corrected prediction exceeds the best measured time by a safety
 factor. Last, the leaders are timed again, with more repetitions.
 """
@@ -51,7 +51,7 @@ LEADERS, CLOSE = 4, 1.4
 ROUND = 6
 """Recipes that are emitted between two corrections."""
 
-GROUP = 30
+GROUP = 16
 """Methods that are predicted between two updates of the bar."""
 
 PREDICTING = 0.5
