@@ -77,6 +77,7 @@ def _on_scene(
     stated: int | None,
     as_json: bool,
 ) -> list[Convergence | NotEmitted]:
+    from codegen.build import CompilerMissing
     from codegen.certify import CertifiedOrder, certified_order
     from codegen.lab.orders.convergence import NotEmitted, converge
     from codegen.lab.reference import cached_reference
@@ -104,6 +105,8 @@ def _on_scene(
                 run = runner(equations, method, target or DEFAULT, digits, order)
                 progress(f"running {method.label}")
                 results.append(converge(run, order, exact, steps=prescribed, form=coordinates))
+            except CompilerMissing:  # no other method of a compiled target can run either
+                raise
             except (InputError, ArithmeticError) as error:
                 results.append(NotEmitted(problem.name, method.label, target or DEFAULT, str(error)))
         if not as_json:
