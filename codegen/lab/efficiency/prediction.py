@@ -139,6 +139,10 @@ class Bar:
         known = {(name, kind): error for name, kind, error in self.least}
         return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
 
+    def most(self, step_seconds: float) -> float:
+        """Return the largest number of steps that is interpreted: more steps would exceed the time."""
+        return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
+
     def hopeless(self, family: str) -> bool:
         """Whether neither explicit nor implicit methods of a family can reach the bar."""
         return self.too_high(family, True) and self.too_high(family, False)
@@ -164,16 +168,19 @@ class Predictor:
             program = each.run(program)
         once, sweep = self.cost(program, problem)
         explicit = not any(isinstance(s, Solve) for s in program.body)
-        if bar.too_high(method.family, explicit, 1e-9 * (once + USUAL_SWEEPS * sweep)):
+        step = 1e-9 * (once + USUAL_SWEEPS * sweep)
+        if bar.too_high(method.family, explicit, step):
             return Prediction(method.label, order, method.family, explicit, once, sweep)
-        steps, error, sweeps = self._reached(program, problem, bar.steps)
+        steps, error, sweeps = self._reached(program, problem, bar.steps, bar.most(step))
         return Prediction(method.label, order, method.family, explicit, once, sweep, sweeps, steps, error)
 
-    def _reached(self, program: Program, problem: Problem, steps: int) -> tuple[int, float, float]:
+    def _reached(
+        self, program: Program, problem: Problem, steps: int, most: float
+    ) -> tuple[int, float, float]:
         """Return a number of steps with a small error, the error, and the sweeps of a step."""
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         end, best = time.process_time() + PATIENCE, (FEW_STEPS, math.inf, 0.0)
-        while steps <= MANY_STEPS and time.process_time() < end:
+        while steps <= most and time.process_time() < end:
             try:
                 state, sweeps = run(program, problem, steps, end)
                 error = self.equations.error(state, self.exact)
