@@ -60,7 +60,7 @@ DIGITS = 16
 class Prediction:
     """The error of a recipe with ``steps`` steps, and the cost of a step.
 
-    ``once`` are nanoseconds of a step outside of blocks of equations, ``sweep`` nanoseconds of one sweep of
+    ``outside`` are nanoseconds of a step outside of blocks of equations, ``sweep`` nanoseconds of one sweep of
     all blocks, ``sweeps`` the average number of sweeps. ``explicit`` says that no equation is solved. If the
     interpreted runs failed, ``error`` is infinite. ``failure`` is the reason why the scene or the family
     refuses the method.
@@ -70,7 +70,7 @@ class Prediction:
     order: int
     family: str = ""
     explicit: bool = True
-    once: float = 0.0
+    outside: float = 0.0
     sweep: float = 0.0
     sweeps: float = 0.0
     steps: int = FEW_STEPS
@@ -92,11 +92,11 @@ class Prediction:
         if sweeps:
             # The rate of a fixed-point iteration is proportional to h: short steps need fewer sweeps.
             sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
-        return 1e-9 * count * (CALL + self.once + max(sweeps, FEWEST_SWEEPS) * self.sweep)
+        return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
     def error_within(self, seconds: float) -> float:
         """Return the predicted error of a run that takes some seconds; infinite if a step takes longer."""
-        steps = seconds / (1e-9 * (CALL + self.once + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
+        steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
         return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
 
 
@@ -166,13 +166,13 @@ class Predictor:
         program = lower_composed(scene, method) or lower(scene, method)
         for each in plain_passes(problem):
             program = each.run(program)
-        once, sweep = self.cost(program, problem)
+        outside, sweep = self.cost(program, problem)
         explicit = not any(isinstance(s, Solve) for s in program.body)
-        step = 1e-9 * (once + USUAL_SWEEPS * sweep)
+        step = 1e-9 * (outside + USUAL_SWEEPS * sweep)
         if bar.too_high(method.family, explicit, step):
-            return Prediction(method.label, order, method.family, explicit, once, sweep)
+            return Prediction(method.label, order, method.family, explicit, outside, sweep)
         steps, error, sweeps = self._reached(program, problem, bar.steps, bar.most(step))
-        return Prediction(method.label, order, method.family, explicit, once, sweep, sweeps, steps, error)
+        return Prediction(method.label, order, method.family, explicit, outside, sweep, sweeps, steps, error)
 
     def _reached(
         self, program: Program, problem: Problem, steps: int, most: float
@@ -199,16 +199,16 @@ class Predictor:
         fields = {block.name: len(block.symbols) for block in problem.state}
         for var in program.inputs:
             widths[var] = fields.get(var.name, 1)
-        once = sweep = 0.0
+        outside = sweep = 0.0
         for statement in program.body:
             if isinstance(statement, Assign):
-                once += self._operation(statement, problem, widths)
+                outside += self._operation(statement, problem, widths)
                 continue
             widths.update((u, widths[s]) for u, s in zip(statement.unknowns, statement.starts, strict=True))
             sweep += sum(self._operation(assign, problem, widths) for assign in statement.body)
             sweep += WEIGHTS.swept * sum(widths[u] for u in statement.unknowns)
         parts = max(1, len(program.substeps))
-        return parts * once, parts * sweep
+        return parts * outside, parts * sweep
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
         """Return the nanoseconds of one assignment; record the widths of its targets."""

@@ -140,7 +140,7 @@ def test_the_predicted_steps_reach_nearly_the_error(label: str) -> None:
 
 
 def test_a_prediction_scales_with_the_order() -> None:
-    known = Prediction("m", 4, steps=8, error=1e-4, once=10.0)
+    known = Prediction("m", 4, steps=8, error=1e-4, outside=10.0)
     assert math.isclose(known.count(1e-8), 80.0)
     assert math.isclose(replace(known, order=2).count(1e-8), 800.0)
     assert known.seconds(1e-8) > known.seconds(1e-6)
