@@ -60,7 +60,7 @@ DIGITS = 16
 class Prediction:
     """The error of a recipe with ``steps`` steps, and the cost of a step.
 
-    ``outside`` are nanoseconds of a step outside of blocks of equations, ``sweep`` nanoseconds of one sweep of
+    ``outside`` are nanoseconds of a step outside of blocks of equations, ``sweep`` those of one sweep of
     all blocks, ``sweeps`` the average number of sweeps. ``explicit`` says that no equation is solved. If the
     interpreted runs failed, ``error`` is infinite. ``failure`` is the reason why the scene or the family
     refuses the method.
