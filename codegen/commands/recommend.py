@@ -1,0 +1,118 @@
+"""``orderconds recommend``: the fastest method of the library for a scene, an error and needs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import click
+
+from orderconds.commands.screen import print_json, print_table, working
+
+if TYPE_CHECKING:
+    from codegen.lab.efficiency.race import Result
+    from codegen.lab.efficiency.recommend import Recommendation, Request
+
+
+@click.command("recommend", short_help="Find the fastest method for a scene and an error.")
+@click.argument("scene")
+@click.option("--error", type=float, required=True, help="The largest error at the end of the span.")
+@click.option(
+    "--need",
+    "needs",
+    multiple=True,
+    help="manifold, symplectic, explicit, adaptive; several are separated by commas.",
+)
+@click.option("--stack", type=click.IntRange(1), help="The largest stack of a call, in bytes.")
+@click.option("--span", metavar="A:B", help="The interval of time; by default that of the scene.")
+@click.option("--budget", type=float, help="Seconds that the search may take; by default 50.")
+@click.option(
+    "--tableau", "tableaux", multiple=True, help="Search these tableaux only; by default the whole library."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
+def command(
+    scene: str,
+    error: float,
+    needs: tuple[str, ...],
+    stack: int | None,
+    span: str | None,
+    budget: float | None,
+    tableaux: tuple[str, ...],
+    as_json: bool,
+) -> int:
+    """Find the fastest method for SCENE (a gallery name or a Python file) that reaches an error.
+
+    The whole library is searched: every family that accepts the scene, with equal steps and with step-size
+    control. The error is the distance from a reference solution at the end of the span. Needs: manifold (the
+    state stays on the manifold up to rounding), symplectic (for long times; a method that loses a conserved
+    quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size control).
+    The exit status is 1 if no method reaches the error.
+    """
+    from codegen.lab.efficiency.recommend import BUDGET, Request, recommend, span_of
+    from orderconds.errors import InputError
+
+    if budget is not None and not 0 < budget < 1e5:
+        raise InputError(f"the budget {budget:g}", where="--budget", expected="seconds above 0")
+    request = Request(
+        scene,
+        error,
+        tuple(dict.fromkeys(word.strip() for need in needs for word in need.split(","))),
+        stack,
+        None if span is None else span_of(span),
+        BUDGET if budget is None else budget,
+        tableaux,
+    )
+    with working("reading the scene") as progress:
+        result = recommend(request, progress)
+    if as_json:
+        print_json(result.as_json())
+    else:
+        show(result)
+    return 0 if result.places else 1
+
+
+def show(result: Recommendation) -> None:
+    """Print the recommendation, the runner-up and the command that emits the integrator."""
+    from codegen.lab.page.formatting import duration
+
+    asked = result.request
+    if not result.places:
+        click.echo(unreached(result))
+        return
+    names = ("recommended", "runner-up")
+    rows = [
+        [name, p.entry.recipe.label, control(asked, p), str(p.steps), f"{p.error:.1e}", duration(p.seconds)]
+        for name, p in zip(names, result.places, strict=False)
+    ]
+    print_table(["", "method", "step or tolerance", "steps", "error", "CPU time"], rows)
+    click.echo()
+    click.echo(f"  {result.places[0].entry.recipe.command(asked.scene)}")
+    click.echo()
+    click.echo(searched(result))
+
+
+def control(asked: Request, place: Result) -> str:
+    """Return the step or the tolerance of a run in words."""
+    if place.tolerance is not None:
+        return f"rtol = atol = {place.tolerance:.1e}"
+    first, last = asked.problem().span
+    return f"h = {float((last - first) / place.steps):.6g}" if place.steps else ""
+
+
+def searched(result: Recommendation) -> str:
+    """Return a sentence on the extent of the search."""
+    text = f"{result.predicted} methods predicted, {result.raced} raced in {result.seconds:.0f} s"
+    text += "" if result.complete else "; the budget ended the search, --budget S allows more"
+    return text + "".join(f"; {label} loses a conserved quantity in a long run" for label in result.lost)
+
+
+def unreached(result: Recommendation) -> str:
+    """Return the message that no method reaches the error, with the smallest error that was measured."""
+    asked = result.request
+    needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
+    found = f"no method{needs} reaches the error {asked.error:g}"
+    if result.best is None:
+        return f"{asked.scene}: {found}; no method meets the needs; relax --need or --stack"
+    best = result.best
+    by = f"by {best.entry.recipe.label} ({control(asked, best)})"
+    least = f"the smallest measured error is {best.error:.1e}, {by}"
+    return f"{asked.scene}: {found}; {least}; relax --error\n{searched(result)}"

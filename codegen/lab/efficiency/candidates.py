@@ -1,0 +1,155 @@
+"""The recipes of a scene: every method of the library that suits it, with equal or controlled steps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from codegen.emitter import quoted
+from codegen.errors import MethodError
+from codegen.lower import families_for, lowering
+from codegen.method import Method, with_estimate
+from codegen.scene.classical_forms import PRINTED, classical_forms
+from codegen.scene.problem import Problem
+from orderconds.families import Family, family_class
+from orderconds.tableau import RungeKutta, Tableau, available, find
+
+SEARCHED = 5
+"""The search for the fewest brackets takes seconds from order six on, so such methods have a cut-off only."""
+
+
+DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
+"""The degrees of families without tableau."""
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """A way to integrate a scene: the name of a method, the form of the equations, the choice of step sizes.
+
+    ``order`` is the order that the file of the tableau claims, 0 if it claims none. ``stages`` is the number
+    of stages or factors of the tableau; recipes of one ``tableau`` share it.
+    """
+
+    method: str
+    order: int
+    stages: int
+    tableau: str
+    adaptive: bool = False
+    form: str = PRINTED
+
+    @property
+    def label(self) -> str:
+        """The name of the recipe in tables."""
+        form = "" if self.form == PRINTED else f" ({self.form})"
+        return f"{'adaptive ' * self.adaptive}{self.method}{form}"
+
+    @property
+    def family(self) -> str:
+        """The family of the method."""
+        return self.method.partition(":")[0].partition("(")[0]
+
+    def command(self, scene: str) -> str:
+        """Return the command that emits the integrator.
+
+        >>> Recipe("rkmk(2):rk4", 4, 4, "rk4").command("dipole")
+        "orderconds emit dipole --method 'rkmk(2):rk4' -o ."
+        """
+        words = ["orderconds emit", quoted(scene), "--method", quoted(self.method)]
+        words += ["--form", self.form] if self.form != PRINTED else []
+        words += ["--adaptive"] if self.adaptive else []
+        return " ".join([*words, "-o ."])
+
+
+def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
+    """Yield the recipes for a scene, from the named tableaux or from the whole library.
+
+    Families that integrate coordinates have a recipe for each classical form of the scene.
+    """
+    forms = [form.key for form in classical_forms(problem)]
+    for recipe in in_printed_form(problem, tableaux):
+        for form in forms if lowering(recipe.family).in_coordinates else forms[:1]:
+            yield replace(recipe, form=form)
+
+
+def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
+    """Yield the recipes for the equations of a scene as printed.
+
+    On an abelian group, families that reduce to one classical family give the same methods; only the first
+    of them is used. A recipe may still be refused when its method is compiled.
+    """
+    families = [f for f in families_for(problem) if family_class(f).has_tableau]
+    if not tableaux:
+        for family in families_for(problem):
+            if not family_class(family).has_tableau:
+                yield from degrees(family)
+    for name in tableaux or available():
+        tableau = Tableau.load(find(name))
+        seen: set[str] = set()
+        for family in families:
+            kind = family_class(family)
+            if not readable(tableau, kind):
+                continue
+            classical = kind.abelian or family if problem.group.abelian else family
+            if classical in seen:
+                continue
+            seen.add(classical)
+            yield from recipes(tableau, kind, family, problem)
+
+
+def readable(tableau: Tableau, kind: type[Family]) -> bool:
+    """Whether a family reads a tableau, and a step does not divide by a zero weight."""
+    if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
+        return False
+    method = tableau.read_as(("rk",))
+    if kind.needs_nonzero_weights and isinstance(method, RungeKutta):
+        return all(tableau.ring.is_zero(b) is False for b in method.b)
+    return True
+
+
+def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
+    """Yield the recipes of one tableau in one family, without and with step-size control.
+
+    For each order only the smallest cut-off is used. An order below half the classical order wastes stages:
+    other tableaux have this order with fewer stages.
+    """
+    stages, name = size(tableau), tableau.name
+    controlled = tableau.lower() is not None and family in with_estimate()
+    stated = {claim.label: claim.order for claim in tableau.claims.orders}
+    own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
+    least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
+    if not kind.takes_cutoff:
+        # On some scenes a family has fewer conditions, and a method has a higher order.
+        try:
+            here = lowering(family).conditions(Method(family, tableau), problem).label()
+        except MethodError:  # the tableau does not suit the scene
+            return
+        order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
+        if order >= least:
+            yield from _both(f"{family}:{name}", order, stages, name, controlled)
+        return
+    cheapest = {order: cutoff for cutoff, order in sorted(own.items(), key=lambda c: -(c[0] or 0))}
+    for order, cutoff in sorted(cheapest.items()):
+        if order >= least:
+            method = family if cutoff is None else f"{family}({cutoff})"
+            yield from _both(f"{method}:{name}", order, stages, name, controlled)
+    best = max(cheapest, default=0)
+    reducible = best <= min(kind.minimal_brackets, SEARCHED) and Method(family, tableau).can_reduce_brackets()
+    if best and None not in own and reducible:
+        yield Recipe(f"{family}:{name}", best, stages, name)
+
+
+def size(tableau: Tableau) -> int:
+    """Return the number of stages, or of factors of a splitting or composition."""
+    return getattr(tableau.read_as(("rk",)) or tableau.method, "s", 1)
+
+
+def degrees(family: str) -> Iterator[Recipe]:
+    """Yield the recipes of a family without tableau, with the degree as its number."""
+    for degree in DEGREES:
+        yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
+
+
+def _both(method: str, order: int, stages: int, tableau: str, controlled: bool) -> Iterator[Recipe]:
+    yield Recipe(method, order, stages, tableau)
+    if controlled:
+        yield Recipe(method, order, stages, tableau, adaptive=True)

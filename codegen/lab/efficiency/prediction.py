@@ -1,0 +1,278 @@
+"""The predicted time of a recipe for an error, from a few interpreted steps and counted operations.
+
+The step program is interpreted with a small number of steps; its error and the order of the method give the
+number of steps for another error. The cost of a step is the sum of the costs of its operations, each counted
+once for the scene in expressions. The prediction does not know what the compiler shares between operations,
+so it is used to choose what is compiled and measured first, and to leave out what cannot win.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from codegen.ir.domain import ExprDomain, FloatDomain
+from codegen.ir.expr import Expr, walk
+from codegen.ir.interpret import flatten, interpret
+from codegen.ir.program import Assign, Program, Solve
+from codegen.ir.values import Kind, Var
+from codegen.lab.efficiency.equations import Equations
+from codegen.lab.number_types import Scalar, Vector
+from codegen.lab.reference import Reference
+from codegen.lab.runner import split_state
+from codegen.lower import lower, lower_composed, problem_for
+from codegen.method import Method
+from codegen.passes import plain_passes
+from codegen.run.step_cost import WEIGHTS, Amounts
+from codegen.scene.problem import TIME, Problem
+
+FEW_STEPS, MANY_STEPS = 8, 1024
+"""The number of steps is doubled from FEW_STEPS to MANY_STEPS until the error is small."""
+
+SMALL = 1e-2
+"""An error below SMALL, relative to the size of the state, follows the order of the method approximately."""
+
+PATIENCE = 0.4
+"""CPU seconds after which the interpreted steps of one recipe end."""
+
+MOST_SWEEPS = 40
+FEWEST_SWEEPS = 3
+USUAL_SWEEPS = 5
+"""Sweeps of a solved block at least, and usually; a method that cannot win with USUAL_SWEEPS is not
+interpreted."""
+
+SETTLED = 1e-9
+"""Interpreted blocks are solved to this relative change; the error of a method is much larger."""
+
+FAR = 10.0
+"""An error is far from another error if it is FAR times as large."""
+
+CALL = 8.0
+"""Nanoseconds of the loop around a step, and of the state that it reads and writes."""
+
+DIGITS = 16
+"""Decimal digits of a solved block of emitted code; interpreted blocks have half as many."""
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """The error of a recipe with ``steps`` steps, and the cost of a step.
+
+    ``outside`` are nanoseconds of a step outside of blocks of equations, ``sweep`` those of one sweep of
+    all blocks, ``sweeps`` the average number of sweeps. ``explicit`` says that no equation is solved. If the
+    interpreted runs failed, ``error`` is infinite. ``failure`` is the reason why the scene or the family
+    refuses the method.
+    """
+
+    method: str
+    order: int
+    family: str = ""
+    explicit: bool = True
+    outside: float = 0.0
+    sweep: float = 0.0
+    sweeps: float = 0.0
+    steps: int = FEW_STEPS
+    error: float = math.inf
+    failure: str = ""
+
+    def count(self, error: float) -> float:
+        """Return the predicted number of steps for an error; infinite if the interpreted runs failed."""
+        if not math.isfinite(self.error):
+            return math.inf
+        return max(1.0, self.steps * math.pow(self.error / error, 1 / max(self.order, 1)))
+
+    def seconds(self, error: float) -> float:
+        """Return the predicted CPU seconds of a run that reaches an error."""
+        count = self.count(error)
+        if not math.isfinite(count):
+            return math.inf
+        sweeps = self.sweeps
+        if sweeps:
+            # The rate of a fixed-point iteration is proportional to h: short steps need fewer sweeps.
+            sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
+        return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
+
+    def error_within(self, seconds: float) -> float:
+        """Return the predicted error of a run that takes some seconds; infinite if a step takes longer."""
+        steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
+        return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
+
+
+class _Counted(FloatDomain):
+    """Double precision with a count of the sweeps over blocks."""
+
+    def __init__(self, h: float) -> None:
+        super().__init__(h)
+        # Substeps copy the domain; the list is shared by all copies.
+        self.swept = [0]
+
+    def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
+        """Return whether the change is below SETTLED, and the change; count the sweep."""
+        self.swept[0] += 1
+        done, change = super().settled(old, new, previous)
+        return done or change <= SETTLED * max(map(abs, old), default=0.0), change
+
+
+@dataclass(frozen=True)
+class Bar:
+    """What a recipe must reach: an ``error`` within ``seconds``.
+
+    ``least`` are the least errors within these seconds of the methods of the next higher orders, by family
+    and by whether they are explicit; the family '' is the least of all families.
+    ``steps`` is the number of steps of the first interpreted run.
+    """
+
+    error: float
+    seconds: float = math.inf
+    least: tuple[tuple[str, bool, float], ...] = ()
+    steps: int = FEW_STEPS
+
+    def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
+        """Whether a method whose step takes at least ``step_seconds`` cannot reach the bar.
+
+        If the methods of the next higher orders are far from the error, lower orders are even farther.
+        """
+        if step_seconds > self.seconds:
+            return True
+        known = {(name, kind): error for name, kind, error in self.least}
+        return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
+
+    def most(self, step_seconds: float) -> float:
+        """Return the largest number of steps that is interpreted: more steps would exceed the time."""
+        return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
+
+    def hopeless(self, family: str) -> bool:
+        """Whether neither explicit nor implicit methods of a family can reach the bar."""
+        return self.too_high(family, True) and self.too_high(family, False)
+
+
+@dataclass
+class Predictor:
+    """Predicts recipes for one form of a scene; the costs of its operations are computed once."""
+
+    equations: Equations
+    exact: Reference
+    costs: dict[str, tuple[float, tuple[int, ...]]] = field(default_factory=dict)
+
+    def predict(self, method: Method, order: int, bar: Bar) -> Prediction:
+        """Return the prediction for a method of an order; InputError if it does not suit the scene.
+
+        If the method cannot reach the bar, no step is interpreted and the error is infinite.
+        """
+        scene = self.equations.problem
+        problem = problem_for(scene, method)
+        program = lower_composed(scene, method) or lower(scene, method)
+        for each in plain_passes(problem):
+            program = each.run(program)
+        outside, sweep = self.cost(program, problem)
+        explicit = not any(isinstance(s, Solve) for s in program.body)
+        step = 1e-9 * (outside + USUAL_SWEEPS * sweep)
+        if bar.too_high(method.family, explicit, step):
+            return Prediction(method.label, order, method.family, explicit, outside, sweep)
+        steps, error, sweeps = self._reached(program, problem, bar.steps, bar.most(step))
+        return Prediction(method.label, order, method.family, explicit, outside, sweep, sweeps, steps, error)
+
+    def _reached(
+        self, program: Program, problem: Problem, steps: int, most: float
+    ) -> tuple[int, float, float]:
+        """Return a number of steps with a small error, the error, and the sweeps of a step."""
+        size = max(1.0, math.hypot(*map(float, self.exact.state)))
+        end, best = time.process_time() + PATIENCE, (FEW_STEPS, math.inf, 0.0)
+        while steps <= most and time.process_time() < end:
+            try:
+                state, sweeps = run(program, problem, steps, end)
+                error = self.equations.error(state, self.exact)
+            except (ArithmeticError, ValueError):
+                error, sweeps = math.inf, 0.0
+            if error < best[1]:
+                best = steps, error, sweeps
+            if error <= SMALL * size:
+                break
+            steps *= 2
+        return best
+
+    def cost(self, program: Program, problem: Problem) -> tuple[float, float]:
+        """Return the nanoseconds of a step outside of blocks, and of one sweep of all blocks."""
+        widths: dict[Var, int] = {}
+        fields = {block.name: len(block.symbols) for block in problem.state}
+        for var in program.inputs:
+            widths[var] = fields.get(var.name, 1)
+        outside = sweep = 0.0
+        for statement in program.body:
+            if isinstance(statement, Assign):
+                outside += self._operation(statement, problem, widths)
+                continue
+            widths.update((u, widths[s]) for u, s in zip(statement.unknowns, statement.starts, strict=True))
+            sweep += sum(self._operation(assign, problem, widths) for assign in statement.body)
+            sweep += WEIGHTS.swept * sum(widths[u] for u in statement.unknowns)
+        parts = max(1, len(program.substeps))
+        return parts * outside, parts * sweep
+
+    def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
+        """Return the nanoseconds of one assignment; record the widths of its targets."""
+        shape = [(a.kind.value, widths[a]) for a in assign.args]
+        # Problems of one scene differ by the group in which the state is represented.
+        key = f"{problem.group.name} {len(problem.roots)} {assign.operation!r} {shape}"
+        if key not in self.costs:
+            self.costs[key] = _counted(assign, problem, shape)
+        cost, results = self.costs[key]
+        widths.update(zip(assign.targets, results, strict=True))
+        return cost
+
+
+def _counted(
+    assign: Assign, problem: Problem, shape: Sequence[tuple[str, int]]
+) -> tuple[float, tuple[int, ...]]:
+    """Return the nanoseconds of an operation on symbols, and the widths of its results."""
+    domain = ExprDomain(problem.roots[0].space)
+    values: list[object] = []
+    for k, (kind, width) in enumerate(shape):
+        symbols = tuple(domain.space.sym(f"{k}.{i}") for i in range(width))
+        values.append(symbols[0] if kind == Kind.REAL else symbols)
+    results = assign.operation.evaluate(problem, domain, tuple(values))
+    flat = [flatten(v.kind, x) for v, x in zip(assign.targets, results, strict=True)]
+    return amounts([x for part in flat for x in part]).cost(WEIGHTS), tuple(map(len, flat))
+
+
+def amounts(roots: Sequence[Expr]) -> Amounts:
+    """Return the amounts of work of expressions.
+
+    >>> from codegen.ir.expr import Space
+    >>> x, y = map(Space().sym, "xy")
+    >>> amounts([x * y + x / y]) == Amounts(arithmetic=2, divisions=1)
+    True
+    """
+    arithmetic = divisions = calls = 0
+    for node in walk(roots):
+        if node.op in ("add", "sub", "mul", "pow"):
+            arithmetic += 1
+        divisions += node.op == "div"
+        calls += node.op == "call"
+    return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
+
+
+def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
+    """Return the state at the end of the span after equal steps, and the average sweeps of a step.
+
+    Blocks are solved by fixed-point iteration only, because difference quotients would take too long.
+    ArithmeticError if the run is not finished when the process has used ``end`` CPU seconds.
+    """
+    first, last = problem.span
+    domain = _Counted(float((last - first) / steps))
+    state = problem.initial(domain)
+    solutions: dict[Var, Scalar] = {}
+    for k in range(steps):
+        values: dict[str, Scalar] = {TIME: float(first) + k * domain.h, **split_state(problem, state)}
+        inputs = {v.name: values[v.name] for v in program.inputs}
+        ends = interpret(
+            program, problem, domain, inputs, limit=MOST_SWEEPS, newton=False, solutions=solutions
+        )
+        state = tuple(x for block in problem.state for x in flatten(block.kind, ends[block.name]))
+        if not all(map(math.isfinite, state)):
+            raise ArithmeticError("a number is not finite")
+        if time.process_time() > end:
+            raise ArithmeticError("the run takes too long")
+    blocks = sum(isinstance(s, Solve) for s in program.body) * max(1, len(program.substeps))
+    return state, 2 * domain.swept[0] / steps / max(1, blocks)

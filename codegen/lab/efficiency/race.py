@@ -1,0 +1,206 @@
+"""The race: emitted recipes run in C, and the cheapest run that reaches an error is found and timed.
+
+A run has a control: a number of equal steps, or the exponent k of a tolerance 10^-k. The control is refined
+until the error is reached by two runs in sequence, so that an accidentally small error is not used, and then
+coarsened by bisection.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, field, replace
+
+from codegen.artifact import Artifact
+from codegen.certify import certified_order
+from codegen.emitter import Compiled, emit_compiled
+from codegen.ir.domain import FloatDomain
+from codegen.lab.efficiency.candidates import Recipe
+from codegen.lab.efficiency.equations import Equations
+from codegen.lab.efficiency.requirements import Features, features
+from codegen.lab.efficiency.work_precision import MOST_STEPS
+from codegen.lab.number_types import Vector
+from codegen.lab.reference import Reference
+from codegen.lab.timing import samples
+from codegen.loader import Integrator, load
+from codegen.printers import DEFAULT
+from codegen.printers import target as known_target
+from codegen.scene.classical_forms import PRINTED
+
+HALVINGS = 6
+"""Bisections of the number of steps or of the tolerance."""
+
+FINEST = 15.0
+"""The exponent of the tightest tolerance."""
+
+LONGEST = 0.2
+"""CPU seconds of the longest run, if no other recipe has reached the error."""
+
+LEAST_STEPS = 200
+"""Runs with fewer steps are continued beyond the span while they are timed."""
+
+BRIEF = 0.01
+"""Runs shorter than BRIEF CPU seconds never end the race of a recipe: the first run of a module is slow."""
+
+PATIENT = 8.0
+"""A recipe leaves the race if one of its runs takes PATIENT times as long as the best time so far."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A recipe as an emitted module, with its properties."""
+
+    recipe: Recipe
+    artifact: Artifact
+    features: Features
+    label: str
+
+    @property
+    def code(self) -> str:
+        """The step without comments and names, equal for recipes with the same code."""
+        manifest = self.artifact.manifest
+        source = self.artifact.files[known_target(manifest["target"]).step_file(manifest["module"])]
+        body = source.replace(manifest["interface"]["prefix"], "").replace(manifest["module"], "")
+        return body.partition("*/")[2]
+
+
+def entry(recipe: Recipe, compiled: Compiled) -> Entry:
+    """Return a compiled recipe as an entry of the race."""
+    order = certified_order(compiled.method, compiled.scene)
+    artifact = emit_compiled(compiled, DEFAULT, order=order)
+    found = features(compiled, artifact, recipe.label)
+    if recipe.form != PRINTED:
+        # The coordinates of a form are a vector space, but the state of the scene is not.
+        found = replace(found, on_manifold=False)
+    return Entry(recipe, artifact, found, compiled.method.label)
+
+
+@dataclass(frozen=True)
+class Result:
+    """The cheapest run that reaches the error: its control, its error, and its CPU seconds.
+
+    ``steps`` is the number of (accepted) steps. ``reached`` is false if no run reaches the error; the run is
+    then the most accurate one.
+    """
+
+    entry: Entry
+    control: float
+    steps: int
+    error: float
+    seconds: float
+    reached: bool = True
+    failure: str = ""
+
+    @property
+    def tolerance(self) -> float | None:
+        """The relative and absolute tolerance of a run with step-size control."""
+        return 10.0**-self.control if self.entry.recipe.adaptive else None
+
+
+@dataclass
+class Racer:
+    """One entry; ``equations`` are those of its form, ``exact`` is the reference at the end of the span."""
+
+    equations: Equations
+    exact: Reference
+    entry: Entry
+    least: float = math.inf
+    errors: dict[float, float] = field(default_factory=dict)
+    counts: dict[float, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.integrator: Integrator = load(self.entry.artifact)
+        problem = self.equations.problem
+        self.initial = list(problem.initial(FloatDomain(0.0)))
+        self.first, self.last = map(float, problem.span)
+
+    def run(self, control: float, spans: int = 1) -> tuple[Vector, int]:
+        """Return the state and the number of steps of a run over a multiple of the span."""
+        length = self.last - self.first
+        if self.entry.recipe.adaptive:
+            tolerance, last = (10.0**-control, self.first + spans * length)
+            end = self.integrator.adaptive(
+                self.initial, self.first, last, rtol=tolerance, atol=tolerance, limit=MOST_STEPS
+            )
+            return tuple(end.state), end.accepted
+        steps = round(control)
+        h = length / max(steps, 1)
+        return tuple(self.integrator.run(self.initial, h, spans * steps, self.first)), spans * steps
+
+    def error(self, control: float) -> float:
+        """Return the error of a run; infinity if the run fails."""
+        if control not in self.errors:
+            try:
+                state, self.counts[control] = self.run(control)
+                self.errors[control] = self.equations.error(state, self.exact)
+            except ArithmeticError:
+                self.errors[control] = math.inf
+        return self.errors[control]
+
+    def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
+        """Return the CPU seconds of a run without the overhead of a call.
+
+        A short run is continued beyond the span, because the overhead of a call from Python would hide its
+        time.
+        """
+        steps = self.counts[control]
+        times = max(1, LEAST_STEPS // max(steps, 1))
+        try:
+            made = self.run(control, times)[1]
+        except ArithmeticError:
+            times, made = 1, steps
+        overhead = samples(lambda: self.run(control, 0), batch / 2, 3)[0]
+        spent = samples(lambda: self.run(control, times), batch, batches)[0]
+        return max(spent - overhead, 0.1 * spent) * steps / max(made, 1)
+
+    def reach(self, error: float, best: float = math.inf) -> Result:
+        """Return the cheapest run that reaches an error.
+
+        ``best`` are the CPU seconds of the best recipe so far. The result is not ``reached`` if the runs take
+        much longer.
+        """
+        longest = min(LONGEST, PATIENT * best + BRIEF)
+        control, fine = self._refined(error, longest)
+        if not fine:
+            known = {c: e for c, e in self.errors.items() if math.isfinite(e)}
+            if not known:
+                return Result(self.entry, 0.0, 0, math.inf, math.inf, False, "no run arrives")
+            control = min(known, key=lambda c: known[c])
+            return Result(self.entry, control, self.counts[control], known[control], math.inf, False)
+        control = self._coarsened(control, error)
+        return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
+
+    def _refined(self, error: float, longest: float) -> tuple[float, bool]:
+        """Return the first control from which two runs reach the error, and whether there is one."""
+        control = 1.0
+        while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
+            start = time.process_time()
+            if self.error(control) <= error and self.error(self._finer(control)) <= 2 * error:
+                return control, True
+            if time.process_time() - start > longest or self._at_rounding(error):
+                break
+            control = self._finer(control)
+        return control, False
+
+    def _at_rounding(self, error: float) -> bool:
+        """Whether the last three refinements did not reduce an error that is near rounding."""
+        values = list(self.errors.values())
+        size = max(1.0, math.hypot(*map(float, self.exact.state)))
+        return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
+
+    def _finer(self, control: float) -> float:
+        return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
+
+    def _coarsened(self, control: float, error: float) -> float:
+        """Return the coarsest control found by bisection that reaches the error."""
+        adaptive = self.entry.recipe.adaptive
+        low = control - 1.0 if adaptive else control / 2
+        for _ in range(HALVINGS):
+            middle = (low + control) / 2 if adaptive else float(round(math.sqrt(low * control)))
+            if middle in (low, control) or low < 0.5:
+                break
+            if self.error(middle) <= error:
+                control = middle
+            else:
+                low = middle
+        return control

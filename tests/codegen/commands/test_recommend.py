@@ -1,0 +1,121 @@
+"""``orderconds recommend``: the printed command works, JSON has one structure, bad input is one message."""
+
+from __future__ import annotations
+
+import json
+import math
+import shlex
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner, Result
+
+from codegen import scenes
+from codegen.lab.distance import distance
+from codegen.lab.efficiency import race
+from codegen.lab.reference import cached_reference
+from codegen.loader import load
+from orderconds.cli import program
+
+QUICK = ("duffing", "--error", "1e-6", "--tableau", "rk4", "--tableau", "dormand_prince5")
+PLACES = ("recommended", "runner_up", "most_accurate")
+
+
+@pytest.fixture(autouse=True)
+def _short_samples(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(race, "samples", lambda call, batch, batches: (call() and 1.0,))
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(program, ["recommend", *words])
+
+
+def found(*words: str) -> dict[str, Any]:
+    result: dict[str, Any] = json.loads(run(*words, "--json").stdout)
+    return result
+
+
+@pytest.mark.parametrize("needs", [(), ("--need", "adaptive")])
+def test_the_printed_command_emits_an_integrator_that_reaches_the_error(
+    needs: tuple[str, ...], tmp_path: Path
+) -> None:
+    place = found(*QUICK, *needs)["recommended"]
+    words = shlex.split(place["command"])
+    assert words[0] == "orderconds"
+    assert words[-2:] == ["-o", "."]
+    emitted = CliRunner().invoke(program, [*words[1:-1], str(tmp_path)])
+    assert emitted.exit_code == 0, emitted.output
+    problem = scenes.load("duffing")
+    start, (first, last) = list(map(float, _initial())), map(float, problem.span)
+    integrator = load(tmp_path)
+    if place["adaptive"]:
+        tolerance = place["tolerance"]
+        state = integrator.adaptive(start, first, last, rtol=tolerance, atol=tolerance).state
+    else:
+        assert math.isclose(place["h"] * place["steps"], last - first)
+        state = integrator.run(start, place["h"], place["steps"], first)
+    assert distance(problem, state, cached_reference(problem).state) <= 1e-6
+
+
+def _initial() -> tuple[float, ...]:
+    from codegen.ir.domain import FloatDomain
+
+    return scenes.load("duffing").initial(FloatDomain(0.0))
+
+
+def test_the_text_names_the_method_the_step_and_the_command() -> None:
+    text = run(*QUICK).stdout
+    place = found(*QUICK)["recommended"]
+    assert "recommended" in text
+    assert "runner-up" in text
+    assert "orderconds emit duffing --method" in text
+    assert place["command"].startswith("orderconds emit duffing --method")
+
+
+def test_json_has_the_same_structure_if_the_error_is_not_reached() -> None:
+    reached, missed = found(*QUICK), found("duffing", "--error", "1e-30", "--tableau", "rk4")
+    assert reached.keys() == missed.keys()
+    assert reached["recommended"].keys() == missed["most_accurate"].keys()
+    assert [reached[name] is None for name in PLACES] == [False, False, True]
+    assert [missed[name] is None for name in PLACES] == [True, True, False]
+
+
+def test_an_error_that_nothing_reaches_exits_1_with_the_best_error() -> None:
+    result = run("duffing", "--error", "1e-30", "--tableau", "rk4")
+    assert result.exit_code == 1
+    assert "no method reaches the error 1e-30; the smallest measured error is" in result.stdout
+
+
+def test_needs_that_nothing_meets_exit_1() -> None:
+    result = run("free_rigid_body", "--error", "1e-3", "--need", "symplectic", "--tableau", "rk4")
+    assert result.exit_code == 1
+    assert "no method meets the needs" in result.stdout
+
+
+def test_a_span_replaces_that_of_the_scene() -> None:
+    longer = found(*QUICK, "--span", "0:1")
+    assert longer["span"] == [0.0, 1.0]
+    assert math.isclose(longer["recommended"]["h"] * longer["recommended"]["steps"], 1.0)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (("nowhere", "--error", "1e-6"), "unknown scene"),
+        (("duffing", "--error", "1e-6", "--need", "fast"), "unknown need 'fast'"),
+        (("duffing", "--error", "1e-6", "--need", "explicit,quick"), "unknown need 'quick'"),
+        (("duffing", "--error", "0"), "the error 0"),
+        (("duffing", "--error", "nan"), "the error nan"),
+        (("duffing", "--error", "1e-6", "--span", "1:0"), "the span '1:0'"),
+        (("duffing", "--error", "1e-6", "--span", "x"), "the span 'x'"),
+        (("duffing", "--error", "1e-6", "--budget", "0"), "the budget 0"),
+        (("duffing", "--error", "1e-6", "--tableau", "rk44"), "rk44"),
+    ],
+)
+def test_bad_input_is_one_message(words: tuple[str, ...], said: str) -> None:
+    result = run(*words)
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    assert said in result.stderr
+    assert "Traceback" not in result.stderr

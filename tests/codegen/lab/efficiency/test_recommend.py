@@ -1,0 +1,156 @@
+"""Recommendations: needs are never violated, runs reach the error, predictions agree with measured errors."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from codegen import scenes
+from codegen.emitter import compile_method
+from codegen.lab.distance import distance
+from codegen.lab.efficiency import race
+from codegen.lab.efficiency.candidates import Recipe, candidates
+from codegen.lab.efficiency.equations import Equations
+from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
+from codegen.lab.efficiency.race import Racer, entry
+from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
+from codegen.lab.reference import cached_reference
+from codegen.lower import families_for
+from codegen.method import parse
+from codegen.scene.classical_forms import PRINTED
+from orderconds.errors import InputError
+
+SCENE = "linear_oscillator+u"
+FEW = ("rk4", "dormand_prince5", "gauss2", "strang", "dop853")
+NEEDS = ((), ("symplectic",), ("adaptive",), ("explicit",), ("explicit", "symplectic"), ("manifold",))
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _short_samples() -> None:
+    """Times of these races are coarse, because no test depends on them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(race, "samples", lambda call, batch, batches: (call() and 1.0,))
+
+
+@pytest.fixture(scope="module", params=NEEDS, ids=lambda needs: "+".join(needs) or "none")
+def found(request: pytest.FixtureRequest) -> Recommendation:
+    return recommend(Request(SCENE, 1e-6, request.param, tableaux=FEW))
+
+
+def test_every_place_meets_the_needs(found: Recommendation) -> None:
+    assert found.places
+    for place in found.places:
+        known = place.entry.features
+        given = {
+            "manifold": known.on_manifold,
+            "symplectic": known.symplectic,
+            "explicit": known.explicit,
+            "adaptive": known.adaptive,
+        }
+        assert all(given[need] for need in found.request.needs), place.entry.recipe.label
+
+
+def test_every_place_reaches_the_error_when_it_is_run_again(found: Recommendation) -> None:
+    problem = scenes.load(SCENE)
+    exact = cached_reference(problem)
+    for place in found.places:
+        state, steps = Racer(Equations(problem), exact, place.entry).run(place.control)
+        assert distance(problem, state, exact.state) <= found.request.error
+        assert steps == place.steps
+
+
+def test_the_places_are_sorted_by_time(found: Recommendation) -> None:
+    times = [place.seconds for place in found.places]
+    assert times == sorted(times)
+
+
+def test_the_stack_of_every_place_is_within_the_limit() -> None:
+    free = recommend(Request(SCENE, 1e-6, tableaux=FEW))
+    stacks = sorted(place.entry.features.stack for place in free.places)
+    limit = stacks[0]
+    assert limit < stacks[-1]
+    bound = recommend(Request(SCENE, 1e-6, stack=limit, tableaux=FEW))
+    assert bound.places
+    assert max(place.entry.features.stack for place in bound.places) <= limit
+
+
+def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_times(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from codegen.lab.efficiency import recommend as module
+
+    free = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
+    first = free.places[0].entry.recipe.label
+    real = module.Search._loses
+    monkeypatch.setattr(module.Search, "_loses", lambda s, r: r.entry.recipe.label == first or real(s, r))
+    without = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
+    assert first in without.lost
+    assert first not in [place.entry.recipe.label for place in without.places]
+
+
+def test_an_error_that_nothing_reaches_gives_the_most_accurate_run() -> None:
+    found = recommend(Request(SCENE, 1e-30, ("explicit",), tableaux=("rk4", "dop853")))
+    assert not found.places
+    assert found.best is not None
+    assert 1e-30 < found.best.error < 1e-10
+
+
+@pytest.mark.parametrize("need", ["fast", "Manifold", ""])
+def test_an_unknown_need_is_refused(need: str) -> None:
+    with pytest.raises(InputError, match="unknown need"):
+        Request(SCENE, 1e-6, (need,))
+
+
+def test_every_recipe_is_a_method_of_the_scene() -> None:
+    problem = scenes.load("free_rigid_body")
+    recipes = list(candidates(problem, FEW))
+    families = families_for(problem)
+    assert {parse(r.method, families).label for r in recipes} == {r.method for r in recipes}
+    assert len(set(recipes)) == len(recipes)
+
+
+def test_only_families_in_coordinates_have_recipes_for_other_forms() -> None:
+    forms: dict[str, set[str]] = {}
+    for recipe in candidates(scenes.load("dipole"), ("rk4",)):
+        forms.setdefault(recipe.family, set()).add(recipe.form)
+    assert PRINTED in forms["ambient"]
+    assert len(forms.pop("ambient")) > 1
+    assert all(known == {PRINTED} for known in forms.values())
+
+
+def test_methods_with_an_embedded_row_have_recipes_with_and_without_step_control() -> None:
+    recipes = list(candidates(scenes.load("free_rigid_body"), ("dormand_prince5",)))
+    assert {r.adaptive for r in recipes if r.family == "ambient"} == {False, True}
+
+
+@pytest.mark.parametrize("label", ["rkmk:rk4", "ambient:dop853", "cf:cf4", "ambient:gauss2"])
+def test_the_predicted_steps_reach_nearly_the_error(label: str) -> None:
+    """The number of steps for the error agrees with the emitted code up to a factor 1.5."""
+    problem = scenes.load("free_rigid_body")
+    equations, exact = Equations(problem), cached_reference(problem)
+    method = parse(label, families_for(problem))
+    order = {"rkmk:rk4": 4, "ambient:dop853": 8, "cf:cf4": 4, "ambient:gauss2": 4}[label]
+    prediction = Predictor(equations, exact).predict(method, order, Bar(1e-9))
+    recipe = Recipe(label, order, 4, method.name)
+    racer = Racer(equations, exact, entry(recipe, compile_method(problem, method)))
+    result = racer.reach(1e-9)
+    assert 1 / 1.5 < (result.steps + 0.5) / (prediction.count(1e-9) + 0.5) < 1.5
+
+
+def test_a_prediction_scales_with_the_order() -> None:
+    known = Prediction("m", 4, steps=8, error=1e-4, outside=10.0)
+    assert math.isclose(known.count(1e-8), 80.0)
+    assert math.isclose(replace(known, order=2).count(1e-8), 800.0)
+    assert known.seconds(1e-8) > known.seconds(1e-6)
+
+
+def test_a_bar_drops_slow_steps_and_orders_below_those_that_are_far_from_the_error() -> None:
+    bar = Bar(1e-12, 1e-6, (("cf", True, 1e-9), ("", True, 1e-13), ("", False, 1.0)))
+    assert bar.too_high("cf", True)  # methods of higher order in this family are a thousand times off
+    assert not bar.too_high("rkmk", True)
+    assert bar.too_high("rkmk", True, 1e-5)
+    assert bar.hopeless("cf")
+    assert not bar.hopeless("rkmk")
+    assert not Bar(1e-12).too_high("cf", False, 1.0)
