@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import click
 
+from codegen.errors import SceneError
 from orderconds.commands.screen import print_json, print_table, working
 
 if TYPE_CHECKING:
@@ -47,7 +49,7 @@ def command(
     quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size control).
     The exit status is 1 if no method reaches the error.
     """
-    from codegen.lab.efficiency.recommend import BUDGET, Request, recommend, span_of
+    from codegen.lab.efficiency.recommend import BUDGET, Request, recommend
     from orderconds.errors import InputError
 
     if budget is not None and not 0 < budget < 1e5:
@@ -109,10 +111,25 @@ def unreached(result: Recommendation) -> str:
     """Return the message that no method reaches the error, with the smallest error that was measured."""
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
-    found = f"no method{needs} reaches the error {asked.error:g}"
+    missed = f"no method{needs} reaches the error {asked.error:g}"
     if result.best is None:
-        return f"{asked.scene}: {found}; no method meets the needs; relax --need or --stack"
+        return f"{asked.scene}: {missed}; no method meets the needs; relax --need or --stack"
     best = result.best
     by = f"by {best.entry.recipe.label} ({control(asked, best)})"
     least = f"the smallest measured error is {best.error:.1e}, {by}"
-    return f"{asked.scene}: {found}; {least}; relax --error\n{searched(result)}"
+    return f"{asked.scene}: {missed}; {least}; relax --error\n{searched(result)}"
+
+
+def span_of(text: str) -> tuple[Fraction, Fraction]:
+    """Return the span A:B; SceneError for another text.
+
+    >>> span_of("0:5/2")
+    (Fraction(0, 1), Fraction(5, 2))
+    """
+    try:
+        first, last = map(Fraction, text.split(":"))
+    except (ValueError, ZeroDivisionError):
+        raise SceneError(f"the span {text!r}", where="--span", expected="A:B, two numbers") from None
+    if not first < last:
+        raise SceneError(f"the span {text!r}", where="--span", expected="A:B with A < B")
+    return first, last

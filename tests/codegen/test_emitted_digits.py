@@ -163,7 +163,7 @@ def wrong_coefficients(method: Method, seed: int, order: int) -> Method:
     cut = method.cutoff
     if cut is None and method.kind.minimal_brackets:
         cut = order
-    return replace(method, tableau=method.tableau.over(QQ, convert), cutoff=cut)
+    return replace(method, coefficients=method.tableau.over(QQ, convert), cutoff=cut)
 
 
 def defect_of_unit_residual(

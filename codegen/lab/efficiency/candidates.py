@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from codegen.emitter import quoted
@@ -153,3 +154,13 @@ def _both(method: str, order: int, stages: int, tableau: str, controlled: bool) 
     yield Recipe(method, order, stages, tableau)
     if controlled:
         yield Recipe(method, order, stages, tableau, adaptive=True)
+
+
+def in_turns(recipes: Iterable[Recipe]) -> list[Recipe]:
+    """Return recipes with few stages first, so that families and forms take turns."""
+    places: dict[tuple[str, str], int] = defaultdict(int)
+    ranked = []
+    for recipe in sorted(recipes, key=lambda r: r.stages):
+        places[recipe.family, recipe.form] += 1
+        ranked.append((places[recipe.family, recipe.form], recipe))
+    return [recipe for _, recipe in sorted(ranked, key=lambda pair: pair[0])]

@@ -68,11 +68,11 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     """Return a compiled recipe as an entry of the race."""
     order = certified_order(compiled.method, compiled.scene)
     artifact = emit_compiled(compiled, DEFAULT, order=order)
-    found = features(compiled, artifact, recipe.label)
+    properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
         # The coordinates of a form are a vector space, but the state of the scene is not.
-        found = replace(found, on_manifold=False)
-    return Entry(recipe, artifact, found, compiled.method.label)
+        properties = replace(properties, on_manifold=False)
+    return Entry(recipe, artifact, properties, compiled.method.label)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 import time
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, partial
@@ -21,8 +21,7 @@ from functools import cache, partial
 from codegen import scenes
 from codegen.build import build
 from codegen.emitter import compile_method
-from codegen.errors import SceneError
-from codegen.lab.efficiency.candidates import Recipe, candidates
+from codegen.lab.efficiency.candidates import Recipe, candidates, in_turns
 from codegen.lab.efficiency.equations import Equations, all_equations
 from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
 from codegen.lab.efficiency.race import Entry, Racer, Result, entry
@@ -134,16 +133,16 @@ class Request:
             return False
         return lowering(recipe.family).symplectic(problem, _method(problem, recipe))
 
-    def met(self, found: Features) -> bool:
+    def met(self, properties: Features) -> bool:
         """Whether a compiled recipe meets the needs."""
         given = {
-            "manifold": found.on_manifold,
-            "symplectic": found.symplectic,
-            "explicit": found.explicit,
-            "adaptive": found.adaptive,
+            "manifold": properties.on_manifold,
+            "symplectic": properties.symplectic,
+            "explicit": properties.explicit,
+            "adaptive": properties.adaptive,
         }
         return all(given[name] for name in self.needs) and (
-            self.stack is None or 0 < found.stack <= self.stack
+            self.stack is None or 0 < properties.stack <= self.stack
         )
 
 
@@ -196,7 +195,7 @@ class Recommendation:
 def place_json(asked: Request, place: Result) -> dict[str, object]:
     """Return a run as plain data, with the command that emits its integrator."""
     first, last = map(float, asked.problem().span)
-    recipe, found = place.entry.recipe, place.entry.features
+    recipe, properties = place.entry.recipe, place.entry.features
     return {
         "method": recipe.method,
         "form": recipe.form,
@@ -206,10 +205,10 @@ def place_json(asked: Request, place: Result) -> dict[str, object]:
         "tolerance": place.tolerance,
         "error": place.error,
         "seconds": place.seconds if math.isfinite(place.seconds) else None,
-        "on_manifold": found.on_manifold,
-        "symplectic": found.symplectic,
-        "explicit": found.explicit,
-        "stack": found.stack,
+        "on_manifold": properties.on_manifold,
+        "symplectic": properties.symplectic,
+        "explicit": properties.explicit,
+        "stack": properties.stack,
         "command": recipe.command(asked.scene),
     }
 
@@ -222,8 +221,8 @@ def _problem(scene: str, span: tuple[Fraction, Fraction] | None) -> Problem:
 
 @cache
 def _equations(scene: str, span: tuple[Fraction, Fraction] | None, form: str) -> Equations:
-    (found,) = all_equations(_problem(scene, span), (form,))
-    return found
+    (equations,) = all_equations(_problem(scene, span), (form,))
+    return equations
 
 
 def _method(problem: Problem, recipe: Recipe) -> Method:
@@ -260,11 +259,11 @@ def _emitted(request: Request, recipe: Recipe) -> Entry | Failed:
     """Return a recipe as a compiled module in the cache; runs in a worker process."""
     problem = request.problem()
     try:
-        found = entry(recipe, compile_method(problem, _method(problem, recipe), form=recipe.form))
-        build(found.artifact.files)
+        candidate = entry(recipe, compile_method(problem, _method(problem, recipe), form=recipe.form))
+        build(candidate.artifact.files)
     except (InputError, ArithmeticError) as error:
         return Failed(recipe, str(error))
-    return found
+    return candidate
 
 
 Kind = tuple[str, bool, bool]
@@ -390,14 +389,14 @@ class Search:
             names = ", ".join(r.label for r in ready)
             self.progress(f"{self.problem.name}: racing {names}")
             self.raced.update(ready)
-            for found in in_processes(partial(_emitted, self.request), ready):
+            for candidate in in_processes(partial(_emitted, self.request), ready):
                 if (
-                    isinstance(found, Entry)
-                    and found.code not in self.codes
-                    and self.request.met(found.features)
+                    isinstance(candidate, Entry)
+                    and candidate.code not in self.codes
+                    and self.request.met(candidate.features)
                 ):
-                    self.codes.add(found.code)
-                    self._measure(found)
+                    self.codes.add(candidate.code)
+                    self._measure(candidate)
 
     def _next(self) -> list[Recipe]:
         """Return the next recipes to emit; each kind that was not raced yet is represented by one recipe."""
@@ -427,21 +426,22 @@ class Search:
         """The best measured seconds so far."""
         return min((r.seconds for r in self.results if r.reached), default=math.inf)
 
-    def racer(self, found: Entry) -> Racer:
+    def racer(self, candidate: Entry) -> Racer:
         """Return a racer for an entry."""
-        return Racer(self.request.equations(found.recipe.form), self.exact, found)
+        return Racer(self.request.equations(candidate.recipe.form), self.exact, candidate)
 
-    def _measure(self, found: Entry) -> None:
+    def _measure(self, candidate: Entry) -> None:
         """Race an entry and record the ratio of its kind."""
-        racer = self.racer(found)
+        racer = self.racer(candidate)
         result = racer.reach(self.request.error, self.best)
         self.results.append(result)
-        predicted = self.predictions[found.recipe.method, found.recipe.form].seconds(self.request.error)
+        recipe = candidate.recipe
+        predicted = self.predictions[recipe.method, recipe.form].seconds(self.request.error)
         if math.isfinite(predicted):
             # A recipe that left the race is slower than the best by more than its safety factor.
             seconds = result.seconds if result.reached else max(predicted, 2 * SAFETY * self.best)
             if math.isfinite(seconds):
-                self.ratios[self.kind(found.recipe)].append(seconds / predicted)
+                self.ratios[self.kind(recipe)].append(seconds / predicted)
 
     def leaders(self) -> tuple[list[Result], list[str]]:
         """Time the leaders again; return all places, and the labels that a long run excludes."""
@@ -471,16 +471,6 @@ class Search:
         return bool(done.failure) or any(x >= LOST for x in largest)
 
 
-def in_turns(recipes: Iterable[Recipe]) -> list[Recipe]:
-    """Return recipes with few stages first, so that families and forms take turns."""
-    places: dict[tuple[str, str], int] = defaultdict(int)
-    ranked = []
-    for recipe in sorted(recipes, key=lambda r: r.stages):
-        places[recipe.family, recipe.form] += 1
-        ranked.append((places[recipe.family, recipe.form], recipe))
-    return [recipe for _, recipe in sorted(ranked, key=lambda pair: pair[0])]
-
-
 def recommend(request: Request, progress: Progress = str) -> Recommendation:
     """Return the recommendation for a request; errors of the scene and of the request are InputErrors."""
     return Search(request, progress).run()
@@ -490,24 +480,9 @@ def race_all(request: Request, errors: Sequence[float]) -> dict[float, list[Resu
     """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark."""
     search = Search(request)
     results: dict[float, list[Result]] = {error: [] for error in errors}
-    for found in in_processes(partial(_emitted, request), search.recipes):
-        if isinstance(found, Entry) and request.met(found.features):
+    for candidate in in_processes(partial(_emitted, request), search.recipes):
+        if isinstance(candidate, Entry) and request.met(candidate.features):
             for error, known in results.items():
                 best = min((r.seconds for r in known if r.reached), default=math.inf)
-                known.append(search.racer(found).reach(error, best))
+                known.append(search.racer(candidate).reach(error, best))
     return results
-
-
-def span_of(text: str) -> tuple[Fraction, Fraction]:
-    """Return the span A:B; SceneError for another text.
-
-    >>> span_of("0:5/2")
-    (Fraction(0, 1), Fraction(5, 2))
-    """
-    try:
-        first, last = map(Fraction, text.split(":"))
-    except (ValueError, ZeroDivisionError):
-        raise SceneError(f"the span {text!r}", where="--span", expected="A:B, two numbers") from None
-    if not first < last:
-        raise SceneError(f"the span {text!r}", where="--span", expected="A:B with A < B")
-    return first, last

@@ -83,7 +83,8 @@ def name_of(operation):
 
 def test_every_operation_is_looked_at():
     abstract = {"Operation", "OfGroup", "OfScene"}
-    assert {type(x).__name__ for x in ALL} == {k.__name__ for k in every(Operation)} - abstract
+    defined = {k.__name__ for k in every(Operation) if k.__module__.startswith("codegen.")}
+    assert {type(x).__name__ for x in ALL} == defined - abstract
 
 
 @pytest.mark.parametrize("operation", ALL, ids=name_of)

@@ -156,7 +156,7 @@ def test_another_search_does_not_take_over_a_checkpoint(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="another search"):
         other.load()
     path.write_text("{")
-    with pytest.raises(InputError, match="no checkpoint"):
+    with pytest.raises(InputError, match="not a checkpoint"):
         other.load()
 
 
