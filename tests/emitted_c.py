@@ -309,7 +309,7 @@ class Machine:
 
     def call(self, name: str, arguments: Sequence[Value]) -> Value:
         """Return the result of a function."""
-        if (match := re.fullmatch(r"(?:signed_)?stumpff_(\d+)", name.removesuffix("f"))) is not None:
+        if (match := re.fullmatch(r"(?:\w+_)?stumpff_(\d+)", name.removesuffix("f"))) is not None:
             return _stumpff(match[1], *arguments)
         if name in self.library:
             return self.library[name](*arguments)

@@ -146,12 +146,12 @@ class Racer:
         steps = self.counts[control]
         times = max(1, LEAST_STEPS // max(steps, 1))
         try:
-            made = self.run(control, times)[1]
+            taken = self.run(control, times)[1]
         except ArithmeticError:
-            times, made = 1, steps
+            times, taken = 1, steps
         overhead = samples(lambda: self.run(control, 0), batch / 2, 3)[0]
         spent = samples(lambda: self.run(control, times), batch, batches)[0]
-        return max(spent - overhead, 0.1 * spent) * steps / max(made, 1)
+        return max(spent - overhead, 0.1 * spent) * steps / max(taken, 1)
 
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the cheapest run that reaches an error.
