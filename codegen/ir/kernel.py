@@ -32,8 +32,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
-"""A lower bound for the measured rate of convergence: a smaller measured rate is replaced by this bound,
-because rounding errors make it unreliable."""
+"""The least contraction factor of a sweep that is trusted. Rounding errors make a smaller measured factor
+unreliable, so it is replaced by this one."""
 
 UNIT = 2.0**-53
 """Half the distance from 1 to the next larger double: the largest relative rounding error."""

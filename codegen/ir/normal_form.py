@@ -181,8 +181,8 @@ class NormalForms:
         done: Polynomial = {}
         # popitem removes the latest entry. The order is that of insertion, so it does not depend on hashes.
         waiting = dict(polynomial)
-        # Each pass of the loop replaces one leading product. The loop ends if the replacements terminate,
-        # which the class requires of its relations.
+        # Each pass of the loop replaces one leading product. The loop ends, because the class
+        # accepts only relations whose repeated replacement ends.
         while waiting:
             monomial, c = waiting.popitem()
             powers = dict(monomial)

@@ -50,7 +50,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Passes move the coefficient of a multiple, because a number commutes with every linear map.
+    # Some passes move the coefficient of c x out of a linear map: L(c x) = c L(x).
     @property
     def is_multiple(self) -> bool:
         """Whether the operation is a combination of one term: one coefficient times one value."""

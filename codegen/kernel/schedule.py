@@ -192,8 +192,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # The set of orders starts empty: calls in the body depend on the unknowns, so outside calls cannot
-    # replace them.
+    # Stumpff orders of the loop body are collected apart from those before the loop: the arguments in the
+    # body depend on the unknowns, so no call before the loop computes these values.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)

@@ -136,8 +136,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         Pass("blocks", "stages are solved one after the other", blocks.run),
         # The next pass counts the readers of each map; an unused reader would keep the map inside its sum.
         Pass("unused values", UNUSED, dead.run),
-        # Factoring maps with a single reader always saves maps. The next pass factors maps with several
-        # readers.
+        # If only one sum reads L(x) and L(y), L(x + y) always saves one application of L. The next pass
+        # factors maps that several sums read.
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
         # Factoring produces sums of a single term, which this pass removes.

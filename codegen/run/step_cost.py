@@ -5,9 +5,9 @@ A prediction is a sum of amounts times :data:`WEIGHTS`:
 - operations (:mod:`codegen.kernel.operations`): operations outside of sweeps and matrices count once a step,
   operations of a sweep or matrix as often as sweeps or matrices are computed;
 - unknowns: each costs time in a step, for the warm start, and in a sweep, for the stopping rule;
-- corrections: a sweep of Newton's method on u = g(u) costs one correction, because the next sweep waits for
-  the product of the inverse and the residuals g(u) - u. A sweep on residual equations needs that product for
-  its stopping test in any case, so it costs no correction;
+- corrections: the time in which a sweep waits for the product of the inverse and the residuals g(u) - u. The
+  next sweep of Newton's method on u = g(u) cannot begin before, so each sweep adds one correction. For
+  residual equations, this time is part of the time of a sweep, so no correction is added;
 - cubes: inverting an n x n matrix without a formula costs n^3.
 
 Evidence: ``benchmarks/solver_choice.py`` times emitted C of the implicit methods on every scene of the

@@ -310,7 +310,7 @@ class _Controlled:
             Assign(STATUS, code(OK)),
             Assign(self.steps, whole(0)),
             Assign(self.now, self.t[0]),
-            # A size that the caller gives bounds the first step.
+            # If the caller gives a step size, the first step is at most that long.
             Assign(self.length, size(self.h[0])),
             Assign(self.advised, self.length),
             If(negated(both(numbers, tolerances)), (Assign(STATUS, code(BAD_STEP)),)),

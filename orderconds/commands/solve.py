@@ -130,7 +130,7 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.solve.solver import Order
     from orderconds.solve.spec import Spec
 
-    # A symmetric method of even order needs the conditions below that order only.
+    # The bound is that of order p - 1: symmetric methods of even order p need conditions up to p - 1 only.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},

@@ -27,5 +27,5 @@ def rational_number(residues: Sequence[int], primes: Sequence[int]) -> Fraction:
         quotient = r[0] // r[1]
         r, t = (r[1], r[0] - quotient * r[1]), (t[1], t[0] - quotient * t[1])
     if not 0 < abs(t[1]) <= bound:
-        raise ArithmeticError(f"no fraction of that size has residues {list(residues)} modulo {list(primes)}")
+        raise ArithmeticError(f"no small fraction has residues {list(residues)} modulo {list(primes)}")
     return Fraction(r[1], t[1])

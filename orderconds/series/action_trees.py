@@ -167,7 +167,7 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return the cost of H(u * v), without the costs of its momenta.
+    """Return how difficult H(u * v) is to read, for u = ``before`` and v = ``after``, without its momenta.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)

@@ -212,7 +212,7 @@ class _Sizes:
         self.magnitudes = _quantities(compiled, domain, magnitudes(compiled.scene))
 
     def size(self, name: str, value: Vector, state: Sequence[Scalar], t: float) -> Scalar:
-        """Return the size of a quantity with a value at a state. The size of manifold equations is one."""
+        """Return the size of a quantity, given its value and the state. Manifold equations have size one."""
         if name == MANIFOLD:
             return 1
         (magnitude,) = self.magnitudes[name](state, t)

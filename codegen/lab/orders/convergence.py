@@ -88,7 +88,7 @@ class Convergence:
         """Return the order of very short steps, and why it differs from the observed order."""
         text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
         if not self.refinement.settled:
-            return f"rounding ends the runs, but {text}"
+            return f"the slopes do not settle before rounding errors dominate, but {text}"
         return f"{text}, so at longer steps a small parameter hides the leading term of the error"
 
     def _unsettled(self) -> str:

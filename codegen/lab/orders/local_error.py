@@ -34,7 +34,7 @@ from orderconds.trees import directed, levels
 def step(program: Program, scene: Problem, ring: Ring, order: int) -> Vector:
     """Return the state after one step from the initial state of the scene, as series in h up to ``order``.
 
-    ``scene`` is the problem in which the program was lowered. Raises ArithmeticError if the field of the
+    ``scene`` is the problem from which the program was lowered. Raises ArithmeticError if the field of the
     scene is not rational in the coordinates, or if the initial state is not in ``ring``.
     """
     domain = SeriesDomain(ring, order)

@@ -1,4 +1,4 @@
-"""Functions of the run representation in C: types, declarations, statements.
+"""Prints functions of the run representation as C: types, declarations, statements.
 
 A scalar that is assigned once is ``const``; so is an array parameter that nothing writes to. Arrays are
 copied by ``memcpy``, and records are cleared by ``memset``.
