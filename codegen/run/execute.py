@@ -4,9 +4,7 @@ It executes the same statements as emitted code, so it takes the same sweeps, ma
 arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function is compiled to closures once, so that
 a run of many steps does not traverse the statements again.
 
->>> import numpy
-
-from codegen.ir.domain import FloatDomain
+>>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While
 >>> from codegen.run.terms import Kind, count, real, whole
 >>> x, n, root = real("x"), count("n"), real("root")
