@@ -24,6 +24,7 @@ import click
 from orderconds import cli
 from orderconds.processes import in_processes
 signal.signal(signal.SIGINT, signal.default_int_handler)  # a background job of a shell ignores it
+signal.signal(signal.SIGHUP, signal.SIG_DFL)  # nohup ignores it
 def work(seconds):
     os.write(1, b"working\\n")  # one call: two workers may print their words first and their line ends later
     time.sleep(seconds)
