@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import re
-import tempfile
+import secrets
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -24,19 +24,21 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
     ``private`` is readable by the user alone. If a path is a symbolic link, the link is replaced and its
     target is not changed. After an error no temporary file remains.
 
+    >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write_files({Path(folder) / "x": b"text"})
     ...     os.listdir(folder)
     ['x']
     """
-    written: dict[Path, str] = {}
+    written: dict[Path, Path] = {}
     try:
         for path, content in contents.items():
             # The temporary name contains only the beginning of the file's name, because the full name with a
             # suffix could be longer than the file system allows.
-            start = f".{path.name[:40]}."
-            handle, written[path] = tempfile.mkstemp(dir=path.parent, prefix=start, suffix=SUFFIX)
-            with os.fdopen(handle, "wb") as stream:
+            name = f".{path.name[:40]}.{secrets.token_hex(4)}{SUFFIX}"
+            # The name is recorded before the file exists: a signal can arrive between any two instructions.
+            written[path] = path.parent / name
+            with open(written[path], "xb", opener=_open_private) as stream:
                 stream.write(content)
                 stream.flush()
                 os.fsync(stream.fileno())  # without this flush, a power failure could leave an empty file
@@ -46,7 +48,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
             os.replace(temporary, path)
     except BaseException:
         for temporary in written.values():
-            Path(temporary).unlink(missing_ok=True)
+            temporary.unlink(missing_ok=True)
         raise
 
 
@@ -57,6 +59,10 @@ def is_temporary(name: str) -> bool:
     (True, False)
     """
     return _TEMPORARY.fullmatch(name) is not None
+
+
+def _open_private(name: str, flags: int) -> int:
+    return os.open(name, flags, 0o600)
 
 
 def _mode(path: Path) -> int:

@@ -14,12 +14,12 @@ import os
 import platform
 import shutil
 import stat
-import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
 from codegen.cache_entry import cache_directory
+from orderconds.output_file import write_files
 
 T = TypeVar("T")
 
@@ -82,7 +82,7 @@ class MeasurementCache:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             if not _secured(self.folder):
                 return
-            _replace(self._path(self.folder, key), hashlib.sha256(body).digest() + body)
+            write_files({self._path(self.folder, key): hashlib.sha256(body).digest() + body}, private=True)
         except OSError:
             return
 
@@ -113,15 +113,3 @@ def _secured(folder: Path) -> bool:
     except OSError:
         return False
     return True
-
-
-def _replace(path: Path, content: bytes) -> None:
-    """Write a file under a temporary name in the same folder, then move it into place."""
-    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(content)
-        os.replace(temporary, path)
-    except BaseException:
-        Path(temporary).unlink(missing_ok=True)
-        raise
