@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from orderconds.errors import TableauError
 from orderconds.exchange.unevaluated import CoefficientTooLong, with_names_inlined
 from orderconds.ring import Balls
-from orderconds.tableau import Tableau
+from orderconds.tableau import Tableau, doubles
 from orderconds.tableau.file_format import Data, Format
 from orderconds.tableau.formats import FORMATS, array_format
 from orderconds.tableau.record import from_data
@@ -225,10 +225,12 @@ def _integer(text: str, where: str) -> int:
 
 def coefficient(text: str) -> str:
     """Return a number from another program's file as a coefficient without exponent. A long decimal counts as
-    rounded.
+    a double if it has the digits of one, else as a rounded decimal.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
-    ['0.50', '0.3333333333333333~', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']
+    ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']
+    >>> coefficient("0.333333333333"), coefficient("3.333333333333333148e-01")
+    ('0.333333333333~', '0.3333333333333333d')
     """
     number = text.strip()
     parts = re.fullmatch(r"([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d{1,3}))?[fFlL]?", number, re.ASCII)
@@ -243,4 +245,6 @@ def coefficient(text: str) -> str:
         whole, part = whole + part[:exponent], part[exponent:]
     digits = (whole + part).lstrip("0")
     decimal = f"{'-' if sign == '-' else ''}{whole}" + (f".{part}" if part else "")
+    if part and doubles.is_printed(decimal):
+        return doubles.double_text(float(decimal))
     return decimal + "~" if part and len(digits) >= ROUNDED else decimal
