@@ -30,6 +30,9 @@ SHOWN = 5
 """If a claim fails, the text output lists at most this many failing conditions. If no claim fails, it lists
 one. The JSON output lists all failing conditions."""
 
+UNCLAIMED = "unclaimed"
+HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
+
 WIDTH = 200
 """The maximal length of a formula or residual in the text output. The JSON output contains the full text."""
 
@@ -52,6 +55,19 @@ WIDTH = 200
     "file DIR/DECIMAL.",
 )
 @click.option(
+    "--require-claims", is_flag=True, help="Exit with 1 if a tableau claims no order that is checked."
+)
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(0, 2**40),
+    metavar="UNITS",
+    help="The uncertainty of coefficients that are binary floats, in units of rounding (2^-53 of the number, "
+    "or of 1 if the number is smaller). Default: 8. With 0 the floats are exact numbers.",
+)
+@click.option(
+    "--execute", is_flag=True, help="Run Python files to obtain their arrays. Otherwise they are parsed."
+)
+@click.option(
     "--max-conditions",
     type=click.IntRange(1),
     help="Evaluate at most this many conditions of one order. Default: 50000.",
@@ -71,14 +87,18 @@ def command(
     order: int | None,
     complete: bool,
     certified: bool,
+    require_claims: bool,
+    tolerance: float | None,
+    execute: bool,
     max_conditions: int | None,
     max_seconds: float | None,
     max_memory: int | None,
     as_json: bool,
 ) -> int:
-    """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
-    name from the library. A claimed order must equal the computed order. If a limit ends the search, the
-    computed order is a lower bound.
+    """Find the exact order and the properties of each tableau: a file (TOML, JSON, CSV, NPZ, Python, LaTeX or
+    C), every such file below a directory, or a name from the library. A claimed order must equal the computed
+    order. A file claims an order with `order = 4`, or with `rk = 4` among its claims. If a limit ends the
+    search, the computed order is a lower bound.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
     """
@@ -98,6 +118,8 @@ def command(
             complete=complete,
             certified=certified and Path(path).stem not in excused,
             limits=limits,
+            tolerance=tolerance,
+            execute=execute,
             as_json=as_json,
             detailed=detailed,
             one_of_many=len(paths) > 1,
@@ -122,7 +144,11 @@ def command(
         _print_summary(verdicts)
     if None in verdicts:
         return 2
-    return 0 if all(verdict == "holds" for verdict in verdicts) else 1
+    if require_claims and not as_json and UNCLAIMED in verdicts:
+        count = verdicts.count(UNCLAIMED)
+        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
+    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
+    return 0 if all(verdict in accepted for verdict in verdicts) else 1
 
 
 @contextmanager
@@ -148,6 +174,8 @@ class _Job(Struct, frozen=True):
     complete: bool
     certified: bool
     limits: Limits
+    tolerance: float | None
+    execute: bool
     as_json: bool
     detailed: bool
     one_of_many: bool
@@ -162,16 +190,17 @@ class _Outcome(Struct, frozen=True):
 
 def _checked(job: _Job) -> _Outcome:
     """Check one tableau. Report an unreadable file and continue with the others."""
-    from orderconds.checking import check
+    from orderconds.checking import check, read
 
     try:
         report = check(
-            job.path,
+            read(job.path, execute=job.execute),
             family=job.family,
             order=job.order,
             complete=job.complete,
             certified=job.certified,
             limits=job.limits,
+            tolerance=job.tolerance,
         )
     except InputError as error:
         message = str(error)
@@ -203,10 +232,8 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str]) -> Iterator[str]:
     """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
-    Other TOML files below a directory, such as ``pyproject.toml``, are skipped.
+    The skipped files are named on stderr, with the reason.
     """
-    from orderconds.tableau.file import meant_as_tableau
-
     for argument in arguments:
         if not argument.strip():
             raise TableauError(
@@ -215,15 +242,24 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
         if not os.path.isdir(argument):
             yield argument
             continue
-        paths = sorted(str(path) for path in Path(argument).rglob("*.toml") if meant_as_tableau(path))
-        if not paths:
-            raise TableauError("no tableau below this directory", where=argument, expected="files *.toml")
-        yield from paths
+        from orderconds.exchange.folder import SUFFIXES, scan
+
+        found = scan(argument)
+        for path, reason in found.skipped:
+            click.echo(f"skipped {path}: {reason}", err=True)
+        if found.others:
+            names = list(dict.fromkeys(found.others))
+            shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
+            click.echo(f"skipped {len(found.others)} other files and hidden folders: {shown}", err=True)
+        if not found.tableaux:
+            kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
+            raise TableauError("no tableau below this directory", where=argument, expected=f"files {kinds}")
+        yield from found.tableaux
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
     """Print one tableau: its orders as a table, then failing conditions, then its properties."""
-    heading = f"{report.name}: {report.verdict}"
+    heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(
         ("family", "claimed", "order", "verdict", "certificate", "error norm"),
@@ -231,10 +267,14 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         indent=2,
     )
     for family in report.orders:
-        if detailed or family.verdict != "holds":
+        if family.certificate == "double" and report.verdict != UNCLAIMED:
+            click.echo(f"  {family.family}: {family.sentence}")
+        if detailed or family.verdict not in ("holds", UNCLAIMED):
             _print_failing(family)
     for broken in report.broken_claims:
         click.echo(f"  claim fails: {broken}")
+    if report.hint:
+        click.echo(f"  hint: {report.hint}")
     if report.embedded is not None:
         click.echo(f"  embedded row: order {_embedded(report.embedded)}")
     if report.proof is not None:
@@ -311,7 +351,7 @@ def _print_failing(family: FamilyOrder) -> None:
         return
     text = "1 condition" if count == 1 else f"{count} conditions"
     click.echo(f"  {family.family}: {text} of order {n} not met")
-    shown = 1 if family.verdict == "holds" else SHOWN
+    shown = 1 if family.verdict in ("holds", UNCLAIMED) else SHOWN
     for failure in family.failing[:shown]:
         decimal = "" if failure.decimal == failure.residual else f" = {failure.decimal}"
         formula = failure.condition.expression
@@ -325,7 +365,9 @@ def _print_failing(family: FamilyOrder) -> None:
 
 def _print_summary(verdicts: Sequence[str | None]) -> None:
     counts = [
-        f"{n} {verdict}" for verdict in ("holds", "fails", "undecided") if (n := verdicts.count(verdict))
+        f"{n} {verdict}"
+        for verdict in ("holds", "fails", "undecided", UNCLAIMED)
+        if (n := verdicts.count(verdict))
     ]
     counts += [f"{n} not read"] if (n := verdicts.count(None)) else []
     click.echo(f"{len(verdicts)} tableaux: {', '.join(counts)}")
