@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from orderconds.proof.implications import Fact
 
 
+NOT_PROVED = ("decimal", DOUBLE)
+"""The certificates of orders that digits support and do not prove."""
+
+
 def check(
     tableau: Tableau | str | PathLike[str],
     family: str | None = None,
@@ -37,11 +41,10 @@ def check(
 
     With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, whether or not the file claims it.
     With ``order`` the order must be at least this number, and claims are ignored. With ``complete`` the check
-    fails unless the file claims an order in each claimable family. With ``certified`` it fails if only
-    rounded decimals or doubles support an order. A tableau without claims is checked in the family of its
-    format, and its verdict is ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in
-    the report is a lower bound. ``tolerance`` is the uncertainty of coefficients that are doubles, in units
-    of rounding (:mod:`orderconds.tableau.doubles`).
+    fails unless the file claims an order in each claimable family. With ``certified`` it fails if only digits
+    support an order. A tableau without claims is checked in the family of its format, and its verdict is
+    ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in the report is a lower bound.
+    ``tolerance`` is the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
     :class:`~orderconds.errors.ZeroWeight` if the formulas of a family divide by a weight b_i = 0,
@@ -59,8 +62,7 @@ def check(
     if not isinstance(tableau, Tableau):
         tableau = read(tableau)
     given = tableau
-    if tolerance is not None:
-        tableau = with_tolerance(tableau, tolerance)
+    tableau = tableau if tolerance is None else with_tolerance(tableau, tolerance)
     wanted = list(_wanted(tableau, family))
     proof, broken = _proof(tableau)
     enclosed = proof.tableau if proof else tableau
@@ -70,15 +72,12 @@ def check(
     if family is None:
         broken += _broken_claims(tableau, computed, embedded)
     if complete:
-        from orderconds.checking.claimable import unclaimed
-
-        broken += _missing_claims(enclosed, unclaimed(tableau))
+        broken += _missing_claims(enclosed, tableau)
     orders = _orders(enclosed, wanted, facts, order, Meter(limits or Limits()))
     if tableau.doubles:
         orders = tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
     if certified:
-        supported = ("decimal", DOUBLE)
-        broken += [f"{f.family}: certificate {f.certificate}" for f in orders if f.certificate in supported]
+        broken += [f"{f.family}: certificate {f.certificate}" for f in orders if f.certificate in NOT_PROVED]
     return Report(
         name=tableau.name,
         file=tableau.path,
@@ -363,10 +362,13 @@ def _broken_claims(
         yield f"the embedded row has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
 
 
-def _missing_claims(tableau: Tableau, unclaimed: Sequence[Family]) -> Iterator[str]:
-    """Yield a message for each family without a claim, with the order that it could claim."""
-    for family in unclaimed:
-        computed = family_order(tableau, family)
+def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
+    """Yield a message for each family without a claim, with the order that it could claim. ``enclosed`` has
+    the proved coefficients of the tableau."""
+    from orderconds.checking.claimable import unclaimed
+
+    for family in unclaimed(tableau):
+        computed = family_order(enclosed, family)
         least = " at least" if computed.limit is not None or not computed.decided else ""
         order = f"order{least} {computed.order}"
         yield f"no order is claimed in family {family.label()}, in which the method has {order}"

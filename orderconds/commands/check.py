@@ -57,6 +57,7 @@ WIDTH = 200
 @click.option(
     "--require-claims", is_flag=True, help="Exit with 1 if a tableau claims no order that is checked."
 )
+@click.option("--skip-others", is_flag=True, help="Skip named files that hold no tableau, as in a directory.")
 @click.option(
     "--tolerance",
     type=click.FloatRange(0, 2**40),
@@ -88,6 +89,7 @@ def command(
     complete: bool,
     certified: bool,
     require_claims: bool,
+    skip_others: bool,
     tolerance: float | None,
     execute: bool,
     max_conditions: int | None,
@@ -108,7 +110,7 @@ def command(
         get(family)  # report an unknown family once, not for each file
     excused = _excused(tableaux)
     limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
-    paths = list(_files(tableaux))
+    paths = list(_files(tableaux, skip_others))
     detailed = len(tableaux) == 1 and not os.path.isdir(tableaux[0])
     jobs = [
         _Job(
@@ -126,6 +128,18 @@ def command(
         )
         for path in paths
     ]
+    verdicts = _report(paths, jobs, as_json)
+    if None in verdicts:
+        return 2
+    if require_claims and UNCLAIMED in verdicts:
+        count = verdicts.count(UNCLAIMED)
+        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
+    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
+    return 0 if all(verdict in accepted for verdict in verdicts) else 1
+
+
+def _report(paths: Sequence[str], jobs: Sequence[_Job], as_json: bool) -> list[str | None]:
+    """Check the tableaux, print the results, and return the verdicts; None for a file that cannot be read."""
     outcomes: list[_Outcome] = []
     subject = paths[0] if len(paths) == 1 else f"{len(paths)} tableaux"
     with screen.working(f"checking {subject}"), _without_collection(paths):
@@ -142,13 +156,7 @@ def command(
         screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
     elif len(outcomes) > 1:
         _print_summary(verdicts)
-    if None in verdicts:
-        return 2
-    if require_claims and not as_json and UNCLAIMED in verdicts:
-        count = verdicts.count(UNCLAIMED)
-        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
-    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
-    return 0 if all(verdict in accepted for verdict in verdicts) else 1
+    return verdicts
 
 
 @contextmanager
@@ -229,7 +237,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
     return names
 
 
-def _files(arguments: Sequence[str]) -> Iterator[str]:
+def _files(arguments: Sequence[str], skip_others: bool) -> Iterator[str]:
     """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
     The skipped files are named on stderr, with the reason.
@@ -239,11 +247,17 @@ def _files(arguments: Sequence[str]) -> Iterator[str]:
             raise TableauError(
                 f"the argument {argument!r} is empty", expected="a file, a folder or a tableau's name"
             )
-        if not os.path.isdir(argument):
+        if not os.path.isdir(argument) and not skip_others:
             yield argument
             continue
-        from orderconds.exchange.folder import SUFFIXES, scan
+        from orderconds.exchange.folder import SUFFIXES, reason_to_skip, scan
 
+        if not os.path.isdir(argument):
+            if reason := reason_to_skip(argument):
+                click.echo(f"skipped {argument}: {reason}", err=True)
+            else:
+                yield argument
+            continue
         found = scan(argument)
         for path, reason in found.skipped:
             click.echo(f"skipped {path}: {reason}", err=True)

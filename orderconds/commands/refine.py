@@ -1,5 +1,4 @@
-"""``orderconds refine``: more digits for the rounded decimals of a tableau, and their proof; exact coefficients for
-doubles."""
+"""``orderconds refine``: exact coefficients for doubles; more digits for rounded decimals and their proof."""
 
 from __future__ import annotations
 
@@ -7,7 +6,9 @@ import click
 
 from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
-from orderconds.tableau import Tableau
+from orderconds.tableau import Tableau, dumps
+
+UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give a method of this order"
 
 
 @click.command(name="refine", short_help="Replace a tableau's decimals by proved digits or exact numbers.")
@@ -33,14 +34,15 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     from orderconds.checking import read
 
     tableau = read(file)
-    if tableau.proof is None and tableau.file is not None and tableau.file.symbolic.decimals():
+    rounded = tableau.file is not None and tableau.file.symbolic.decimals()
+    if tableau.proof is None and (rounded or not file.endswith(".toml")):
         return _exact(tableau, output, as_json)
     from orderconds.proof.certificate import certify
     from orderconds.proof.krawczyk import NotProved
     from orderconds.proof.refine import refine
     from orderconds.tableau.file import text_of
 
-    text = text_of(file)
+    text = text_of(file) if file.endswith(".toml") else dumps(tableau)
     try:
         with screen.working(f"refining {file}"):
             refined = refine(text, file, digits)
@@ -67,7 +69,8 @@ def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
     with screen.working(f"refining {tableau.path}"):
         forms = exact_forms(tableau)
     if forms is None:
-        reason = "no fractions and no numbers p + q sqrt(d) near the coefficients give a method of this order"
+        exact = tableau.file is not None and not tableau.file.symbolic.decimals()
+        reason = "all coefficients are exact already" if exact else UNKNOWN
         click.echo(f"orderconds: {tableau.path}: {reason}", err=True)
         if as_json:
             screen.print_json({"exact": {}, "proof": None, "reason": reason})

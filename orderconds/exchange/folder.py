@@ -20,6 +20,9 @@ from orderconds.tableau.file import KEYS, bytes_of, meant_as_tableau
 SUFFIXES = tuple(dict.fromkeys((*(suffix for _, suffix in FORMATS.values()), ".h")))
 """The suffixes of files that may hold a tableau."""
 
+EXCUSES = "DECIMAL"
+"""A file of a folder with the names of tableaux whose orders need no proof."""
+
 NO_KEY = "no key of a tableau (family, A, b, ...)"
 _ARRAY = re.compile(r"(?<!\w)(?:\w+_)?(?:A|gamma|alpha|exponentials)\s*(?:\[[^\]]*\]\s*){1,2}=", re.ASCII)
 _LATEX = re.compile(
@@ -42,7 +45,8 @@ def scan(folder: str | Path) -> Folder:
     found = Folder()
     for path in _files(Path(folder), found.others):
         if path.suffix not in SUFFIXES:
-            found.others.append(path.name)
+            if path.name != EXCUSES:
+                found.others.append(path.name)
         elif reason := reason_to_skip(path):
             found.skipped.append((str(path), reason))
         else:
