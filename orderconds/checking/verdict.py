@@ -46,10 +46,8 @@ def check(
     ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in the report is a lower bound.
     ``tolerance`` is the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
 
-    Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
-    :class:`~orderconds.errors.ZeroWeight` if the formulas of a family divide by a weight b_i = 0,
-    :class:`~orderconds.errors.TableauError` for a file that cannot be read, and
-    :class:`~orderconds.errors.InputError` for a family that does not accept the format of the tableau.
+    Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
+    formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
 
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
@@ -61,8 +59,7 @@ def check(
     """
     if not isinstance(tableau, Tableau):
         tableau = read(tableau)
-    given = tableau
-    tableau = tableau if tolerance is None else with_tolerance(tableau, tolerance)
+    given, tableau = tableau, with_tolerance(tableau, tolerance)
     wanted = list(_wanted(tableau, family))
     proof, broken = _proof(tableau)
     enclosed = proof.tableau if proof else tableau
@@ -73,9 +70,7 @@ def check(
         broken += _broken_claims(tableau, computed, embedded)
     if complete:
         broken += _missing_claims(enclosed, tableau)
-    orders = _orders(enclosed, wanted, facts, order, Meter(limits or Limits()))
-    if tableau.doubles:
-        orders = tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
+    orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     if certified:
         broken += [f"{f.family}: certificate {f.certificate}" for f in orders if f.certificate in NOT_PROVED]
     return Report(
@@ -92,6 +87,13 @@ def check(
         properties_claimed=bool(tableau.claims.properties),
         hint=_hint(given, orders),
     )
+
+
+def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
+    """Return the orders with the certificate ``double`` instead of ``decimal`` for a tableau of doubles."""
+    if not tableau.doubles:
+        return orders
+    return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
 
 
 def _of_doubles(certificate: str) -> str:
