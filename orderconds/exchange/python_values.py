@@ -46,9 +46,10 @@ MAX_OPERATIONS = 5_000
 
 @dataclass
 class Array:
-    """A list, a tuple or an array of values."""
+    """A list, a tuple or an array of values; ``integral`` if its entries stay integers."""
 
     items: list[Value]
+    integral: bool = False
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,8 @@ class Values:
             if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
                 return False
             if k == len(place) - 1:
+                if target.integral and not _is_integral(value):
+                    return False
                 target.items[index] = value
                 return not isinstance(value, Array)
             target = target.items[index]
@@ -205,7 +208,8 @@ class Values:
             and isinstance(node.func, ast.Name | ast.Attribute)
         ):
             _require_doubles(node)
-            return _copy(self._value(arguments[0]))
+            found = self._value(arguments[0])
+            return _copy(found, function in TYPED_CALLS and _is_integral(found))
         if function == "zeros" and len(arguments) == 1:
             return _zeros(self._value(arguments[0]), node)
         if function in ROOTS and len(arguments) == 1:
@@ -240,9 +244,18 @@ def _require_doubles(node: ast.Call) -> None:
             raise _NotLiteral(node, "an array of another type than float64")
 
 
-def _copy(value: Value) -> Value:
+def _is_integral(value: Value) -> bool:
+    """Whether a value is an integer, or an array of integers."""
+    if isinstance(value, Array):
+        return all(map(_is_integral, value.items))
+    if isinstance(value, Chain) and value.operators == ("-",) and value.operands[0] == ZERO:
+        value = value.operands[1]
+    return isinstance(value, Constant) and value.value.denominator == 1 and not value.unit
+
+
+def _copy(value: Value, integral: bool) -> Value:
     """Return an array that shares no rows with the given one."""
-    return Array([_copy(x) for x in value.items]) if isinstance(value, Array) else value
+    return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
 def _zeros(shape: Value, node: ast.Call) -> Array:
