@@ -50,7 +50,7 @@ ALIKE = ("free_rigid_body_attitude", "free_rigid_body_quaternion", "free_rigid_b
 """Scenes whose equations are solved as those of another scene of the same group; for the slow run."""
 
 FRACTIONS = (1, 1 / 32, 1 / 1024)
-"""Sizes of steps on a scene, in hundredths of the span: the first size at which the method converges is used."""
+"""Sizes of steps, in hundredths of the span. The first size at which the method converges is used."""
 
 
 def implicit(scene):
