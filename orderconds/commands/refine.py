@@ -30,6 +30,11 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     determines its format; stdout is TOML.
 
     Exits with 0 if the new coefficients are proved, 1 if not, 2 for a file that cannot be read.
+
+    \b
+    Examples:
+        orderconds refine mine.toml --digits 100 -o mine.toml
+        orderconds refine mine.npz -o exact.toml
     """
     from orderconds.checking import read
 

@@ -127,7 +127,8 @@ def _follow(statement: ast.stmt, values: Values) -> None:
         return
     if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
         changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
-        values.forget([statement.name, *changed], statement.lineno)
+        values.forget(changed, statement.lineno)
+        values.assign(statement.name, Computed("a function or class", statement.lineno))
         return
     if isinstance(statement, ast.If) and _is_script_part(statement):
         return

@@ -24,19 +24,12 @@ from orderconds.tableau.grammar import (
 )
 
 ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list", "tuple")
-NUMBER_CALLS = (
-    "Integer",
-    "S",
-    "sympify",
-    "float",
-    "float64",
-    "int",
-    "mpf",
-    "Decimal",
-    "Fraction",
-    "Rational",
-)
+NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
+TYPED_CALLS = ("array", "asarray", "matrix")
+"""Constructors of arrays whose entries have one type: an entry of an array of integers cannot become 1/2."""
+NARROW = ("16", "32", "complex", "int", "bool")
+"""Parts of the names of types of integers, of complex numbers, and of floats with few digits."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
@@ -202,11 +195,9 @@ class Values:
     def _call(self, node: ast.Call) -> Value:
         function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
         arguments = node.args
-        if (
-            function in ARRAY_CALLS
-            and len(arguments) == 1
-            and isinstance(node.func, ast.Name | ast.Attribute)
-        ):
+        if isinstance(node.func, ast.Name) and function in self.known:
+            raise _NotLiteral(node, f"a call of {function}, which the module defines")
+        if function in ARRAY_CALLS and len(arguments) == 1:
             _require_doubles(node)
             found = self._value(arguments[0])
             return _copy(found, function in TYPED_CALLS and _is_integral(found))
@@ -236,11 +227,9 @@ def _class(operator: ast.operator) -> str:
 
 
 def _require_doubles(node: ast.Call) -> None:
-    """Raise an error for an array of numbers with fewer digits than a double."""
+    """Raise an error for an array of another type than float64."""
     for keyword in node.keywords:
-        if keyword.arg == "dtype" and any(
-            short in ast.dump(keyword.value) for short in ("16", "32", "complex")
-        ):
+        if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
             raise _NotLiteral(node, "an array of another type than float64")
 
 

@@ -61,6 +61,7 @@ def test_arrays_are_read_from_literals_names_and_constructors(source: str) -> No
         "A = [[0]]\nb = np.linspace(0, 1, 1)",
         "A = [[0]] * 2\nb = [1, 0]",
         "A = [[0]]\nb = [1]\ndel b",
+        "def sqrt(x):\n    return 1\nA = [[0]]\nb = [sqrt(2)]",
         "import numpy as np\nA = np.array([[0, 0], [1, 0]])\nb = [0, 1]\nA[1, 0] = 1/2",
         "A = [[0]]\n[b] = [[1]]\nb = f(b)",
     ],
