@@ -51,10 +51,10 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
     rounded = tableau.file.symbolic.decimals()
     if not rounded or len(rounded) > MAX_NUMBERS:
         return None
-    found = _recognised([unknown.constant for unknown in rounded])
-    if found is None:
+    texts = _recognised([unknown.constant for unknown in rounded])
+    if texts is None:
         return None
-    replaced = {key: x if key in TEXTS else _replaced(x, found) for key, x in tableau.file.data.items()}
+    replaced = {key: x if key in TEXTS else _replaced(x, texts) for key, x in tableau.file.data.items()}
     replaced.pop("proof", None)
     try:
         exact = from_data(replaced, tableau.path or tableau.name, tableau.path)
@@ -65,14 +65,14 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
         return None
     if exact.doubles or proved.order < supported.order or proved.certificate != "exact":
         return None
-    return ExactForms(exact, replaced, {u.name: found[u.constant] for u in rounded})
+    return ExactForms(exact, replaced, {u.name: texts[u.constant] for u in rounded})
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
     """Return the text of each number as an element of one field, or None."""
-    found = {constant: _fraction(constant) for constant in constants}
-    texts = {constant: str(x) for constant, x in found.items() if x is not None}
-    others = [constant for constant, x in found.items() if x is None]
+    fractions = {constant: _fraction(constant) for constant in constants}
+    texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
+    others = [constant for constant, x in fractions.items() if x is None]
     if not others:
         return texts
     fields = (quadratic_field(x.value, _bits(x)) for x in others)
@@ -118,12 +118,12 @@ def _surd(x: Constant, d: int) -> str | None:
     return f"{p} {'-' if q < 0 else '+'} {surd}"
 
 
-def _replaced(x: object, found: dict[Constant, str]) -> object:
+def _replaced(x: object, texts: dict[Constant, str]) -> object:
     """Return the values of a file in which each recognised number has its exact text."""
     if isinstance(x, list):
-        return [_replaced(y, found) for y in x]
+        return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):
-        return {key: _replaced(y, found) for key, y in x.items()}
+        return {key: _replaced(y, texts) for key, y in x.items()}
     if not isinstance(x, str):
         return x
     try:
@@ -134,9 +134,9 @@ def _replaced(x: object, found: dict[Constant, str]) -> object:
     inner: Expression = expression
     if isinstance(expression, Chain) and negative and expression.operands[0] == ZERO:
         inner = expression.operands[1]
-    if not isinstance(inner, Constant) or inner not in found:
+    if not isinstance(inner, Constant) or inner not in texts:
         return x
-    text = found[inner]
+    text = texts[inner]
     if inner is expression:
         return text
     return text[1:] if text.startswith("-") and " " not in text else _negative(text)

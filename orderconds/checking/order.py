@@ -133,8 +133,8 @@ def family_order(
     family.require(method, tableau.ring)
     spared = family.reductions(method, tableau.ring, proved or {})
     search = _Search(family, method, tableau.ring, spared, meter or Meter(), [] if tableau.doubles else None)
-    found = search.run(claimed, required, bound, brief)
-    return replace(found, largest=max(search.sizes)) if search.sizes else found
+    computed = search.run(claimed, required, bound, brief)
+    return replace(computed, largest=max(search.sizes)) if search.sizes else computed
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:

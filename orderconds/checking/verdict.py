@@ -340,11 +340,11 @@ def _claimed(tableau: Tableau, label: str) -> Family:
     if tableau.family not in family.formats and family.read(tableau) is None:
         from orderconds.checking.claimable import claimable_families
 
-        served = ", ".join(member.label() for member in claimable_families(tableau))
+        readers = ", ".join(member.label() for member in claimable_families(tableau))
         raise InputError(
             f"a claim in family {label}, which does not read tableaux of format {tableau.family}",
             where=where,
-            expected=f"a family that reads them, such as {served}",
+            expected=f"a family that reads them, such as {readers}",
         )
     return family
 

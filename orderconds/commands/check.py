@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import click
 from msgspec import Struct
+from msgspec.structs import replace
 
 from orderconds.checking.limits import MAX_CONDITIONS, Limits
 from orderconds.commands import screen
@@ -114,70 +115,55 @@ def command(
     \b
     Examples:
         orderconds check cf4
-        orderconds check tableaux --certified
+        orderconds check tableaux --require-claims
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     from orderconds.families import get
 
     if family is not None:
         get(family)  # report an unknown family once, not for each file
-    excused = _excused(tableaux)
-    limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
-    paths = list(_files(tableaux, skip_others))
-    detailed = len(tableaux) == 1 and not os.path.isdir(tableaux[0])
-    jobs = [
-        _Job(
-            path=path,
-            family=family,
-            order=order,
-            complete=complete,
-            certified=certified and Path(path).stem not in excused,
-            limits=limits,
-            tolerance=tolerance,
-            execute=execute,
-            as_json=as_json,
-            detailed=detailed,
-            one_of_many=len(paths) > 1,
-        )
-        for path in paths
-    ]
-<<<<<<< HEAD
-    verdicts = _report(paths, jobs, as_json)
-    if None in verdicts:
-        return 2
-    if require_claims and UNCLAIMED in verdicts:
-        count = verdicts.count(UNCLAIMED)
-        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
-    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
-    return 0 if all(verdict in accepted for verdict in verdicts) else 1
-
-
-def _report(paths: Sequence[str], jobs: Sequence[_Job], as_json: bool) -> list[str | None]:
-    """Check the tableaux, print the results, and return the verdicts; None for a file that cannot be read."""
-    outcomes: list[_Outcome] = []
-    subject = paths[0] if len(paths) == 1 else f"{len(paths)} tableaux"
-    with screen.working(f"checking {subject}"), _without_collection(paths):
-        for outcome in in_processes(_checked, jobs):
-            outcomes.append(outcome)
-            if outcome.verdict is None:
-                click.echo(outcome.text, err=True)
-            elif not as_json:
-                click.echo(outcome.text, nl=False)
-=======
+    job = _Job(
+        path="",
+        family=family,
+        order=order,
+        complete=complete,
+        certified=certified,
+        limits=Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory),
+        tolerance=tolerance,
+        execute=execute,
+        as_json=as_json,
+        detailed=len(tableaux) == 1 and not os.path.isdir(tableaux[0]),
+    )
+    jobs = _jobs(tableaux, job, skip_others)
     outcomes = list(_outcomes(jobs, as_json))
->>>>>>> main
     verdicts = [outcome.verdict for outcome in outcomes]
-    held = all(verdict == "holds" for verdict in verdicts)
+    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
+    held = all(verdict in accepted for verdict in verdicts)
     if as_json:
         import json
 
         screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
     elif len(outcomes) > 1 and screen.is_shown(held):
         _print_summary(verdicts)
-<<<<<<< HEAD
-    return verdicts
-=======
+    if require_claims and UNCLAIMED in verdicts:
+        count = verdicts.count(UNCLAIMED)
+        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
     return 2 if None in verdicts else 0 if held else 1
+
+
+def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool) -> list[_Job]:
+    """Return a job for each tableau, with the options of ``job``."""
+    excused = _excused(arguments)
+    paths = list(_files(arguments, skip_others))
+    return [
+        replace(
+            job,
+            path=path,
+            certified=job.certified and Path(path).stem not in excused,
+            one_of_many=len(paths) > 1,
+        )
+        for path in paths
+    ]
 
 
 def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
@@ -191,7 +177,6 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
             elif not as_json and screen.is_shown(outcome.verdict == "holds"):
                 click.echo(outcome.text, nl=False)
             yield outcome
->>>>>>> main
 
 
 @contextmanager
@@ -221,7 +206,7 @@ class _Job(Struct, frozen=True):
     execute: bool
     as_json: bool
     detailed: bool
-    one_of_many: bool
+    one_of_many: bool = False
 
 
 class _Outcome(Struct, frozen=True):
@@ -294,17 +279,17 @@ def _files(arguments: Sequence[str], skip_others: bool) -> Iterator[str]:
             else:
                 yield argument
             continue
-        found = scan(argument)
-        for path, reason in found.skipped:
+        below = scan(argument)
+        for path, reason in below.skipped:
             click.echo(f"skipped {path}: {reason}", err=True)
-        if found.others:
-            names = list(dict.fromkeys(found.others))
+        if below.others:
+            names = list(dict.fromkeys(below.others))
             shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
-            click.echo(f"skipped {len(found.others)} other files and hidden folders: {shown}", err=True)
-        if not found.tableaux:
+            click.echo(f"skipped {len(below.others)} other files and hidden folders: {shown}", err=True)
+        if not below.tableaux:
             kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
             raise TableauError("no tableau below this directory", where=argument, expected=f"files {kinds}")
-        yield from found.tableaux
+        yield from below.tableaux
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:

@@ -42,16 +42,16 @@ class Folder:
 
 def scan(folder: str | Path) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched."""
-    found = Folder()
-    for path in _files(Path(folder), found.others):
+    files = Folder()
+    for path in _files(Path(folder), files.others):
         if path.suffix not in SUFFIXES:
             if path.name != EXCUSES:
-                found.others.append(path.name)
+                files.others.append(path.name)
         elif reason := reason_to_skip(path):
-            found.skipped.append((str(path), reason))
+            files.skipped.append((str(path), reason))
         else:
-            found.tableaux.append(str(path))
-    return found
+            files.tableaux.append(str(path))
+    return files
 
 
 def _files(folder: Path, hidden: list[str]) -> Iterator[Path]:
@@ -111,8 +111,8 @@ def _of_archive(content: bytes) -> str:
         names = zipfile.ZipFile(io.BytesIO(content)).namelist()
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
         return ""
-    found = {name.removesuffix(".npy") for name in names} & {*MATRICES, *ROWS}
-    return "" if found - {"c"} else "no array is named A, b, ..."
+    arrays = {name.removesuffix(".npy") for name in names} & {*MATRICES, *ROWS}
+    return "" if arrays - {"c"} else "no array is named A, b, ..."
 
 
 def _of_python(content: bytes) -> str:

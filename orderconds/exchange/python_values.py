@@ -199,8 +199,8 @@ class Values:
             raise _NotLiteral(node, f"a call of {function}, which the module defines")
         if function in ARRAY_CALLS and len(arguments) == 1:
             _require_doubles(node)
-            found = self._value(arguments[0])
-            return _copy(found, function in TYPED_CALLS and _is_integral(found))
+            given = self._value(arguments[0])
+            return _copy(given, function in TYPED_CALLS and _is_integral(given))
         if function == "zeros" and len(arguments) == 1:
             return _zeros(self._value(arguments[0]), node)
         if function in ROOTS and len(arguments) == 1:

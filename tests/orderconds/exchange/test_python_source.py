@@ -104,7 +104,7 @@ def test_an_executed_module_may_compute_its_arrays(
         ("raise ValueError('x')", "ValueError: x"),
         ("raise SystemExit(3)", "SystemExit: 3"),
         ("A = [[0]]\nb = [1j]", "expected a real number"),
-        ("A = [[0]]\nb = [object()]", "a value of type object"),
+        ("A = [[0]]\nb = [object()]", "an object of type object"),
         ("A = [[0]]\nb = [float('nan')]", "expected a finite number"),
         ("x = 1", "no array of coefficients"),
     ],
