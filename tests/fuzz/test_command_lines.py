@@ -27,10 +27,11 @@ from tests.fuzz.fork_server import ERR, MEGABYTES, OUT, Ending, run, running
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="forks")
 
-MEASURING = {"bench", "converge", "longrun", "report", "solve", "stability"}
+MEASURING = {"bench", "converge", "longrun", "recommend", "report", "solve", "stability"}
 EXPANDING = {"derive"}
 AS_LONG_AS_ASKED = MEASURING | EXPANDING
-"""Commands that work as long as their options ask, as --order or --steps; they end when interrupted."""
+"""Commands that work as long as their options ask, as --order, --steps or --budget (50 s by default); they end when
+interrupted."""
 
 
 @pytest.fixture(scope="module")
