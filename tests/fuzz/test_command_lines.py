@@ -30,8 +30,9 @@ pytestmark = pytest.mark.skipif(os.name != "posix", reason="forks")
 MEASURING = {"bench", "converge", "longrun", "recommend", "report", "solve", "stability"}
 EXPANDING = {"derive"}
 AS_LONG_AS_ASKED = MEASURING | EXPANDING
-"""Commands that work as long as their options ask, as --order, --steps or --budget (50 s by default); they end when
-interrupted."""
+"""Commands that work as long as their options ask; they end when interrupted.
+
+Such options are --order, --steps and --budget, which is 50 s by default."""
 
 
 @pytest.fixture(scope="module")
