@@ -47,3 +47,16 @@ def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
     """
     claimed = {claim.family for claim in tableau.claims.orders} | {c.label for c in tableau.claims.orders}
     return tuple(f for f in claimable_families(tableau) if f.label() not in claimed)
+
+
+def orders_of(tableau: Tableau) -> dict[str, int]:
+    """Return the computed order in each claimable family, and in the families of the tableau's claims.
+
+    >>> orders_of(Tableau.load("kutta3"))
+    {'rk': 3, 'cg': 2, 'rkmk(1)': 3, 'sprk': 3, 'vcg': 2, 'vrkmk(1)': 3}
+    """
+    from orderconds.checking.verdict import check
+
+    labels = [family.label() for family in claimable_families(tableau)]
+    labels += [claim.label for claim in tableau.claims.orders]
+    return {label: check(tableau, family=label).orders[0].order for label in dict.fromkeys(labels)}

@@ -17,6 +17,7 @@ from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_bytes
 from orderconds.ring.protocol import Ring
 from orderconds.tableau.claims import Claims, OrderClaim
+from orderconds.tableau.doubles import ball, is_double
 from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
 from orderconds.tableau.file_format import Claim, CutoffClaim, Data, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
@@ -64,6 +65,8 @@ class File(Struct, frozen=True):
     claims: Claims
     symbolic: SymbolicCoefficients
     proof: Proof | None
+    doubles: bool = False
+    """Whether a coefficient was given as a binary floating-point number."""
 
 
 def text_of(path: str | Path) -> str:
@@ -151,7 +154,9 @@ def read(data: Mapping[str, object], where: str) -> File:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
     source = SymbolicCoefficients(expressions, numbers, where, entry.build)
-    return File(data, entry, ring, method, embedded, _claims(entry, where), source, _proof(entry, source))
+    doubles = any(is_double(x) for _, x in entry.coefficients())
+    claims, proof = _claims(entry, where), _proof(entry, source)
+    return File(data, entry, ring, method, embedded, claims, source, proof, doubles)
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
@@ -200,7 +205,7 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
         problem = f"a value of type {wrong[2]}"
         if wrong[2] == "numpy.ndarray":
             problem = "NumPy arrays are not accepted here"
-            hint = "pass nested lists of texts or integers, or load a .npz file"
+            hint = "build the tableau with Tableau.rk(A, b), which accepts arrays"
         return TableauError(problem, where=place, expected=wrong[1], hint=hint)
     return TableauError(summary[:1].lower() + summary[1:], where=place)
 
@@ -235,7 +240,9 @@ def _verify_names(entry: Format, where: str) -> None:
 
 
 def _parsed(x: str | int, where: str) -> Expression:
-    return parse(x, where) if isinstance(x, str) else Constant(Fraction(x))
+    if not isinstance(x, str):
+        return Constant(Fraction(x))
+    return ball(x) if is_double(x) else parse(x, where)
 
 
 def _numbers(entry: Format, where: str) -> dict[str, Definition]:
