@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from orderconds.errors import TableauError
 from orderconds.tableau.coefficient_latex import decimal, with_fractions
+from orderconds.tableau.doubles import printed
 from orderconds.tableau.grammar import Constant, Expression, Name, Power, parse
 
 
@@ -27,6 +28,8 @@ def _number(x: Fraction) -> str:
 def _python(x: Expression, tight: int) -> str:
     """Return x as Python source; ``tight`` is 1 inside a product, 2 in a divisor or a base."""
     if isinstance(x, Constant):
+        if x.is_double:
+            return printed(x.value)
         if x.unit:
             places = len(str(x.unit.denominator)) - 1
             return f"Float('{decimal(x.value, places)}')"

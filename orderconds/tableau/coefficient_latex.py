@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from orderconds.tableau.doubles import decimal_text, is_double
+from orderconds.tableau.doubles import printed
 from orderconds.tableau.grammar import Chain, Constant, Expression, Name, Power, parse
 
 
@@ -14,13 +14,13 @@ def to_latex(text: str) -> str:
     >>> print(to_latex("1/4 - sqrt(3)/6"), to_latex("2^(1/3)"), to_latex("-1/2"), to_latex("0.5773~"))
     \frac{1}{4} - \frac{\sqrt{3}}{6} \sqrt[3]{2} -\frac{1}{2} 0.5773\ldots
     """
-    if is_double(text):
-        return decimal_text(text)
     return _latex(with_fractions(parse(text)), 0)
 
 
 def _latex(x: Expression, tight: int) -> str:
     if isinstance(x, Constant):
+        if x.is_double:
+            return printed(x.value)
         if x.unit:
             return decimal(x.value, len(str(x.unit.denominator)) - 1) + r"\ldots"
         size = abs(x.value)

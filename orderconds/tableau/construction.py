@@ -21,7 +21,7 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
     out. :class:`~orderconds.errors.TableauError` names the wrong entry.
 
     >>> runge_kutta([[], [0.5]], [0, 1])
-    {'family': 'rk', 'A': [[], ['1/2']], 'b': [0, 1]}
+    {'family': 'rk', 'A': [[], ['0.5']], 'b': [0, 1]}
     """
     weights, rows = row(b, "b"), matrix(A, "A")
     _require_triangular_or_full(rows, len(weights))
@@ -76,7 +76,7 @@ def commutator_free(
     orderconds.errors.TableauError: update[1][1]: [0, 1] of type list; expected a number: an exponential is \
 a row of coefficients, and an update is a list of exponentials
     >>> commutator_free([[], [[0.5]]], [[0, 1]])["stage"]
-    [{}, {'exp': [['1/2']]}]
+    [{}, {'exp': [['0.5']]}]
     """
     products = [_product(x, f"stages[{i}]") for i, x in enumerate(_listed(stages), start=1)]
     for stage, start in (starts or {}).items():

@@ -17,8 +17,7 @@ from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_bytes
 from orderconds.ring.protocol import Ring
 from orderconds.tableau.claims import Claims, OrderClaim
-from orderconds.tableau.doubles import ball, is_double
-from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
+from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate, rounded_and_exact
 from orderconds.tableau.file_format import Claim, CutoffClaim, Data, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
@@ -154,8 +153,9 @@ def read(data: Mapping[str, object], where: str) -> File:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
     source = SymbolicCoefficients(expressions, numbers, where, entry.build)
-    doubles = any(is_double(x) for _, x in entry.coefficients())
     claims, proof = _claims(entry, where), _proof(entry, source)
+    constants = (c for x in (*expressions.values(), *numbers.values()) for c in rounded_and_exact(x))
+    doubles = any(c.is_double for c in constants)
     return File(data, entry, ring, method, embedded, claims, source, proof, doubles)
 
 
@@ -240,9 +240,7 @@ def _verify_names(entry: Format, where: str) -> None:
 
 
 def _parsed(x: str | int, where: str) -> Expression:
-    if not isinstance(x, str):
-        return Constant(Fraction(x))
-    return ball(x) if is_double(x) else parse(x, where)
+    return parse(x, where) if isinstance(x, str) else Constant(Fraction(x))
 
 
 def _numbers(entry: Format, where: str) -> dict[str, Definition]:
@@ -333,7 +331,7 @@ def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
 
 
 def _claims(entry: Format, where: str) -> Claims:
-    orders: list[OrderClaim] = []
+    orders = [] if entry.order is None else [OrderClaim(entry.family, None, entry.order)]
     properties: dict[str, bool] = {}
     for key, value in _each(entry.claims, Claim, CutoffClaim, "claims", where).items():
         if isinstance(value, bool):

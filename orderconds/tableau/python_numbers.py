@@ -13,7 +13,7 @@ from fractions import Fraction
 from typing import Protocol, cast
 
 from orderconds.errors import TableauError
-from orderconds.tableau.doubles import double_text
+from orderconds.tableau.doubles import double_text, is_double
 from orderconds.tableau.file_format import Coefficient
 
 EXPECTED = 'a real number: an integer, a Fraction, a float, a SymPy number, or a text such as "1/4 - sqrt(3)/6"'
@@ -39,7 +39,7 @@ def coefficient(x: object, where: str) -> Coefficient:
 
     >>> from fractions import Fraction
     >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
-    [1, '1/3', 'sqrt(3)/6', '1/4', '0x1.999999999999ap-4']
+    [1, '1/3', 'sqrt(3)/6', '0.25', '0.1d']
     >>> coefficient(1 + 2j, "b[1]")
     Traceback (most recent call last):
     orderconds.errors.TableauError: b[1]: the complex number (1+2j); expected a real number
@@ -81,7 +81,7 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
     """Return a number with few digits: exact if its denominator is small, else a rounded decimal."""
     text = double_text(x, where)
-    return f"{Decimal(f'{x:.{digits - 1}e}'):f}~" if text.lstrip("-").startswith("0x") else text
+    return f"{Decimal(f'{x:.{digits - 1}e}'):f}~" if is_double(text) else text
 
 
 def _of_sympy(x: object, where: str) -> Coefficient:
@@ -106,7 +106,7 @@ def row(values: object, where: str) -> list[Coefficient]:
     """Return the coefficients of a sequence of numbers.
 
     >>> row((0, 0.5, "1/2"), "b")
-    [0, '1/2', '1/2']
+    [0, '0.5', '1/2']
     """
     return [coefficient(x, f"{where}[{i}]") for i, x in enumerate(_flat(_items(values, where)), start=1)]
 
@@ -115,7 +115,7 @@ def matrix(values: object, where: str) -> list[list[Coefficient]]:
     """Return the coefficients of rows of numbers.
 
     >>> matrix([[], [0.5]], "A")
-    [[], ['1/2']]
+    [[], ['0.5']]
     """
     return [row(x, f"{where}[{i}]") for i, x in enumerate(_items(values, where), start=1)]
 
