@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 
 if TYPE_CHECKING:
     from codegen.ir.kernel import Kernel
-    from codegen.loader import Integrator
+    from codegen.integrator import Integrator
     from codegen.printers.interface import Interface
     from codegen.printers.recipe import Recipe
 

@@ -13,10 +13,14 @@ from fractions import Fraction
 from typing import Protocol, cast
 
 from orderconds.errors import TableauError
-from orderconds.tableau.doubles import double_text, is_double
+from orderconds.tableau.doubles import double_text
 from orderconds.tableau.file_format import Coefficient
 
 EXPECTED = 'a real number: an integer, a Fraction, a float, a SymPy number, or a text such as "1/4 - sqrt(3)/6"'
+
+
+SMALL = 1024
+"""A floating-point number of less than 64 bits is exact if its denominator is at most this number."""
 
 
 class _Listed(Protocol):
@@ -79,9 +83,11 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Return a number with few digits: exact if its denominator is small, else a rounded decimal."""
+    """Return a number of a narrow format: exact if its denominator is small, else a rounded decimal."""
     text = double_text(x, where)
-    return f"{Decimal(f'{x:.{digits - 1}e}'):f}~" if is_double(text) else text
+    if Fraction(x).denominator <= SMALL:
+        return text
+    return f"{Decimal(f'{x:.{digits - 1}e}'):f}~"
 
 
 def _of_sympy(x: object, where: str) -> Coefficient:

@@ -23,7 +23,8 @@ from codegen.lab.distance import distance
 from codegen.lab.orders.exact_order import exact_local_error
 from codegen.lab.reference import cached_reference
 from codegen.lab.stability.linear_stability import region
-from codegen.loader import Status, StepFailed, load
+from codegen.integrator import Status, StepFailed
+from codegen.loader import load
 from codegen.lower import families_for, lowering, problem_for
 from codegen.method import parse
 from codegen.printers import names as target_names

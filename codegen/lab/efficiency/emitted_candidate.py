@@ -24,7 +24,7 @@ from codegen.lab.efficiency.work_precision import (
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
 from codegen.lab.timing import cost, samples
-from codegen.loader import Statistics
+from codegen.integrator import Statistics
 from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target

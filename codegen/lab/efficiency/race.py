@@ -22,7 +22,8 @@ from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
 from codegen.lab.timing import samples
-from codegen.loader import Integrator, load
+from codegen.integrator import Integrator
+from codegen.loader import load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED

@@ -25,7 +25,7 @@ from codegen.lab.long_runs.symplecticity import largest_defect
 from codegen.lab.long_runs.trajectory import Trajectory, record
 from codegen.lab.orders.step_sizes import rounding as rounding_bound
 from codegen.lab.runner import Emitted
-from codegen.loader import StepFailed
+from codegen.integrator import StepFailed
 
 ROUNDING_STEPS = 20_000
 """The growth of rounding errors is measured from several starts over at most this number of steps."""

@@ -29,7 +29,8 @@ from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import DIGITS, precise_step, solved_step
 from codegen.lab.straight_line_field import straight_line
-from codegen.loader import Integrator, StepFailed, load
+from codegen.integrator import Integrator, StepFailed
+from codegen.loader import load
 from codegen.lower import problem_for
 from codegen.printers import DEFAULT
 

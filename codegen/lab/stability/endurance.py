@@ -10,7 +10,7 @@ from codegen.emitter import Compiled
 from codegen.lab.distance import distance
 from codegen.lab.invariants import MANIFOLD, functions
 from codegen.lab.runner import Emitted
-from codegen.loader import StepFailed
+from codegen.integrator import StepFailed
 
 MANY = 10_000_000
 BACK = 100_000

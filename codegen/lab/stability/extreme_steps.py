@@ -35,7 +35,7 @@ from codegen.ir.interpret import flatten, interpret
 from codegen.ir.values import Kind
 from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.runner import Emitted, split_state
-from codegen.loader import StepFailed
+from codegen.integrator import StepFailed
 from codegen.lower import problem_for
 from codegen.printers import target
 

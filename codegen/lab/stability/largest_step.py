@@ -16,7 +16,7 @@ from codegen.lab.distance import distance
 from codegen.lab.invariants import functions
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted
-from codegen.loader import StepFailed
+from codegen.integrator import StepFailed
 
 USABLE = 0.1
 MOST = 2**22

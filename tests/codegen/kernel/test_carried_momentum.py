@@ -13,7 +13,8 @@ from codegen.ir.expr import evaluate
 from codegen.ir.interpret import interpret
 from codegen.ir.program import BODY, SPACE
 from codegen.kernel.translate import to_kernel
-from codegen.loader import Status, StepFailed, load
+from codegen.integrator import Status, StepFailed
+from codegen.loader import load
 from codegen.passes import optimise
 from codegen.printers import names as target_names
 from codegen.printers import target as known_target

@@ -14,7 +14,8 @@ from codegen.ir.interpret import interpret
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST
 from codegen.ir.scene_operations import FLOWS, FlowFor
 from codegen.kernel.deferred_flows import part
-from codegen.loader import StepFailed, load
+from codegen.integrator import StepFailed
+from codegen.loader import load
 from tests.strategies import top_scene
 
 TURNS = ["T.mean", "T.turn"]

@@ -15,7 +15,7 @@ from codegen.ir.operations import Advance
 from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
-from codegen.loader import Status, StepFailed
+from codegen.integrator import Status, StepFailed
 from codegen.loader import load as load_module
 from codegen.passes.rewrite import rewrite
 from codegen.scenes import load

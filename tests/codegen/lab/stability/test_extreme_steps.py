@@ -10,7 +10,7 @@ import pytest
 from codegen.emitter import compile_method
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import ACCURATE, SILENT, WRONG, Case, answer, cases
-from codegen.loader import Integrator
+from codegen.integrator import Integrator
 
 
 class Spoilt:
