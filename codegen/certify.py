@@ -47,6 +47,7 @@ class CertifiedOrder:
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
+            "double": "the conditions hold up to rounding, for coefficients given as doubles; this is no proof",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
             "which is larger than the rounding error of a double",
         }
@@ -116,6 +117,8 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    radius = "" if method.coefficients is None else uncertainty(method.coefficients, DOUBLE_BITS)
+    # Coefficients that were given as doubles are emitted unchanged, whatever their author meant.
+    known = method.coefficients is None or method.coefficients.doubles
+    radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate
     return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

@@ -17,7 +17,7 @@ from codegen.ir.number import Number
 from orderconds.families import Family, family_class, get, names
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
+from orderconds.tableau import CommutatorFree, OrderClaim, RungeKutta, Tableau, find
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -199,6 +199,34 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
     return Method(match["family"], None, number)
 
 
+def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
+    """Return the method that an argument of a function in Python denotes: a method, a tableau, or a text.
+
+    ``families`` are the families that accept the scene. ``family`` chooses a family for a tableau, as
+    ``"rkmk(2)"``. Without it, a tableau that claims nothing is used in the family in which its computed order
+    is highest; claims decide otherwise, as in :func:`parse`.
+    """
+    if isinstance(given, Method):
+        return given
+    if isinstance(given, str):
+        return parse(f"{family}:{given}" if family else given, families)
+    label = f"{family}:{given.name}" if family else given.name
+    if not given.claims.orders and not family:
+        orders = [labelled(name, order) for name, order in given.orders.items()]
+        given = replace(given, claims=replace(given.claims, orders=tuple(orders)))
+    return _method(PATTERN.fullmatch(label), _enclosed(given), label, families)
+
+
+def labelled(label: str, order: int) -> OrderClaim:
+    """Return the order in the family with this label as a claim.
+
+    >>> labelled("rkmk(2)", 4)
+    OrderClaim(family='rkmk', cutoff=2, order=4)
+    """
+    family, _, cutoff = label.rstrip(")").partition("(")
+    return OrderClaim(family, int(cutoff) if cutoff else None, order)
+
+
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 
@@ -218,7 +246,12 @@ def parse(text: str, families: Sequence[str]) -> Method:
             expected="TABLEAU or FAMILY:TABLEAU",
             hint="write for example vcg:triple_jump",
         )
-    tableau = _enclosed(Tableau.load(_file(match["tableau"])))
+    return _method(match, _enclosed(Tableau.load(_file(match["tableau"]))), text, families)
+
+
+def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
+    """Return the method of a tableau in the family that a text names, or in the family that claims choose."""
+    assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(

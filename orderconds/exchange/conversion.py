@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from os import PathLike
 
-from orderconds.exchange import export
+from orderconds.exchange import export, json_file
 from orderconds.tableau import Tableau, dumps
-from orderconds.tableau.doubles import decimal_text, is_double
+from orderconds.tableau.doubles import is_double
+from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
-
-
-NUMBERS: dict[str, Callable[[str], object]] = {"csv": decimal_text, "json": lambda text: float(text[:-1])}
-"""For each format that other programs read, a function from the text of a double to its number there."""
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
@@ -25,22 +21,24 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
     b,1
     """
     given = tableau if isinstance(tableau, Tableau) else Tableau.load(tableau)
-    data = as_data(given)
-    if given.doubles and to in NUMBERS:
-        data = {key: _with_numbers(value, NUMBERS[to]) for key, value in data.items()}
-    content = dumps(given).encode() if to == "toml" else export(data, to)
+    content = dumps(given).encode() if to == "toml" else export(as_data(given), to)
+    if given.doubles and to == "json":
+        content = json_file.write(_with_floats(as_data(given)))
     try:
         return content.decode()
     except UnicodeDecodeError:
         return content
 
 
-def _with_numbers(value: object, number: Callable[[str], object]) -> object:
-    """Return a value of a tableau file in which numbers replace the texts of doubles."""
-    if isinstance(value, str):
-        return number(value) if is_double(value) else value
-    if isinstance(value, list):
-        return [_with_numbers(x, number) for x in value]
-    if isinstance(value, dict):
-        return {key: _with_numbers(x, number) for key, x in value.items()}
-    return value
+def _with_floats(value: Data) -> Data:
+    """Return the keys of a tableau file with floats in place of the texts of doubles, as other programs expect
+    them in JSON."""
+
+    def converted(x: object) -> object:
+        if isinstance(x, str):
+            return float(x[:-1]) if is_double(x) else x
+        if isinstance(x, list):
+            return [converted(y) for y in x]
+        return {key: converted(y) for key, y in x.items()} if isinstance(x, dict) else x
+
+    return {key: converted(x) for key, x in value.items()}
