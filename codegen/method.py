@@ -20,7 +20,7 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import CommutatorFree, OrderClaim, RungeKutta, Tableau, find
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
 """The form of a label of a method without tableau: the name of a family, and a number in parentheses if
@@ -211,20 +211,21 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
     if isinstance(given, str):
         return parse(f"{family}:{given}" if family else given, families)
     label = f"{family}:{given.name}" if family else given.name
-    if not given.claims.orders and not family:
-        orders = [labelled(name, order) for name, order in given.orders.items()]
-        given = replace(given, claims=replace(given.claims, orders=tuple(orders)))
+    if not given.claims.orders:
+        given = replace(given, claims=replace(given.claims, orders=tuple(_computed(given, family))))
     return _method(PATTERN.fullmatch(label), _enclosed(given), label, families)
 
 
-def labelled(label: str, order: int) -> OrderClaim:
-    """Return the order in the family with this label as a claim.
+def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
+    """Yield the computed orders of a tableau in the families in which a complete file claims an order; with
+    ``family`` in the variants of this family."""
+    from orderconds.checking import check, claimable_families
 
-    >>> labelled("rkmk(2)", 4)
-    OrderClaim(family='rkmk', cutoff=2, order=4)
-    """
-    family, _, cutoff = label.rstrip(")").partition("(")
-    return OrderClaim(family, int(cutoff) if cutoff else None, order)
+    for member in claimable_families(tableau):
+        if family.partition("(")[0] in ("", member.name):
+            for variant in member.claimed_variants():
+                (order,) = check(tableau, family=variant.label()).orders
+                yield variant.claim(order.order)
 
 
 def parse(text: str, families: Sequence[str]) -> Method:

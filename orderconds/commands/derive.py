@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.names import completing, family_names
 from orderconds.commands.place import FILE, put
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ FORMATS = ("text", "latex", "sympy", "json")
 
 
 @click.command(name="derive", short_help="Print the independent order conditions of a family.")
-@click.argument("family")
+@click.argument("family", shell_complete=completing(family_names))
 @click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="The highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
 @click.option(
@@ -51,6 +52,12 @@ def command(
 
     The format latex has numbered equations with their trees and labels for a two-column article, and defines
     all symbols.
+
+    \b
+    Examples:
+        orderconds derive vcg --order 3
+        orderconds derive rk --order 4 --stages 4 --explicit
+        orderconds derive cf --order 4 --format latex -o conditions.tex
     """
     from orderconds import families
     from orderconds.derivation import derive
