@@ -47,7 +47,7 @@ class CertifiedOrder:
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
-            "double": "the conditions hold up to rounding, for coefficients given as doubles; this is no proof",
+            "double": "the conditions hold up to rounding for these doubles; this is no proof",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
             "which is larger than the rounding error of a double",
         }

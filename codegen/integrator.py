@@ -130,7 +130,7 @@ class Integrator(ABC):
         )
 
     def __reduce__(self) -> tuple[Callable[..., Integrator], tuple[object, ...]]:
-        # Libraries and modules cannot be pickled. A pickle contains the emitted files, which are loaded again.
+        # Libraries and modules cannot be pickled. A pickle contains the emitted files, to load them again.
         if self.artifact is None:
             raise TypeError("only integrators that codegen.load has returned can be pickled")
         interface = self.interface.as_json()
@@ -194,8 +194,10 @@ class Integrator(ABC):
         initial state. Between two times the steps are equal, and at most as long as h.
         """
         if (batch := batch_of(state, self.interface.size)) is not None:
-            rest = (h, steps, stride, t, statistics, inputs)
-            rows = [self.trajectory(x, *rest, t_eval=t_eval, **parameters) for x in batch.states]
+            rows = [
+                self.trajectory(x, h, steps, stride, t, statistics, inputs, t_eval=t_eval, **parameters)
+                for x in batch.states
+            ]
             return batch.joined(rows)
         if (steps is None) is (t_eval is None):
             raise TypeError("expected either steps or t_eval")
@@ -204,8 +206,8 @@ class Integrator(ABC):
         begun = self._begin(state, parameters, inputs, statistics)
         if t_eval is not None:
             return begun.form.restore(self._sampled(begun, t, h, t_eval))
-        _, rows = self._call(begun, t, h, self._checked_count(steps or 0), stride)
-        return begun.form.restore(rows)
+        _, states = self._call(begun, t, h, self._checked_count(steps or 0), stride)
+        return begun.form.restore(states)
 
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
         """Return the states at these times, reached with equal steps of at most h between two times."""
@@ -269,7 +271,13 @@ class Integrator(ABC):
         return self._adapt_through(begun, t, [*times, float(end)], h, tolerances, operator.index(limit))
 
     def _adapt_through(
-        self, begun: Begun, t: float, times: Sequence[float], h: float, tolerances: tuple[float, float], limit: int
+        self,
+        begun: Begun,
+        t: float,
+        times: Sequence[float],
+        h: float,
+        tolerances: tuple[float, float],
+        limit: int,
     ) -> Arrival:
         """Run with step control through all these times; the last one is the end."""
         rows: list[Sequence[float]] = []

@@ -42,11 +42,11 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
+    from orderconds.checking.refinement import refine as refine
     from orderconds.checking.verdict import check as check
     from orderconds.derivation import derive as derive
     from orderconds.exchange.conversion import convert as convert
     from orderconds.explain.enumeration import trees as trees
-    from orderconds.proof.refinement import refine as refine
     from orderconds.solve.request import solve as solve
     from orderconds.tableau import Tableau as Tableau
     from orderconds.tableau.collocation import construct as construct
@@ -62,7 +62,7 @@ lazy(
         "checking.verdict": ("check",),
         "exchange.conversion": ("convert",),
         "explain.enumeration": ("trees",),
-        "proof.refinement": ("refine",),
+        "checking.refinement": ("refine",),
         "solve.request": ("solve",),
         "tableau.collocation": ("construct",),
     },

@@ -111,7 +111,9 @@ def derive(
     b_2 a_21 = 1/2
     """
     if explicit and stages is None:
-        raise InputError("explicit has no effect without stages", where="derive", expected="a number of stages")
+        raise InputError(
+            "explicit has no effect without stages", where="derive", expected="a number of stages"
+        )
     chosen = families.get(family, **options)
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")

@@ -136,4 +136,3 @@ def _print_json(derivation: Derivation, explain: bool) -> None:
 
         record["conditions"] = [{**c.as_json(), "names": named_by(c)} for c in derivation.conditions]
     screen.print_json(record)
-

@@ -49,8 +49,8 @@ def command(
     graded       Lyndon words of letters 1, 2, ... of weight 1, 2, ...  composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    In text drawings the root is in the first line; in pictures (--svg) it is at the bottom. A directed edge leads from a derivative in q to one in p (or mu); a
-    diamond (L) is a coadjoint action on mu. A note such as (>*>) after a vertex shows its word of
+    In text drawings the root is in the first line; in pictures (--svg) it is at the bottom. A directed edge
+    leads from a derivative in q to one in p (or mu); a diamond (L) is a coadjoint action on mu. A note such as (>*>) after a vertex shows its word of
     derivatives: > is a branch, * the edge to the parent.
 
     \b
@@ -112,4 +112,3 @@ def _listed(kind: Kind, order: int, draw: bool, explain: bool, plain: bool) -> I
             yield from (f"    {line}" for line in lines.draw(kind.diagram(member), style))
         if draw or explain:
             yield ""
-

@@ -14,8 +14,8 @@ from orderconds.tableau.write import as_data
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
     """Return a tableau in the format ``to``: toml, json, csv, sympy, latex or c as text, numpy as bytes.
 
-    ``tableau`` may also be a file or a name of the library. Raises :class:`~orderconds.errors.InputError` for an unknown format, and
-    for a method that the format cannot represent.
+    ``tableau`` may also be a file or a name of the library. Raises :class:`~orderconds.errors.InputError` for
+    an unknown format, and for a method that the format cannot represent.
 
     >>> print(convert("euler", "csv").splitlines()[-1])
     b,1
@@ -31,8 +31,8 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
 
 
 def _with_floats(value: Data) -> Data:
-    """Return the keys of a tableau file with floats in place of the texts of doubles, as other programs expect
-    them in JSON."""
+    """Return the keys of a tableau file with floats in place of the texts of doubles; other programs expect
+    numbers in JSON."""
 
     def converted(x: object) -> object:
         if isinstance(x, str):

@@ -50,9 +50,9 @@ class MagnusFamily(WordFamily):
         "Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h)."
     )
     formats = ("magnus",)
-    symbols = {
-        "omega": r"$\omega_{i\dots j}$ is the coefficient in $\Omega$ of the product of values of $A$ in which "
-        r"$A_i = h A(c_i h)$ acts first",
+    symbols: ClassVar[Mapping[str, str]] = {
+        "omega": r"$\omega_{i\dots j}$ is the coefficient in $\Omega$ of the product of values of $A$ in "
+        r"which $A_i = h A(c_i h)$ acts first",
         "c": r"$c_i$ are the nodes",
         "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the first exponent",
         "phi": r"$\phi_{i\dots j}$ is the coefficient in the second exponent of the product in which "

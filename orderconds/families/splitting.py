@@ -52,7 +52,7 @@ class SplittingFamily(WordFamily):
         "indexed by words over A, B, ..."
     )
     formats = ("splitting",)
-    symbols = {
+    symbols: ClassVar[Mapping[str, str]] = {
         "a": r"$a_i$ are the step sizes of the flows of the first part, as fractions of $h$",
         "b": r"$b_i$ are the step sizes of the flows of the second part, as fractions of $h$",
         "c": r"$c_i = a_1 + \dots + a_i$",

@@ -49,7 +49,7 @@ def _latex(text: str, tableau: Tableau) -> str:
 
 
 def _equations(tableau: Tableau) -> Iterator[str]:
-    """Yield the stages and the update of a commutator-free method; for other formats, rows of coefficients."""
+    """Yield stages and update of a commutator-free method; for other formats, rows of coefficients."""
     method = tableau.method
     if isinstance(method, CommutatorFree):
         if method.s > WIDEST:
@@ -136,7 +136,9 @@ def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None
     above = []
     for node, row in zip(method.c, method.A, strict=True):
         last = max((j for j, x in enumerate(row) if ring.is_zero(x) is not True), default=-1)
-        above.append([_text(node, tableau), *(_text(x, tableau) if j <= last else "" for j, x in enumerate(row))])
+        above.append(
+            [_text(node, tableau), *(_text(x, tableau) if j <= last else "" for j, x in enumerate(row))]
+        )
     weights = [method.b]
     if isinstance(tableau.embedded, Embedded):
         weights.append(tableau.embedded.b)

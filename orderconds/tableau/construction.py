@@ -15,7 +15,7 @@ one integer is the order in the family of the format."""
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
-    """Return the keys of a Butcher tableau: A by rows, weights, and optionally abscissae and embedded weights.
+    """Return the keys of a Butcher tableau: rows of A, weights, and perhaps abscissae and embedded weights.
 
     Rows have one entry for each stage. In a triangular array, the zeros at the end of all rows may be left
     out. :class:`~orderconds.errors.TableauError` names the wrong entry.
@@ -53,8 +53,8 @@ def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> N
         raise TableauError(
             f"rows of {', '.join(map(str, lengths))} entries",
             where="A",
-            expected=f"{stages} rows of {stages} entries, or rows of {', '.join(map(str, shapes[1]))} entries "
-            "for an explicit method",
+            expected=f"{stages} rows of {stages} entries, or for an explicit method rows of "
+            f"{', '.join(map(str, shapes[1]))} entries",
         )
 
 

@@ -16,7 +16,9 @@ from orderconds.errors import TableauError
 from orderconds.tableau.doubles import double_text
 from orderconds.tableau.file_format import Coefficient
 
-EXPECTED = 'a real number: an integer, a Fraction, a float, a SymPy number, or a text such as "1/4 - sqrt(3)/6"'
+EXPECTED = (
+    'a real number: an integer, a Fraction, a float, a SymPy number, or a text such as "1/4 - sqrt(3)/6"'
+)
 
 
 SMALL = 1024
@@ -135,7 +137,9 @@ def _items(values: object, where: str) -> list[object]:
         shown = repr(values)
         shown = shown if len(shown) <= 60 else f"{shown[:60]} ..."
         raise TableauError(
-            f"{shown} of type {type(values).__name__}", where=where, expected="a sequence of numbers, such as a list"
+            f"{shown} of type {type(values).__name__}",
+            where=where,
+            expected="a sequence of numbers, such as a list",
         )
     return list(values)
 

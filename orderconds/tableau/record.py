@@ -73,7 +73,7 @@ class Tableau:
         name: str = "tableau",
         source: str = "",
     ) -> Tableau:
-        """Return the Runge-Kutta method with the coefficients A, of s rows, and the s weights b.
+        r"""Return the Runge-Kutta method with the coefficients A, of s rows, and the s weights b.
 
         Numbers are integers, fractions, texts such as ``"1/4 - sqrt(3)/6"``, numbers of SymPy, or floats;
         A and b are lists, arrays of NumPy or matrices of SymPy. Floats stay doubles, except floats with small
@@ -86,8 +86,8 @@ class Tableau:
         (Fraction(0, 1), Fraction(1, 1))
         >>> Tableau.rk([[0, 0], ["half", 0]], [0, 1])
         Traceback (most recent call last):
-        orderconds.errors.TableauError: tableau: A[2][1]: the name half is not defined; expected a name under \
-numbers: none
+        orderconds.errors.TableauError: tableau: A[2][1]: the name 'half'; expected a number, or a name \
+defined under numbers (none)
         """
         data = named(runge_kutta(A, b, c, bhat), name, source, claims)
         return _with_embedded_order(data, name)

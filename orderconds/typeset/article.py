@@ -14,9 +14,7 @@ from orderconds.formula.notation import latex_fraction
 from orderconds.typeset.legend import legend
 
 
-def article(
-    family: str, by_order: Sequence[Sequence[OrderCondition]], *, explain: bool = False
-) -> str:
+def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explain: bool = False) -> str:
     r"""Return the conditions of a family in LaTeX; with ``explain`` comments name elementary differentials.
 
     The first line lists the packages. The label of condition k of order n is ``FAMILY:n:k``.
@@ -73,7 +71,8 @@ def _signs(diagram: Diagram) -> list[str]:
 
 MEANINGS = {
     "white": "black and white vertices are derivatives of the first and of the second part",
-    "outward": "an arrow leads from a derivative with respect to the position to one with respect to the momentum",
+    "outward": "an arrow leads from a derivative with respect to the position to one with respect to the "
+    "momentum",
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }
@@ -89,4 +88,3 @@ def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:
     text = f" The first column shows the {what} of each condition"
     text += "" if words else ", with the root at the bottom"
     return text + "".join(f"; {meaning}" for sign, meaning in MEANINGS.items() if sign in signs) + "."
-

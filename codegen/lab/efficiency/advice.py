@@ -38,7 +38,9 @@ class AdvisedMethod:
 
     def text(self) -> str:
         """Return the method and its step size or tolerance."""
-        return f"{self.method}, " + (f"h = {self.h:.3g}" if self.h is not None else f"rtol = {self.tolerance:.1e}")
+        return f"{self.method}, " + (
+            f"h = {self.h:.3g}" if self.h is not None else f"rtol = {self.tolerance:.1e}"
+        )
 
 
 @dataclass(frozen=True, repr=False)

@@ -42,7 +42,9 @@ class Result:
     paths: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
-        best = f", fastest at error 1e-{self.places[-1].decade}: {self.places[-1].winner}" if self.places else ""
+        best = (
+            f", fastest at error 1e-{self.places[-1].decade}: {self.places[-1].winner}" if self.places else ""
+        )
         return f"<bench of {self.scene.name}: {len(self.rows)} runs{best}>"
 
     def _repr_svg_(self) -> str:

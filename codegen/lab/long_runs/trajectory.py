@@ -13,11 +13,11 @@ from typing import TypeAlias
 
 import numpy
 
+from codegen.integrator import Integrator, StepFailed
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import straight_line
-from codegen.integrator import Integrator, StepFailed
 from codegen.scene.problem import Problem
 
 SAMPLES = 1000

@@ -64,7 +64,9 @@ class ConvergenceTest:
         """Return the convergence of one method; CompilerMissing if the target needs a compiler."""
         try:
             known = self.stated
-            order = certified_order(method, self.equations) if known is None else CertifiedOrder(known, "stated")
+            order = (
+                certified_order(method, self.equations) if known is None else CertifiedOrder(known, "stated")
+            )
             run = runner(self.equations, method, self.target, self.digits, order)
             progress(f"running {method.label}")
             return convergence.converge(run, order, exact, steps=self.steps, form=self.form)
