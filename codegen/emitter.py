@@ -186,11 +186,11 @@ def emit(
     ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
     ``FAMILY:TABLEAU`` or ``TABLEAU``, or an :class:`orderconds.Tableau`, which is used in ``family``, by
     default in the family in which its order is highest. External names begin with ``prefix``, by default
-    scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
-    inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
-    control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,
-    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key
-    of a classical form of the scene, by default the equations as printed. Errors: the errors of
+    scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that
+    become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
+    with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
+    ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
+    classical form of the scene, by default the equations as printed. Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
+from typing import overload
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
@@ -46,7 +47,13 @@ class Derivation:
     def __len__(self) -> int:
         return sum(self.counts)
 
-    def __getitem__(self, index: int) -> OrderCondition:
+    @overload
+    def __getitem__(self, index: int) -> OrderCondition: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[OrderCondition, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> OrderCondition | tuple[OrderCondition, ...]:
         return self.conditions[index]
 
     def __repr__(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import overload
 
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
@@ -90,7 +91,13 @@ class ShownTrees:
     def __len__(self) -> int:
         return self.kind.count(self.order)
 
-    def __getitem__(self, index: int) -> ShownTree:
+    @overload
+    def __getitem__(self, index: int) -> ShownTree: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[ShownTree, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> ShownTree | tuple[ShownTree, ...]:
         return self.members[index]
 
     def __repr__(self) -> str:

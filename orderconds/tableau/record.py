@@ -73,7 +73,7 @@ class Tableau:
         name: str = "tableau",
         source: str = "",
     ) -> Tableau:
-        r"""Return the Runge-Kutta method with the coefficients A, of s rows, and the s weights b.
+        """Return the Runge-Kutta method with the coefficients A, of s rows, and the s weights b.
 
         Numbers are integers, fractions, texts such as ``"1/4 - sqrt(3)/6"``, numbers of SymPy, or floats;
         A and b are lists, arrays of NumPy or matrices of SymPy. Floats stay doubles, except floats with small

@@ -16,9 +16,9 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     Abscissae are defined by row sums, so the definition of a row sum also defines the coefficients in it.
 
     >>> from orderconds.derivation import derive
-    >>> print(legend("rk", derive("rk", order=2)))
-    Here $b_i$ are the weights and $c_i = \sum_j a_{ij}$ are the abscissae; $a_{ij}$ are the coefficients of \
-the stages. Sums run over all stages.
+    >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))
+    Here $b_i$ are the weights and $c_i = \sum_j a_{ij}$ are the abscissae;
+    $a_{ij}$ are the coefficients of the stages. Sums run over all stages.
     """
     formulas = [condition.formula for condition in conditions]
     found = [x for formula in formulas for x in coefficients(formula)]
