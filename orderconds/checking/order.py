@@ -30,7 +30,7 @@ Tree = tuple[Key, Callable[[], OrderCondition]]
 """A family's own encoding of a tree, and a function that returns the condition of the tree."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
@@ -51,6 +51,9 @@ class FamilyOrder:
     required: int | None = None
     limit: int | None = None
     stopped: int | None = None
+
+    def __repr__(self) -> str:
+        return f"FamilyOrder({self.family}: order {self.order}, certificate {self.certificate}, {self.verdict})"
 
     @property
     def verdict(self) -> str:

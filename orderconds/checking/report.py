@@ -35,7 +35,7 @@ class EmbeddedOrder(Struct, frozen=True):
         return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report:
     """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
 
@@ -58,6 +58,15 @@ class Report:
         if self.broken_claims or "fails" in verdicts:
             return "fails"
         return "undecided" if "undecided" in verdicts else "holds"
+
+    def __repr__(self) -> str:
+        orders = ", ".join(f"{family.family} {family.order}" for family in self.orders)
+        return f"Report({self.name}: {self.verdict}; {orders})"
+
+    def _repr_html_(self) -> str:
+        from orderconds.checking.report_html import report_html
+
+        return report_html(self)
 
     def summary(self) -> str:
         """Return a short text with the claims that do not hold, each with its first failing condition."""

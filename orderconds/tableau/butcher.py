@@ -21,6 +21,9 @@ WIDEST = 12
 SHORT = 10
 """Rounded decimals are printed with this number of digits."""
 
+BLANK = r"\,"
+"""A narrow space between a factor and a vector field."""
+
 CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
 
@@ -79,7 +82,16 @@ def _entry(value: object) -> str:
 
 def _product(rows: Sequence[Row], tableau: Tableau) -> str:
     """Return exponentials in the order of composition: the first one to act is at the right."""
-    return "".join(rf"\exp\bigl(h({_combination(row, tableau)})\bigr)\, " for row in reversed(rows))
+    return "".join(rf"\exp\bigl({_exponent(row, tableau)}\bigr)\, " for row in reversed(rows))
+
+
+def _exponent(row: Row, tableau: Tableau) -> str:
+    """Return an exponent: h times a linear combination, without brackets if it has one term."""
+    text = _combination(row, tableau).replace(r"\frac", r"\tfrac")
+    if text.count("k_") == 1:
+        factor, _, index = text.rpartition("k_")
+        return f"{factor.removesuffix(BLANK)} h k_{index}".strip()
+    return f"h({text})"
 
 
 def _combination(row: Row, tableau: Tableau) -> str:
@@ -91,7 +103,7 @@ def _combination(row: Row, tableau: Tableau) -> str:
         size = _latex(_text(x, tableau), tableau)
         minus = size.startswith("-") and " " not in size
         size = size.removeprefix("-") if minus else size
-        factor = "" if size == "1" else rf"({size})\," if " " in size else rf"{size}\,"
+        factor = "" if size == "1" else f"({size}){BLANK}" if " " in size else f"{size}{BLANK}"
         sign = (" - " if minus else " + ") if written else "-" if minus else ""
         written += f"{sign}{factor}k_{{{j}}}"
     return written or "0"

@@ -53,7 +53,8 @@ def table(family: str, by_order: Sequence[Sequence[OrderCondition]]) -> str:
     flat = [condition for conditions in by_order for condition in conditions]
     counts = ", ".join(str(len(conditions)) for conditions in by_order)
     caption = f"<caption>{escape(family)}: {counts} conditions of order 1, 2, ...</caption>"
-    head = "<tr><th>order</th><th>tree</th><th>condition</th></tr>"
+    names = ("order", "tree", "condition")
+    head = "<tr>" + "".join(f'<th style="text-align:left">{name}</th>' for name in names) + "</tr>"
     rows = "".join(_rows(family, flat[:MOST]))
     rest = f"<p>... and {len(flat) - MOST} more</p>" if len(flat) > MOST else ""
     return f"<table>{caption}{head}{rows}</table>{rest}<p>{legend(family, flat)}</p>"

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from typing import assert_type
+
 import numpy as np
-from typing_extensions import assert_type
 
 import codegen
 import orderconds
@@ -28,7 +29,7 @@ def script() -> None:
     assert_type(orderconds.check(tableau), Report)
     derivation = orderconds.derive("rk", order=3, stages=3)
     assert_type(derivation, Derivation)
-    assert_type([condition for condition in derivation], list[OrderCondition])
+    assert_type(list(derivation), list[OrderCondition])
     assert_type(orderconds.trees("rooted", 4), ShownTrees)
     assert_type(orderconds.solve("rk", stages=2, order=2, explicit=True), Found)
     assert_type(orderconds.convert(tableau, "json"), str | bytes)
