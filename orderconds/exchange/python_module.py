@@ -70,4 +70,4 @@ def _cells(value: object, where: str) -> Cells:
         return str(value)
     if type(value).__module__.partition(".")[0] in ("sympy", "decimal"):
         return from_python(str(value)).replace(" ", "")
-    raise TableauError(f"a value of type {type(value).__name__}", where=where, expected="a real number")
+    raise TableauError(f"an object of type {type(value).__name__}", where=where, expected="a real number")

@@ -70,8 +70,8 @@ def reason_to_skip(content: bytes) -> str:
         for name, value in _assignments(statement)
         if isinstance(value, ast.List | ast.Tuple | ast.Call | ast.BinOp | ast.Name | ast.Subscript)
     }
-    found = any(assigned.issuperset(names) for names in COMPLETE)
-    return "" if found else "no assignment to A and b"
+    complete = any(assigned.issuperset(names) for names in COMPLETE)
+    return "" if complete else "no assignment to A and b"
 
 
 def _decoded(content: bytes, where: str) -> str:
@@ -127,14 +127,15 @@ def _follow(statement: ast.stmt, values: Values) -> None:
         return
     if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
         changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
-        values.forget([statement.name, *changed], statement.lineno)
+        values.forget(changed, statement.lineno)
+        values.assign(statement.name, Computed("a function or class", statement.lineno))
         return
     if isinstance(statement, ast.If) and _is_script_part(statement):
         return
     assigned = list(_assignments(statement))
     if assigned and _targets_are_names(statement):
-        found = [(name, values.value(expression)) for name, expression in assigned]
-        for name, value in found:
+        pairs = [(name, values.value(expression)) for name, expression in assigned]
+        for name, value in pairs:
             values.assign(name, value)
     elif not _entry_assigned(statement, values):
         mentioned = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}

@@ -24,19 +24,12 @@ from orderconds.tableau.grammar import (
 )
 
 ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list", "tuple")
-NUMBER_CALLS = (
-    "Integer",
-    "S",
-    "sympify",
-    "float",
-    "float64",
-    "int",
-    "mpf",
-    "Decimal",
-    "Fraction",
-    "Rational",
-)
+NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
 ROUNDED_CALLS = ("Float", "mpf")
+TYPED_CALLS = ("array", "asarray", "matrix")
+"""Constructors of arrays whose entries have one type: an entry of an array of integers cannot become 1/2."""
+NARROW = ("16", "32", "complex", "int", "bool")
+"""Parts of the names of types of integers, of complex numbers, and of floats with few digits."""
 ROOTS = {"sqrt": 2, "cbrt": 3}
 OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
 MAX_ENTRIES = 50_000
@@ -46,9 +39,10 @@ MAX_OPERATIONS = 5_000
 
 @dataclass
 class Array:
-    """A list, a tuple or an array of values."""
+    """A list, a tuple or an array of values; ``integral`` if its entries stay integers."""
 
     items: list[Value]
+    integral: bool = False
 
 
 @dataclass(frozen=True)
@@ -110,6 +104,8 @@ class Values:
             if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
                 return False
             if k == len(place) - 1:
+                if target.integral and not _is_integral(value):
+                    return False
                 target.items[index] = value
                 return not isinstance(value, Array)
             target = target.items[index]
@@ -199,13 +195,12 @@ class Values:
     def _call(self, node: ast.Call) -> Value:
         function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
         arguments = node.args
-        if (
-            function in ARRAY_CALLS
-            and len(arguments) == 1
-            and isinstance(node.func, ast.Name | ast.Attribute)
-        ):
+        if isinstance(node.func, ast.Name) and function in self.known:
+            raise _NotLiteral(node, f"a call of {function}, which the module defines")
+        if function in ARRAY_CALLS and len(arguments) == 1:
             _require_doubles(node)
-            return _copy(self._value(arguments[0]))
+            given = self._value(arguments[0])
+            return _copy(given, function in TYPED_CALLS and _is_integral(given))
         if function == "zeros" and len(arguments) == 1:
             return _zeros(self._value(arguments[0]), node)
         if function in ROOTS and len(arguments) == 1:
@@ -232,17 +227,24 @@ def _class(operator: ast.operator) -> str:
 
 
 def _require_doubles(node: ast.Call) -> None:
-    """Raise an error for an array of numbers with fewer digits than a double."""
+    """Raise an error for an array of another type than float64."""
     for keyword in node.keywords:
-        if keyword.arg == "dtype" and any(
-            short in ast.dump(keyword.value) for short in ("16", "32", "complex")
-        ):
+        if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
             raise _NotLiteral(node, "an array of another type than float64")
 
 
-def _copy(value: Value) -> Value:
+def _is_integral(value: Value) -> bool:
+    """Whether a value is an integer, or an array of integers."""
+    if isinstance(value, Array):
+        return all(map(_is_integral, value.items))
+    if isinstance(value, Chain) and value.operators == ("-",) and value.operands[0] == ZERO:
+        value = value.operands[1]
+    return isinstance(value, Constant) and value.value.denominator == 1 and not value.unit
+
+
+def _copy(value: Value, integral: bool) -> Value:
     """Return an array that shares no rows with the given one."""
-    return Array([_copy(x) for x in value.items]) if isinstance(value, Array) else value
+    return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
 
 
 def _zeros(shape: Value, node: ast.Call) -> Array:

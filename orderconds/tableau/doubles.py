@@ -106,6 +106,8 @@ def printed(value: Fraction) -> str:
     ('0.3333333333333333', '0.10000000000000001')
     """
     x = abs(float(value))
+    if x >= 2**53:
+        return f"{int(x)}.0"
     shortest = f"{Decimal(repr(x)):f}"
     if len(shortest.replace(".", "").lstrip("0")) >= PRINTED:
         return shortest

@@ -305,9 +305,9 @@ class _Parser:
     def followed_by_d(self) -> bool:
         """Skip the suffix ``d`` directly after the last token, and return whether there is one."""
         (_, content, at), (kind, suffix, after) = self.tokens[self.position - 1 : self.position + 1]
-        found = kind == "name" and suffix == "d" and after == at + len(content)
-        self.position += found
-        return found
+        follows = kind == "name" and suffix == "d" and after == at + len(content)
+        self.position += follows
+        return follows
 
     def double(self, content: str) -> Constant:
         """Return the double nearest to a decimal, with its uncertainty."""

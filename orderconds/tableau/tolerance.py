@@ -12,9 +12,9 @@ from orderconds.tableau.grammar import Chain, Constant, Expression, Power
 from orderconds.tableau.record import Tableau
 
 
-def with_tolerance(tableau: Tableau, units: float) -> Tableau:
+def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
     """Return the tableau with this uncertainty of its doubles, in units of rounding
-    (:data:`orderconds.tableau.doubles.UNITS`). Other coefficients do not change.
+    (:data:`orderconds.tableau.doubles.UNITS`). Other coefficients do not change, and None changes nothing.
 
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.1d"]]\\nb = ["1"]'
     >>> wide = with_tolerance(Tableau.loads(text), 2**43)
@@ -22,7 +22,7 @@ def with_tolerance(tableau: Tableau, units: float) -> Tableau:
     '0.10~'
     """
     file = tableau.file
-    if file is None or not tableau.doubles:
+    if units is None or file is None or not tableau.doubles:
         return tableau
     scale = Fraction(units)
     source = file.symbolic
