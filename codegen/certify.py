@@ -48,7 +48,6 @@ class CertifiedOrder:
             "differ from the decimals of the tableau by at most one unit in the last digit",
             "double": "the conditions hold up to the rounding of the coefficients, which are doubles",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
-            "double": "the conditions hold up to rounding for these doubles; this is no proof",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
             "which is larger than the rounding error of a double",
         }

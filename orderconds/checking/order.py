@@ -58,7 +58,9 @@ class FamilyOrder:
     """The largest residual up to this order, if the coefficients are doubles."""
 
     def __repr__(self) -> str:
-        return f"FamilyOrder({self.family}: order {self.order}, certificate {self.certificate}, {self.verdict})"
+        return (
+            f"FamilyOrder({self.family}: order {self.order}, certificate {self.certificate}, {self.verdict})"
+        )
 
     @property
     def verdict(self) -> str:

@@ -78,7 +78,8 @@ class Report:
 
     def __repr__(self) -> str:
         orders = ", ".join(f"{family.family} {family.order}" for family in self.orders)
-        return f"Report({self.name}: {self.verdict}; {orders})"
+        claimed = self.verdict != UNCLAIMED
+        return f"Report({self.name}: {self.conclusion}{f'; {orders}' if claimed else ''})"
 
     def _repr_html_(self) -> str:
         from orderconds.checking.report_html import report_html

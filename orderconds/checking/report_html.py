@@ -20,7 +20,7 @@ def report_html(report: Report) -> str:
     >>> from orderconds.checking import check
     >>> page = report_html(check("kutta3"))
     >>> page.startswith("<p><b>kutta3</b>: holds</p>"), page.count("<tr>")
-    (True, 11)
+    (True, 9)
     """
     head = "".join(f"<th>{name}</th>" for name in ("family", "claimed", "order", "certificate", "verdict"))
     rows = "".join(_row(order) for order in report.orders)
@@ -28,7 +28,7 @@ def report_html(report: Report) -> str:
     failing = "".join(f"<li>{text}</li>" for order in report.orders for text in _failing(order))
     holding = ", ".join(name.replace("_", " ") for name, value in report.properties.items() if value)
     return (
-        f"<p><b>{escape(report.name)}</b>: {escape(report.verdict)}</p>"
+        f"<p><b>{escape(report.name)}</b>: {escape(report.conclusion)}</p>"
         f"<table><tr>{head}</tr>{rows}</table><ul>{broken}{failing}</ul>"
         f"<p>properties: {escape(holding or 'none')}</p>"
     )

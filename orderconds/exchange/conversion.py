@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from os import PathLike
 
 from orderconds.exchange import export, json_file
 from orderconds.tableau import Tableau, dumps
-from orderconds.tableau.doubles import is_double
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.write import as_data
+
+_DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
+"""A decimal or a double as text."""
 
 
 def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
@@ -30,15 +33,15 @@ def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
         return content
 
 
-def _with_floats(value: Data) -> Data:
-    """Return the keys of a tableau file with floats in place of the texts of doubles; other programs expect
-    numbers in JSON."""
+def _with_floats(data: Data) -> Data:
+    """Return the keys of a tableau file with numbers in place of decimals and doubles, which other programs
+    expect in JSON."""
 
-    def converted(x: object) -> object:
-        if isinstance(x, str):
-            return float(x[:-1]) if is_double(x) else x
+    def number(x: object) -> object:
         if isinstance(x, list):
-            return [converted(y) for y in x]
-        return {key: converted(y) for key, y in x.items()} if isinstance(x, dict) else x
+            return [number(y) for y in x]
+        if isinstance(x, dict):
+            return {key: number(y) for key, y in x.items()}
+        return float(x.removesuffix("d")) if isinstance(x, str) and _DECIMAL.fullmatch(x) else x
 
-    return {key: converted(x) for key, x in value.items()}
+    return {key: number(x) if isinstance(x, list | dict) else x for key, x in data.items()}

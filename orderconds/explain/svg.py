@@ -73,7 +73,8 @@ def lay_out(vertex: Vertex) -> Layout:
 def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
     r"""Return an SVG document with all diagrams in rows, each above the lines of its caption.
 
-    The first line of a caption is monospaced, the other lines are in the font of formulas. The roots of a row are on one line. ``width`` is the width of the sheet in px.
+    The first line of a caption is monospaced, the other lines are in the font of formulas. The roots of a row
+    are on one line. ``width`` is the width of the sheet in px.
 
     >>> from orderconds.explain.diagram import plain
     >>> document = sheet([(plain(b"\0\1\1"), ["[..]"])])

@@ -116,7 +116,7 @@ def row(values: object, where: str) -> list[Coefficient]:
     >>> row((0, 0.5, "1/2"), "b")
     [0, '0.5', '1/2']
     """
-    return [coefficient(x, f"{where}[{i}]") for i, x in enumerate(_flat(_items(values, where)), start=1)]
+    return [coefficient(x, f"{where}[{i}]") for i, x in enumerate(_entries(values, where), start=1)]
 
 
 def matrix(values: object, where: str) -> list[list[Coefficient]]:
@@ -144,10 +144,10 @@ def _items(values: object, where: str) -> list[object]:
     return list(values)
 
 
-def _flat(items: list[object]) -> list[object]:
-    """Return the entries of a SymPy matrix that is a single row or column; other items are unchanged."""
-    if items and all(isinstance(x, list) and len(x) == 1 for x in items):
-        return [x[0] for x in items if isinstance(x, list)]
-    if len(items) == 1 and isinstance(items[0], list):
-        return list(items[0])
-    return items
+def _entries(values: object, where: str) -> list[object]:
+    """Return the entries of a row; a SymPy matrix of one row or column counts as a row."""
+    items = _items(values, where)
+    if type(values).__module__.partition(".")[0] != "sympy":
+        return items
+    rows = [x for x in items if isinstance(x, list)]
+    return [x for part in rows for x in part] if 1 in (len(rows), *map(len, rows)) else items

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import sympy
 
-from orderconds import Tableau, check, convert
+from orderconds import Tableau, check, convert, refine
 from orderconds.errors import TableauError, UnknownName
 from orderconds.tableau import available
 
@@ -173,3 +173,16 @@ def test_unknown_names_and_missing_files_have_a_message() -> None:
         Tableau.load("rk44")
     with pytest.raises(TableauError, match="no such file"):
         Tableau.load("nowhere/rk4.csv")
+
+
+def test_a_tableau_without_claims_is_never_said_to_hold() -> None:
+    report = check(Tableau.rk(A4, ["1/6", "1/3", "1/3", "1/6"]))
+    assert report.verdict == "unclaimed"
+    assert "holds" not in repr(report) + report._repr_html_()
+
+
+@pytest.mark.parametrize("name", ["rk4", "gauss2"])
+def test_floats_are_refined_to_the_exact_tableau(name: str) -> None:
+    exact = Tableau.load(name)
+    floats = Tableau.rk(np.array(exact.A, dtype=float), np.array(exact.b, dtype=float))
+    assert refine(floats).tableau.A == exact.A
