@@ -47,16 +47,3 @@ def unclaimed(tableau: Tableau) -> tuple[Family, ...]:
     """
     claimed = {claim.family for claim in tableau.claims.orders} | {c.label for c in tableau.claims.orders}
     return tuple(f for f in claimable_families(tableau) if f.label() not in claimed)
-
-
-def orders_of(tableau: Tableau) -> dict[str, int]:
-    """Return the computed order in each claimable family, and in the families of the tableau's claims.
-
-    >>> orders_of(Tableau.load("cf3"))
-    {'rk': 3, 'cf': 3}
-    """
-    from orderconds.checking.verdict import check
-
-    labels = [family.label() for family in claimable_families(tableau)]
-    labels += [claim.label for claim in tableau.claims.orders]
-    return {label: check(tableau, family=label).orders[0].order for label in dict.fromkeys(labels)}

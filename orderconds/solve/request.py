@@ -13,13 +13,13 @@ from orderconds import families
 from orderconds.explain.kinds import refuse_too_many_trees
 from orderconds.solve import solver
 from orderconds.solve.elimination import Infeasible
-from orderconds.solve.solver import Order
+from orderconds.solve.solver import Order, Outcome
 from orderconds.solve.spec import Spec
 from orderconds.tableau import Tableau
 
 
 @dataclass(frozen=True, repr=False)
-class Found:
+class SearchResult:
     """The result of a search: ``tableau`` with its ``certificate``; or ``impossible``, a proof that there is
     no such method; or neither.
 
@@ -34,6 +34,20 @@ class Found:
     best_residual: float
     tried: tuple[str, ...]
     command: str
+
+    @classmethod
+    def of(cls, request: Order, outcome: Outcome) -> SearchResult:
+        """Return the result of a search."""
+        solution = outcome.solution
+        return cls(
+            tableau=None if solution is None else Tableau.loads(solution.text, request.name),
+            certificate="none" if solution is None else solution.certificate,
+            error_norm=None if solution is None else solution.error,
+            impossible=outcome.none,
+            best_residual=outcome.best,
+            tried=tuple(outcome.tried),
+            command=request.command(),
+        )
 
     def __bool__(self) -> bool:
         return self.tableau is not None
@@ -73,23 +87,18 @@ def solve(
     checkpoint: str | os.PathLike[str] | None = None,
     name: str = "found",
     report: Callable[[str], object] = str,
-) -> Found:
+) -> SearchResult:
     """Find a method of ``family`` with this number of stages and this order, and prove its order.
 
     The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
-    ``"a21=1/2"``. The result depends on ``seed``, and not on the number of ``processes``. ``report`` is
-    called with lines on the progress.
+    ``"a21=1/2"``. Contradictory constraints raise InputError. The result depends on ``seed``, and not on the
+    number of ``processes``. ``report`` is called with lines on the progress.
 
-    Raises :class:`~orderconds.errors.InputError` for contradictory constraints.
-
-    >>> found = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
-    >>> found.tableau.b, found.certificate
+    >>> heun = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
+    >>> heun.tableau.b, heun.certificate
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
-    >>> solve("rk", stages=2, order=3, explicit=True).tableau is None
-    True
     """
-    # The bound is that of order p - 1: symmetric methods of even order p need conditions up to p - 1 only.
-    refuse_too_many_trees(families.get(family), order - 1)
+    refuse_too_many_trees(families.get(family), order - 1)  # symmetric methods need no more for even order
     spec = Spec(
         stages=stages,
         explicit=explicit,
@@ -114,14 +123,4 @@ def solve(
         checkpoint=None if checkpoint is None else Path(checkpoint),
         name=name,
     )
-    outcome = solver.solve(request, report)
-    solution = outcome.solution
-    return Found(
-        tableau=None if solution is None else Tableau.loads(solution.text, name),
-        certificate="none" if solution is None else solution.certificate,
-        error_norm=None if solution is None else solution.error,
-        impossible=outcome.none,
-        best_residual=outcome.best,
-        tried=tuple(outcome.tried),
-        command=request.command(),
-    )
+    return SearchResult.of(request, solver.solve(request, report))

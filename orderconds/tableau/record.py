@@ -177,7 +177,7 @@ defined under numbers (none)
 
         :func:`orderconds.check` also returns certificates and failing conditions.
         """
-        orders_of: Callable[[Tableau], dict[str, int]] = _above("checking.claimable").orders_of
+        orders_of: Callable[[Tableau], dict[str, int]] = _above("checking.computed_orders").orders_of
         return orders_of(self)
 
     def __repr__(self) -> str:

@@ -61,12 +61,12 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 def _signs(diagram: Diagram) -> list[str]:
     """Return the signs of all vertices, and the directions of all edges."""
-    found = list[str]()
+    signs = list[str]()
     for vertex in diagram:
-        found.append(vertex.sign)
+        signs.append(vertex.sign)
         for branch in vertex.branches:
-            found += [branch.edge, *_signs((branch.vertex,))]
-    return found
+            signs += [branch.edge, *_signs((branch.vertex,))]
+    return signs
 
 
 MEANINGS = {

@@ -21,16 +21,16 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     $a_{ij}$ are the coefficients of the stages. Sums run over all stages.
     """
     formulas = [condition.formula for condition in conditions]
-    found = [x for formula in formulas for x in coefficients(formula)]
+    symbols = [x for formula in formulas for x in coefficients(formula)]
     known = families.family_class(family.partition("(")[0]).symbols
-    names = list(dict.fromkeys(x.name for x in found))
+    names = list(dict.fromkeys(x.name for x in symbols))
     # A symbol that occurs only inside the definition of another one is defined, too.
     used = [name for name in known if name in names]
     inner = [name for name in known if name not in used and any(_occurs(name, known[u]) for u in used)]
     defined = [known[name] for name in used]
     text = " and ".join([", ".join(defined[:-1]), defined[-1]]) if len(defined) > 1 else "".join(defined)
     text += "".join(f"; {known[name]}" for name in inner)
-    indices = {index[0] for x in found for index in x.indices}
+    indices = {index[0] for x in symbols for index in x.indices}
     return f"Here {text}.{_range(indices)}" if text else ""
 
 

@@ -18,7 +18,7 @@ from orderconds.checking import Report
 from orderconds.conditions import OrderCondition
 from orderconds.derivation import Derivation
 from orderconds.explain.enumeration import ShownTrees
-from orderconds.solve.request import Found
+from orderconds.solve.request import SearchResult
 
 
 def script() -> None:
@@ -31,7 +31,7 @@ def script() -> None:
     assert_type(derivation, Derivation)
     assert_type(list(derivation), list[OrderCondition])
     assert_type(orderconds.trees("rooted", 4), ShownTrees)
-    assert_type(orderconds.solve("rk", stages=2, order=2, explicit=True), Found)
+    assert_type(orderconds.solve("rk", stages=2, order=2, explicit=True), SearchResult)
     assert_type(orderconds.convert(tableau, "json"), str | bytes)
     assert_type(orderconds.construct("gauss", 2), Tableau)
     artifact = codegen.emit("free_rigid_body", tableau, target="python")
