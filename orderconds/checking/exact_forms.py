@@ -63,7 +63,12 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
         proved = family_order(exact, family, supported.order, meter=Meter(Limits(seconds=MAX_SECONDS)))
     except InputError:
         return None
-    if exact.doubles or proved.order < supported.order or proved.certificate != "exact":
+    if (
+        exact.doubles
+        or not supported.order
+        or proved.order < supported.order
+        or proved.certificate != "exact"
+    ):
         return None
     return ExactForms(exact, replaced, {u.name: texts[u.constant] for u in rounded})
 

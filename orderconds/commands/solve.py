@@ -74,7 +74,7 @@ if TYPE_CHECKING:
 @click.option(
     "--starts",
     type=click.IntRange(1, 10**7),
-    help="The number of random starts.  [default: 4096, with --minimise 1024]",
+    help="The number of random starts for each structure.  [default: 4096, or 1024 if --minimise is given]",
 )
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
 @click.option(

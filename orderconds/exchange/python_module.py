@@ -22,6 +22,10 @@ def execute(path: str | Path) -> Data:
 
     Raises :class:`~orderconds.errors.TableauError` if the module raises an error, ends the program, or
     assigns values that are no coefficients.
+
+    >>> execute("/no/such/file.py")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    orderconds.errors.TableauError: /no/such/file.py: FileNotFoundError: ...; expected a module that runs
     """
     where = str(path)
     try:

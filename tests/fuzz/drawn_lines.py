@@ -114,8 +114,8 @@ PLACES = (
 )
 PLACES += ("pipe.toml", "loop.toml", "empty.toml/out", os.devnull, "/dev/full", "n" * 300, "out\n", "é\u202e")
 
-OFTEN = {"execute": 0, "output": 0.6, "as_json": 0.3, "explain": 0.3, "explicit": 0.1, "targets": 0.4}
-"""How often an option that is not required is drawn. Mutated Python modules are never executed."""
+OFTEN = {"execute": 0.05, "output": 0.6, "as_json": 0.3, "explain": 0.3, "explicit": 0.1, "targets": 0.4}
+"""How often an option that is not required is drawn."""
 
 TARGETS = ("c", "python", "interpreter")
 KINDS = {
