@@ -12,11 +12,12 @@ import pytest
 from codegen.build import Compiler
 from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import SceneError
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import FloatDomain
 from codegen.ir.expr import Space, evaluate
 from codegen.ir.tangent import tangents
 from codegen.kernel.variations import Variations
-from codegen.loader import Status, StepFailed, load
+from codegen.loader import load
 from codegen.lower import problem_for
 from codegen.scene import FieldScene
 from tests import compilations
