@@ -1,9 +1,10 @@
-"""Hooks of MkDocs: pages of the site that are files outside docs/."""
+"""Hooks of MkDocs: pages of the site that are files outside docs/, its title, and its address."""
 
 from __future__ import annotations
 
 import posixpath
 import re
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,19 @@ OUTSIDE = {
     "benchmarks.md": "benchmarks/README.md",
 }
 """Pages of the site, and the files of the repository that they show."""
+
+
+PLACEHOLDER = "https://example.org/"
+
+
+def on_config(config: Any) -> Any:
+    """Link to the address of the project, the only URL of pyproject.toml, if it has been filled in."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    home = project["urls"]["Homepage"]
+    config["site_name"] = f"{project['name']} {project['version']}"
+    if not home.startswith(PLACEHOLDER):
+        config["repo_url"] = home
+    return config
 
 
 def on_files(files: Files, config: Any) -> Files:
