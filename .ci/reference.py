@@ -195,7 +195,9 @@ def literal(line: str) -> str:
     """Return a line with Markdown's literals, and with stars and bars escaped outside of literals."""
     parts = re.split(r"(``.*?``|`[^`]*`)", line)
     return "".join(
-        re.sub(r"``", "`", part) if part.startswith("`") else re.sub(r"(?<=\w)\*(?=[\w ]|$)", r"\\*", part)
+        re.sub(r"``", "`", part)
+        if part.startswith("`")
+        else re.sub(r"(?<=\w)\*(?=[\w ]|$)|(?<![a-zA-Z0-9])_|_(?![a-zA-Z0-9])", r"\\\g<0>", part)
         for part in parts
     )
 

@@ -23,6 +23,7 @@ COMMANDS = {
     "bench": "free_rigid_body --method cf:cf4 --budget 0.001",
     "check": "cg3 --family cg",
     "cite": "cg3",
+    "completion": "bash",
     "construct": "gauss --stages 2 --output gauss2.toml",
     "converge": "free_rigid_body --method cf:cf4",
     "convert": "rk4 --to csv",

@@ -37,6 +37,7 @@ QUICK = [
     ("modified", "cf4 --order 5"),
     ("series", "bch --order 3"),
     ("cite", "cg3"),
+    ("completion", "bash"),
     ("refine", "yoshida6.toml"),
     ("error", "convert missing.toml"),
     ("error", "derive rk"),
