@@ -1,4 +1,4 @@
-"""The sessions of README and docs: ``console`` blocks, which tests run and compare with what the pages show.
+"""Sessions of README, docs and examples: ``console`` blocks, which tests run and compare with their pages.
 
 The blocks of one page run in order in one new folder. A line that begins with ``$ `` is a command; the
 lines after it are its output, with the messages of stderr. ``<!-- file: NAME -->`` writes the fenced block
@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -41,12 +42,16 @@ class Session:
 
 
 def pages() -> tuple[Path, ...]:
-    """Return README and all pages of docs.
+    """Return README, all pages of docs, and the pages of the examples.
 
     >>> "README.md" in [page.name for page in pages()]
     True
     """
-    return (ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")))
+    return (
+        ROOT / "README.md",
+        *sorted((ROOT / "docs").rglob("*.md")),
+        *sorted((ROOT / "examples").glob("*/README.md")),
+    )
 
 
 def parts(text: str) -> Iterator[tuple[str, str] | Session]:
@@ -94,8 +99,7 @@ def execute(command: str, folder: Path) -> str:
             result = CliRunner().invoke(program, shlex.split(own)[1:], terminal_width=80)
         finally:
             os.chdir(before)
-        printed = result.output.rstrip("\n") + "\n" if result.output.strip() else ""
-        return printed + (f"{result.exit_code}\n" if own != command else "")
+        return result.output + (f"{result.exit_code}\n" if own != command else "")
     done = subprocess.run(
         ["bash", "-c", command],
         cwd=folder,
@@ -130,6 +134,14 @@ def _environment(folder: Path) -> dict[str, str]:
     }
 
 
+def folder_of(page: Path, folder: Path) -> Path:
+    """Return a new folder for the sessions of a page: empty, or for an example a copy of its folder."""
+    if page.parent.parent == ROOT / "examples":
+        return shutil.copytree(page.parent, folder)
+    folder.mkdir()
+    return folder
+
+
 def printed(text: str, folder: Path) -> Iterator[tuple[Session, str]]:
     """Run the sessions of a page in ``folder`` and yield each with its output; write its files on the way."""
     for part in parts(text):
@@ -141,12 +153,10 @@ def printed(text: str, folder: Path) -> Iterator[tuple[Session, str]]:
             file.write_text(part[1], encoding="utf-8")
 
 
-def renewed(text: str) -> str:
+def renewed(text: str, page: Path = ROOT / "README.md") -> str:
     """Return the text of a page with the present outputs of its sessions."""
     with tempfile.TemporaryDirectory() as top:
-        folder = Path(top) / "session"
-        folder.mkdir()
-        replaced = list(printed(text, folder))
+        replaced = list(printed(text, folder_of(page, Path(top) / "session")))
     for session, output in reversed(replaced):
         if without_times(output) != without_times(session.shown):
             new = output.strip("\n") + "\n" if output.strip() else ""
@@ -157,9 +167,9 @@ def renewed(text: str) -> str:
 
 def main(names: list[str]) -> None:
     """Rewrite the pages of these names, or all pages."""
-    for page in [Path(name) for name in names] or pages():
+    for page in [Path(name).resolve() for name in names] or pages():
         text = page.read_text(encoding="utf-8")
-        new = renewed(text)
+        new = renewed(text, page)
         if new != text:
             page.write_text(new, encoding="utf-8")
             print(f"{page}: outputs replaced")

@@ -26,8 +26,7 @@ PAGES = [
 
 @pytest.mark.parametrize("path", PAGES)
 def test_each_session_of_a_page_prints_what_the_page_shows(path: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "session"
-    folder.mkdir()
+    folder = sessions.folder_of(path, tmp_path / "session")
     for session, output in printed(path.read_text(encoding="utf-8"), folder):
         assert without_times(output) == without_times(session.shown), session.command
 
