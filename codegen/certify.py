@@ -46,6 +46,7 @@ class CertifiedOrder:
             "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",
+            "double": "the conditions hold up to the rounding of the coefficients, which are doubles",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
             "which is larger than the rounding error of a double",

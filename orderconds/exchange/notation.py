@@ -6,6 +6,7 @@ import re
 from fractions import Fraction
 
 from orderconds.errors import TableauError
+from orderconds.tableau.doubles import printed
 from orderconds.tableau.grammar import Chain, Constant, Expression, Name, Power, parse
 
 
@@ -43,6 +44,8 @@ def _number(x: Fraction) -> str:
 def _python(x: Expression, tight: int) -> str:
     """Return x as Python source; ``tight`` is 1 inside a product, 2 in a divisor or a base."""
     if isinstance(x, Constant):
+        if x.is_double:
+            return printed(x.value)
         if x.unit:
             places = len(str(x.unit.denominator)) - 1
             return f"Float('{_decimal(x.value, places)}')"
@@ -97,6 +100,8 @@ def to_latex(text: str) -> str:
 
 def _latex(x: Expression, tight: int) -> str:
     if isinstance(x, Constant):
+        if x.is_double:
+            return printed(x.value)
         if x.unit:
             return _decimal(x.value, len(str(x.unit.denominator)) - 1) + r"\ldots"
         size = abs(x.value)

@@ -41,6 +41,8 @@ class Tableau:
     file: File | None = field(default=None, compare=False, repr=False)
     """The file from which the tableau was read; None if the coefficients differ from the coefficients of the
     file."""
+    doubles: bool = False
+    """Whether coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
 
     @staticmethod
     def load(path: str | Path) -> Tableau:
@@ -159,6 +161,7 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
         path=path,
         proof=file.proof,
         file=file,
+        doubles=file.doubles,
     )
 
 

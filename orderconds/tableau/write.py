@@ -56,7 +56,8 @@ def as_data(tableau: Tableau) -> Data:
         if getattr(tableau, key) != data.get(key, ""):
             data[key] = getattr(tableau, key)
     if file.claims != tableau.claims:
-        data.pop("claims", None)
+        for key in ("claims", "order"):
+            data.pop(key, None)
         data |= _claims(tableau.claims)
     return data
 
