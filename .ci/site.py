@@ -15,6 +15,7 @@ OUTSIDE = {
     "contributing.md": "CONTRIBUTING.md",
     "changelog.md": "CHANGELOG.md",
     "benchmarks.md": "benchmarks/README.md",
+    "ci_example.md": "examples/ci/README.md",
     "satellite.md": "examples/satellite/README.md",
 }
 """Pages of the site, and the files of the repository that they show."""

@@ -28,6 +28,8 @@ QUICK = [
     ("check", "cg3 gauss2"),
     ("check", "rk4 --family vcg --order 4"),
     ("check", "cg4a --family cg"),
+    ("check", "heun.csv floats.json"),
+    ("refine", "floats.json"),
     ("construct", "gauss --stages 2"),
     ("convert", "rk4 --to csv"),
     ("trees", "rooted --order 4 --count"),
@@ -104,6 +106,9 @@ def printed(command: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
     monkeypatch.chdir(folder)
     source = ROOT / "tableaux/composition/yoshida6.toml"
     (folder / "yoshida6.toml").write_bytes(source.read_bytes())
+    (folder / "heun.csv").write_text("0,0,0\n1,1,0\n,1/2,1/2\n", encoding="utf-8")
+    floats = '{"A": [[0, 0], [0.6666666666666666, 0]], "b": [0.25, 0.75], "order": 2}'
+    (folder / "floats.json").write_text(floats, encoding="utf-8")
     return json.loads(CliRunner().invoke(program, [*command.split(), "--json"]).stdout)
 
 
