@@ -117,6 +117,8 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    radius = "" if method.coefficients is None else uncertainty(method.coefficients, DOUBLE_BITS)
+    # Coefficients that were given as doubles are emitted unchanged, whatever their author meant.
+    known = method.coefficients is None or method.coefficients.doubles
+    radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate
     return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

@@ -8,7 +8,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from orderconds import families
-from orderconds.derivation import Derivation
 from orderconds.families.stage_form import Name
 from orderconds.formula import Coefficient, Formula, Power, Product, Total
 from orderconds.ring.protocol import Element
@@ -16,6 +15,7 @@ from orderconds.ring.protocol import Element
 if TYPE_CHECKING:
     from flint import fmpq
 
+    from orderconds.derivation import Derivation
     from orderconds.ring.laurent import LaurentPolynomials
     from orderconds.ring.polynomials import Polynomials
 

@@ -33,7 +33,7 @@ Tree = tuple[Key, Callable[[], OrderCondition]]
 """A family's own encoding of a tree, and a function that returns the condition of the tree."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
@@ -56,6 +56,11 @@ class FamilyOrder:
     stopped: int | None = None
     largest: float | None = None
     """The largest residual up to this order, if the coefficients are doubles."""
+
+    def __repr__(self) -> str:
+        return (
+            f"FamilyOrder({self.family}: order {self.order}, certificate {self.certificate}, {self.verdict})"
+        )
 
     @property
     def verdict(self) -> str:

@@ -39,7 +39,7 @@ class EmbeddedOrder(Struct, frozen=True):
         return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report:
     """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
 
@@ -75,6 +75,16 @@ class Report:
         several = len(self.orders) > 1
         orders = (family.sentence + (f" ({family.family})" if several else "") for family in self.orders)
         return f"{', '.join(orders)}; {'no order' if self.properties_claimed else 'nothing'} claimed"
+
+    def __repr__(self) -> str:
+        orders = ", ".join(f"{family.family} {family.order}" for family in self.orders)
+        claimed = self.verdict != UNCLAIMED
+        return f"Report({self.name}: {self.conclusion}{f'; {orders}' if claimed else ''})"
+
+    def _repr_html_(self) -> str:
+        from orderconds.checking.report_html import report_html
+
+        return report_html(self)
 
     def summary(self) -> str:
         """Return a short text with the claims that do not hold, each with its first failing condition."""

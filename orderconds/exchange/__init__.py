@@ -83,17 +83,21 @@ def _completed(data: Data, where: str, name: str) -> Data:
     embedded = data.get("embedded")
     if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
         embedded["order"] = 1
-        embedded["order"] = _computed_order(from_data(data, where))
+        lower = from_data(data, where).lower()
+        embedded["order"] = max(1, order_on_vector_spaces(lower)) if lower else 1
     return data
 
 
-def _computed_order(tableau: Tableau) -> int:
-    """Return the order of the embedded weights on vector spaces, at least 1 as files require."""
+def order_on_vector_spaces(tableau: Tableau) -> int:
+    """Return the order of a method on vector spaces.
+
+    >>> order_on_vector_spaces(Tableau.load("cg4"))
+    4
+    """
     from orderconds.checking import family_order
     from orderconds.families import get
 
-    lower = tableau.lower()
-    return max(1, family_order(lower, get("rk")).order) if lower else 1
+    return family_order(tableau, get("rk")).order
 
 
 PYTHON = "sympy"

@@ -205,7 +205,7 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
         problem = f"a value of type {wrong[2]}"
         if wrong[2] == "numpy.ndarray":
             problem = "NumPy arrays are not accepted here"
-            hint = "pass nested lists of texts or integers, or load a .npz file"
+            hint = "build the tableau with Tableau.rk(A, b), which accepts arrays"
         return TableauError(problem, where=place, expected=wrong[1], hint=hint)
     return TableauError(summary[:1].lower() + summary[1:], where=place)
 

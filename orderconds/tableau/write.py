@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import deepcopy
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from orderconds.ring.protocol import Element
 from orderconds.tableau.brackets import Combination, spell
@@ -21,8 +21,10 @@ from orderconds.tableau.methods import (
     Stage,
 )
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
-from orderconds.tableau.record import Tableau
 from orderconds.tableau.toml_text import toml_text
+
+if TYPE_CHECKING:
+    from orderconds.tableau.record import Tableau
 
 Spell = Callable[[Element], str]
 
