@@ -47,7 +47,9 @@ class Taylor(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state. Its ``evolution`` contains the coordinates of the
         polynomials."""
-        return replace(ambient(scene), evolution=evolution(scene))
+        if "taylor" not in scene.derived:
+            scene.derived["taylor"] = replace(ambient(scene), evolution=evolution(scene))
+        return scene.derived["taylor"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program: the polynomial, then the projection."""

@@ -1,4 +1,4 @@
-"""Top on the hyperbolic plane: SL(2) moves the points z = x + i y of the upper half-plane by z -> (a z + b)/(c z + d).
+"""Top on the hyperbolic plane: SL(2) moves points z of the upper half-plane by z -> (a z + b)/(c z + d).
 
 J is the moment of the action for the area dx dy / y^2, so that J(z) is a point of a sheet of a hyperboloid.
 The generator of the motion is the gradient of the energy (J.A J)/2, as for a rigid body on its sphere.

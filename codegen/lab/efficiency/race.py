@@ -17,7 +17,7 @@ from codegen.emitter import Compiled, emit_compiled
 from codegen.ir.domain import FloatDomain
 from codegen.lab.efficiency.candidates import Recipe
 from codegen.lab.efficiency.equations import Equations
-from codegen.lab.efficiency.requirements import Features, features
+from codegen.lab.efficiency.features import Features, features
 from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
