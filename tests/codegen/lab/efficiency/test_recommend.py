@@ -213,6 +213,18 @@ def test_one_search_serves_several_goals() -> None:
     assert search.results[1e-8].keys() >= {p.entry.recipe for p in search.leaders(goals[2])[0]}
 
 
+def test_a_racer_reaches_the_same_error_after_it_has_reached_larger_errors() -> None:
+    problem = scenes.load("free_rigid_body")
+    equations, exact = Equations(problem), cached_reference(problem)
+    known = entry(Recipe("cf:cf4", 4, 4, "cf4"), compile_method(problem, "cf:cf4"))
+    used = Racer(equations, exact, known)
+    for error in (1e-2, 1e-4, 1e-6, 1e-8):
+        used.reach(error)
+    fresh = Racer(equations, exact, known).reach(1e-10)
+    assert fresh.reached
+    assert used.reach(1e-10).steps == fresh.steps
+
+
 def test_named_methods_alone_are_searched() -> None:
     task = Task("dipole", methods=(("cf:cf4", False), ("ambient:dop853", True)))
     recipes = task.recipes()
