@@ -37,7 +37,7 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
     stack = re.search(target.stack, source) if target.stack else None
     return Features(
         label or compiled.method.label,
-        compiled.method.kind.keeps_manifold or compiled.scene.group.abelian,
+        lowering(compiled.method.family).keeps_manifold(compiled.scene),
         is_symplectic(compiled),
         not compiled.kernel.loops,
         compiled.method.adaptive,

@@ -12,7 +12,6 @@ from codegen.lower import lowering
 from codegen.scene.classical_forms import PRINTED
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError, UnknownName
-from orderconds.families import family_class
 
 
 @dataclass(frozen=True)
@@ -93,5 +92,4 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 
 def stays_on_manifold(recipe: Recipe, problem: Problem) -> bool:
     """Whether the states of a recipe stay on the manifold of the scene up to rounding."""
-    kept = family_class(recipe.family).keeps_manifold or problem.group.abelian
-    return recipe.form == PRINTED and kept
+    return recipe.form == PRINTED and lowering(recipe.family).keeps_manifold(problem)

@@ -16,8 +16,15 @@ MARGIN = 5.0
 FRESH = 8
 """Results that depend on all predictions are computed again when 1/FRESH of the predictions are new."""
 
-USUAL = 6
-"""In each turn, the orders near USUAL are first."""
+
+def usual_order(error: float) -> float:
+    """Return the order of methods that are usually the fastest for an error.
+
+    >>> usual_order(1e-4), usual_order(1e-12)
+    (4.0, 8.0)
+    """
+    return 2 - math.log10(error) / 2
+
 
 Queue = tuple[str, str, int]
 """Family, form and order: a queue contains their recipes, those with few stages first."""
@@ -40,6 +47,7 @@ class Jobs(Sequence[Job]):
         self.fastest: dict[tuple[Goal, str, str], float] = {}
         self.least: dict[Goal, float] = {}
         self.bars: dict[tuple[Goal, int], tuple[int, Bar]] = {}
+        self.usual = {usual_order(goal.error) for own in self.goals.values() for goal in own}
         self.queues: dict[Queue, deque[Recipe]] = defaultdict(deque)
         self.turns: dict[Queue, int] = defaultdict(int)
         for recipe in sorted(self.goals, key=lambda r: r.stages):
@@ -57,8 +65,8 @@ class Jobs(Sequence[Job]):
         bars = (self._bar(goal, recipe.order) for goal in self.goals[recipe])
         return recipe, tuple(bar for bar in bars if not bar.hopeless(recipe.family))
 
-    def _place(self, queue: Queue) -> tuple[float, int]:
-        return self.turns[queue] + self._behind(queue), abs(queue[2] - USUAL)
+    def _place(self, queue: Queue) -> tuple[float, float]:
+        return self.turns[queue] + self._behind(queue), min(abs(queue[2] - order) for order in self.usual)
 
     def _behind(self, queue: Queue) -> float:
         """Return the turns for which a queue waits: log2 of its time relative to the least time."""

@@ -166,6 +166,8 @@ class Search:
                     self.codes.add(candidate.code)
                     self.racers[candidate.recipe] = self.racer(candidate)
                     self._measure(candidate.recipe)
+                if self.spent > 1:
+                    break
 
     def _next(self) -> list[Recipe]:
         """Return the next recipes to emit: those that promise the largest gains for all goals.
