@@ -305,10 +305,10 @@ def test_adaptive_runs_in_the_body_frame_agree_with_those_in_space(scene):
     first, last = map(float, problem.span)
     ends = {}
     for frame in ("space", "body"):
-        made = emit_compiled(compile_method(problem, "taylor(12)", frame=frame, adaptive=True), "c")
+        module = emit_compiled(compile_method(problem, "taylor(12)", frame=frame, adaptive=True), "c")
         q, mu = start[: group.size], start[group.size :]
         state = start if frame == "space" else (*q, *group.Adt(FloatDomain(0.0), q, mu))
-        ends[frame] = tuple(load(made).adaptive(list(state), first, last, rtol=1e-12, atol=1e-12).state)
+        ends[frame] = tuple(load(module).adaptive(list(state), first, last, rtol=1e-12, atol=1e-12).state)
     q, momentum = ends["body"][: group.size], ends["body"][group.size :]
     body = (*q, *group.Adtinv(FloatDomain(0.0), q, momentum))
     assert max(abs(a - b) for a, b in zip(body, ends["space"], strict=True)) < 1e-9

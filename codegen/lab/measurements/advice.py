@@ -91,10 +91,10 @@ class Advice(Measurement[Recommendations]):
         named = tuple(m for m in methods if m[0] not in refused) if subject.named else ()
         task = Task(subject.name, budget=subject.effort.search, methods=named)
         key = ("advice", subject.scene.name, subject.exact.digits(), task.budget, task.methods)
-        found = Searched((), complete=True)
+        search = Searched((), complete=True)
         if named or not subject.named:
-            found = subject.cache.get(key, Searched, lambda: searched(task, subject))
-        return Recommendations((*found.lines, *peers(cost.result.entries)), tuple(known), found.complete)
+            search = subject.cache.get(key, Searched, lambda: searched(task, subject))
+        return Recommendations((*search.lines, *peers(cost.result.entries)), tuple(known), search.complete)
 
     def as_json(self, result: Recommendations) -> object:
         """Return the best method for each requirement and error, with its step, time and command."""
