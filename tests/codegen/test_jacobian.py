@@ -41,6 +41,7 @@ CASES = [
     ("fast_heavy_top", "splitting:strang"),
     ("free_rigid_body_s3", "rkmk:rk4"),
     ("free_rigid_body_product", "cf:cf4"),
+    ("duffing_sl2", "cg:cg3"),
 ]
 LONG = (("driven_spin", "cg:cg3"), ("dipole", "vrkmk(2):gauss2"), ("dipole", "ambient:rk4"))
 """Cases like others of :data:`CASES`, for the slow run."""
