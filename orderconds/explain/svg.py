@@ -6,6 +6,7 @@ the colour of the surrounding text (``currentColor``).
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -20,7 +21,8 @@ SIZE = 11.0
 """The font size of captions in px; a letter of the monospaced font is 0.6 times as wide."""
 
 TEXT_FONT = 'font-family="monospace"'
-FORMULA_FONT = 'font-family="serif" font-style="italic"'
+FORMULA_FONT = 'font-family="serif" font-style="italic" letter-spacing="0.8"'
+RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,7 @@ class _Block:
             baseline = ground + 1.4 * SIZE * line - 0.4 * SIZE
             # The first line is the text of a tree; the others are mathematics.
             font = TEXT_FONT if line == 1 else FORMULA_FONT
-            shown = text if line == 1 else text.replace("'", "′")
+            shown = text if line == 1 else _formula(text)
             yield _text(x + self.width / 2, baseline, shown, SIZE, "middle", font)
 
 
@@ -148,6 +150,12 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
         before, letters = tree.vertex.legs
         place = "›" * before + "*" + "›" * (letters - before)
         yield _text(x + 1.6 * RADIUS, y + RADIUS, place, 0.8 * SIZE, "start")
+
+
+def _formula(text: str) -> str:
+    """Return an elementary differential with primes and raised exponents."""
+    raised = re.sub(r"\^(\(\d+\)|\d+)", lambda match: match[1].translate(RAISED), text)
+    return raised.replace("'", "′")
 
 
 def _vertex(vertex: Vertex, x: float, y: float) -> str:

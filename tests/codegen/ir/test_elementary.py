@@ -11,6 +11,7 @@ import sympy
 
 from codegen.emitter import compile_method, emit
 from codegen.groups import LeftMultiplication, Rn
+from codegen.integrator import StepFailed
 from codegen.ir.differentiate import gradient, partials
 from codegen.ir.domain import ExprDomain, PreciseDomain, SeriesDomain
 from codegen.ir.elementary import ELEMENTARY, MATHEMATICAL
@@ -19,7 +20,7 @@ from codegen.ir.from_sympy import read
 from codegen.ir.interpret import interpret
 from codegen.ir.linearise import FirstOrder
 from codegen.ir.taylor_recurrence import Recurrence
-from codegen.loader import StepFailed, load
+from codegen.loader import load
 from codegen.scene import FieldScene
 from codegen.scene.problem import Problem
 from orderconds.ring import QQ
