@@ -9,11 +9,11 @@ from codegen.lab.efficiency.requirements import DECADES, Features, advise, featu
 from codegen.lab.efficiency.requirements import Advice as Recommendation
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.measurements.cost import Cost
-from codegen.lab.page.formatting import decade, duration
+from codegen.lab.page.formatting import decade, duration, enumeration
 from codegen.lab.subject import Subject
 
 BODY = '{% include "sections/advice.html.j2" %}'
-OVERVIEW = '{% import "parts.html.j2" as parts %}{{ parts.advice(advice) }}'
+OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 
 @dataclass(frozen=True)
@@ -49,6 +49,17 @@ class Advice(Measurement[Recommendations]):
             {"need": a.need, "best": [b and {"method": b[0], "seconds": b[1]} for b in a.best]}
             for a in result.advice
         ]
+
+    def verdict(self, result: Recommendations, subject: Subject) -> str:
+        """Return the fastest method without requirements at the largest and the smallest error reached."""
+        reached = [(k, best) for k, best in zip(DECADES, result.advice[0].best, strict=True) if best]
+        if not reached:
+            return ""
+        found = [
+            f"at an error of {decade(k)}, {best[0].partition(' (')[0]} ({duration(best[1])})"
+            for k, best in reached
+        ]
+        return f"The fastest emitted method: {enumeration(found[:: max(1, len(found) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the table of recommendations and the table of properties."""
