@@ -97,7 +97,7 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
         "picture": Picture(
             picture,
             "Error against the CPU time of the whole run (least of several measurements). Dashed, with open "
-            "markers: peers. Dash-dotted: step-size control. Dotted: slopes of methods of order p with equal steps.",
+            "markers: peers. Dash-dotted: step-size control. Dotted: slopes of order p with equal steps.",
             subject.bench_command(),
         ),
         "places": [

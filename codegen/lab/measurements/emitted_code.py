@@ -32,7 +32,9 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         (least, shortest), (most, longest) = lengths[0], lengths[-1]
         if len(lengths) == 1:
             return f"The emitted code of {shortest} has {least} lines."
-        return f"{shortest} has the shortest emitted code ({least} lines), {longest} the longest ({most} lines)."
+        return (
+            f"{shortest} has the shortest emitted code ({least} lines), {longest} the longest ({most} lines)."
+        )
 
     def section(self, result: tuple[CompiledMethod, ...], subject: Subject) -> Section | None:
         """Return one entry for each method."""

@@ -68,10 +68,8 @@ class Orders(Measurement[Result]):
             return f"The observed order of the emitted code equals the computed order for {number}."
         others = [f"{m.method.label} ({m.verdict})" for m in result.measured if m.verdict != "holds"]
         others += [f"{f.method} (failed)" for f in result.failures]
-        return (
-            f"The observed order of the emitted code equals the computed order for {held} of {total} methods; "
-            f"the exceptions are {enumeration(others)}."
-        )
+        sentence = f"The observed order of the emitted code equals the computed order for {held} of {total}"
+        return f"{sentence} methods; the exceptions are {enumeration(others)}."
 
     def overview(self, result: Result, subject: Subject) -> Section:
         """Return the number of methods whose observed order equals the computed order."""

@@ -70,7 +70,9 @@ class StabilityTests(Measurement[Result]):
         parts = []
         if answers:
             names = f" ({enumeration(list(dict.fromkeys(wrong)))})" if wrong else ""
-            parts.append(f"{len(wrong) or 'none'} of {len(answers)} extreme steps had a silent wrong result{names}")
+            parts.append(
+                f"{len(wrong) or 'none'} of {len(answers)} extreme steps had a silent wrong result{names}"
+            )
         if undetermined := sum(kind == "undetermined" for kind, _ in answers):
             parts.append(f"{undetermined} had an undetermined result")
         limits = {s.method: s.findings.limit.h for s in result.measured if s.findings.limit.h is not None}

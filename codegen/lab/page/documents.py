@@ -91,7 +91,11 @@ def _marked(sentence: str, labels: Sequence[str]) -> Markup:
 
 
 def _filled(name: str, command: str, **values: object) -> str:
-    facts: dict[str, object] = {"command": command, "version": __version__, "compiler": find_compiler().version}
+    facts: dict[str, object] = {
+        "command": command,
+        "version": __version__,
+        "compiler": find_compiler().version,
+    }
     facts |= {"light": SERIES_LIGHT, "dark": SERIES_DARK}
     return _environment().get_template(name).render(**facts, **values)
 

@@ -6,13 +6,13 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypedDict
 
 from markupsafe import Markup
 
 from codegen.lab.page.formatting import power_of_ten, scientific, seconds, superscript
 from codegen.lab.page.series_style import Style
-from codegen.lab.page.svg import INK, MUTED, PLACEHOLDERS, RULE, STYLE, Text, svg_element
+from codegen.lab.page.svg import INK, MUTED, PLACEHOLDERS, RULE, STYLE, Point, Text, svg_element
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +31,6 @@ LONG_LABEL = 27
 MARKS = 9
 """Number of markers on a line without measured points of its own."""
 
-Point: TypeAlias = tuple[float, float]
 Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 
 
@@ -44,6 +43,16 @@ class Curve:
     points: tuple[Point, ...]
     style: Style
     order: int | None = None
+
+
+class _Appearance(TypedDict):
+    """The arguments of Matplotlib for a style."""
+
+    color: str
+    marker: str
+    markerfacecolor: str
+    linestyle: str | tuple[float, tuple[float, ...]]
+    linewidth: float
 
 
 @dataclass
@@ -150,11 +159,14 @@ def region_figure(name: str, title: str, functions: Sequence[Function]) -> Marku
         line = axes.contour(*grid, levels=[1.0], colors=[looks["color"]], linewidths=1.3)
         points = _boundary(line.allsegs[0], number / len(functions))
         x, y = zip(*points, strict=True) if points else ((), ())
-        marks = axes.plot(x, y, **(looks | {"linestyle": "none"}))
-        for artist in (fill, line, *marks):
+        (marks,) = axes.plot(x, y, **looks)
+        marks.set_linestyle("none")
+        for artist in (fill, line, marks):
             artist.set_gid(f"series:{number}")
         axes.plot([], [], label=label, **looks)
-        drawing.values[number] = [f"{label}: |R| = 1 at {a:.2f} {b:+.2f}i".replace("-", "−") for a, b in points]
+        drawing.values[number] = [
+            f"{label}: |R| = 1 at {a:.2f} {b:+.2f}i".replace("-", "−") for a, b in points
+        ]
     axes.set_xlim(plane.xs[0], plane.xs[-1])
     axes.set_ylim(plane.ys[0], plane.ys[-1])
     axes.set_aspect("equal")
@@ -194,13 +206,12 @@ class _Plane:
         right = max((x for x, _ in points), default=PLANE[1]) + MARGIN
         if high > PLANE[3]:
             return whole
-        return cls.between(max(left, PLANE[0]), min(max(right, 1.0), PLANE[1]), -high, high)
+        left = max(PLANE[0], min(left, right - 2 * high))
+        return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
         """Return |R| at every point with a number divisible by ``step``; large values are cut off."""
-        return [
-            [min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]
-        ]
+        return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
 
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
@@ -219,7 +230,7 @@ def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
     return sorted(set(nearest))
 
 
-def _boundary(segments: Iterable[Sequence[Sequence[float]]], shift: float) -> list[Point]:
+def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
     """Return points on the lines of a contour, at about equal distances."""
     points: list[Point] = []
     for segment in segments:
@@ -248,7 +259,7 @@ def _canvas(*, log: bool = True) -> _Drawing:
     return _Drawing(figure, axes)
 
 
-def _appearance(style: Style) -> dict[str, object]:
+def _appearance(style: Style) -> _Appearance:
     """Return the arguments of Matplotlib for a style."""
     colour = PLACEHOLDERS[style.colour]
     return {
@@ -345,9 +356,7 @@ def _slopes(axes: Axes, points: Sequence[Point]) -> None:
 
 
 def _annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
-    axes.annotate(
-        text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8
-    )
+    axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
 
 
 def _ticks(axis: Axis, text: Callable[[float], str]) -> None:

@@ -44,7 +44,8 @@ class Style:
     """The appearance of a series.
 
     ``colour`` is a CSS variable of the page, ``marker`` a marker of :data:`MARKERS`. ``dash`` contains the
-    lengths of dashes and gaps in line widths; an empty tuple is a solid line. ``hollow`` markers are outlines.
+    lengths of dashes and gaps in line widths; an empty tuple is a solid line. ``hollow`` markers are
+    outlines.
     """
 
     colour: str
@@ -104,7 +105,10 @@ def _digest(name: str) -> int:
 
 @cache
 def _fixed() -> Mapping[str, Place]:
-    """Return the places of the default methods. Methods of one list differ in colour and marker, if possible."""
+    """Return the places of the default methods.
+
+    Methods of one list differ in colour and marker, if possible.
+    """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
         beside = {other for group in PICTURED if name in group for other in group}

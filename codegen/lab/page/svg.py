@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 from markupsafe import Markup
 
@@ -24,6 +24,8 @@ from codegen.lab.page.series_style import COLOURS, Style
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+Point: TypeAlias = tuple[float, float]
 
 INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
 PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "var(--paper)": "#010a04"} | {
@@ -162,6 +164,7 @@ def _outline(marker: str) -> str:
     if marker == "o":
         return "M9 5a3 3 0 1 0 6 0a3 3 0 1 0 -6 0Z"
     shape = MarkerStyle(marker)
-    polygons = shape.get_path().transformed(shape.get_transform()).to_polygons(closed_only=False)
+    path = shape.get_path().transformed(shape.get_transform())
+    polygons = cast("Sequence[Sequence[Point]]", path.to_polygons(closed_only=False))
     lines = ("L".join(f"{12 + 6 * x:.2f} {5 - 6 * y:.2f}" for x, y in polygon) for polygon in polygons)
     return "".join(f"M{line}Z" for line in lines)

@@ -194,9 +194,7 @@ def test_a_work_precision_diagram_has_the_slopes_of_orders() -> None:
 def ten_apart(drawn: str, axis: str) -> float:
     """Return the distance in the picture of two values with the ratio 10, from the first series."""
     group = next(
-        g
-        for g in ElementTree.fromstring(drawn).iter(f"{NAMESPACE}g")
-        if g.attrib.get("data-series") == "0"
+        g for g in ElementTree.fromstring(drawn).iter(f"{NAMESPACE}g") if g.attrib.get("data-series") == "0"
     )
     places = [float(use.attrib[axis]) for use in group.iter(f"{NAMESPACE}use")]
     values = [p["xy".index(axis)] for p in CURVES[0].points]
