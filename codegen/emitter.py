@@ -389,8 +389,9 @@ def bare(name: str) -> str:
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')
     """
+    name, bracket, values = name.partition("[")
     family, colon, rest = name.rpartition(":") if re.match(r"[a-z_]+(\(\d+\))?:", name) else ("", "", name)
-    return f"{family}{colon}{PurePath(rest).name}"
+    return f"{family}{colon}{PurePath(rest).name}{bracket}{values}"
 
 
 def quoted(word: str) -> str:

@@ -35,6 +35,10 @@ BUILT_IN = {
         "Find the exact order of tableaux and compare it with their claims.",
     ),
     "cite": ("orderconds.commands.cite", "Print the BibTeX of a tableau's source."),
+    "completion": (
+        "orderconds.commands.completion",
+        "Print the script that completes names in a shell.",
+    ),
     "construct": (
         "orderconds.commands.construct",
         "Compute a Gauss, Radau or Lobatto method from its definition.",
@@ -57,12 +61,18 @@ BUILT_IN = {
 }
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""
 
+OUTPUT_OPTIONS = {
+    "quiet": "Show no progress, and no results that hold; the exit status is the answer.",
+    "verbose": "Write progress to stderr also without a terminal, with the elapsed and the remaining time.",
+}
+"""Options of every command: name -> help."""
+
 
 class Program(click.Group):
     """The click group of all commands; it turns each error into one of this program's exit statuses.
 
     >>> program.list_commands(click.Context(program))[:3]
-    ['check', 'cite', 'construct']
+    ['check', 'cite', 'completion']
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -88,7 +98,7 @@ class Program(click.Group):
                 ) from error
         if not isinstance(command, click.Command):
             raise UnknownName(f"{command!r} is not a click command", where=f"entry point {name}")
-        return command
+        return with_output_options(command)
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
@@ -107,7 +117,7 @@ class Program(click.Group):
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
         resolved = super().resolve_command(ctx, args)
-        if resolved[1] is not None:
+        if resolved[1] is not None and not ctx.resilient_parsing:  # completion has incomplete lines
             _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
         return resolved
 
@@ -191,6 +201,33 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
         if option.name in seen and not option.is_flag:
             raise click.UsageError(f"{option.opts[0]} is given twice; give it once", ctx)
         seen.add(option.name)
+
+
+def with_output_options(command: click.Command) -> click.Command:
+    """Add ``--quiet`` and ``--verbose`` to a command that does not have them.
+
+    >>> [p.opts[0] for p in with_output_options(click.Command("list")).params]
+    ['--quiet', '--verbose']
+    """
+    known = {name for p in command.params for name in p.opts}
+    for name, meaning in OUTPUT_OPTIONS.items():
+        if f"--{name}" not in known:
+            option = click.Option(
+                [f"--{name}", f"-{name[0]}"],
+                is_flag=True,
+                expose_value=False,
+                callback=_set_output,
+                help=meaning,
+            )
+            command.params.append(option)
+    return command
+
+
+def _set_output(ctx: click.Context, parameter: click.Parameter, given: bool) -> None:
+    run = current_run()
+    setattr(run, str(parameter.name), given)
+    if run.quiet and run.verbose:
+        raise click.UsageError("--quiet and --verbose contradict each other", ctx)
 
 
 def _ask_for_traceback(ctx: click.Context, parameter: click.Parameter, asked: bool) -> None:

@@ -59,6 +59,8 @@ class Run:
 
     as_json: bool = False
     traceback: bool = False
+    quiet: bool = False
+    verbose: bool = False
     documents: int = 0
 
     def print_document(self, value: Any) -> None:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from codegen.commands.arguments import methods_option, scene_argument, targets_option, values_option
 from orderconds.commands.place import FOLDER
 from orderconds.commands.screen import counting, print_json, print_table, working
 from orderconds.commands.variadic import Variadic
@@ -16,18 +17,13 @@ if TYPE_CHECKING:
 
 
 @click.command("bench", cls=Variadic, short_help="Measure error against run time, also of other integrators.")
-@click.argument("scene")
-@click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@scene_argument()
+@methods_option()
+@values_option
 @click.option(
     "--adaptive", multiple=True, help="Methods to run with step-size control, at several tolerances."
 )
-@click.option(
-    "--target",
-    "-t",
-    "targets",
-    multiple=True,
-    help="A target (see orderconds list targets), by default c; may be repeated.",
-)
+@targets_option
 @click.option(
     "--against",
     "-a",
@@ -54,6 +50,7 @@ if TYPE_CHECKING:
 def command(
     scene: str,
     methods: tuple[str, ...],
+    parameters: tuple[str, ...],
     adaptive: tuple[str, ...],
     targets: tuple[str, ...],
     peers: tuple[str, ...],
@@ -71,16 +68,24 @@ def command(
     equations, such as body momentum and unit quaternion. The tables name the fastest form. With -o an
     interrupted measurement continues when the command is repeated. A method or peer that fails has a row with
     the reason. The exit status is 1 if a method or peer has no successful run.
+
+    \b
+    Examples:
+        orderconds bench free_rigid_body --method cf4 rkmk:rk4 --against scipy
+        orderconds bench dipole --method vcg:midpoint --adaptive ambient:dop853 -o out
     """
     from codegen.lab.efficiency.bench import bench
     from codegen.printers import DEFAULT
+    from codegen.scenes import with_values
 
     if not 0 < budget < 1e5:
         raise InputError(f"the budget {budget:g}", where="--budget", expected="CPU seconds above 0")
     with working("reading scene and methods") as progress:
         targets = targets or (DEFAULT,)
-        candidates = bench(scene, methods, targets, peers, budget, output, progress, adaptive, forms)
-    with counting(f"{candidates.scene.name}: first runs") as done:
+        candidates = bench(
+            with_values(scene, parameters), methods, targets, peers, budget, output, progress, adaptive, forms
+        )
+    with counting(f"{candidates.scene.name}: runs") as done:
         result = candidates.run(lambda row: done(f"{row.method} ({row.target})"))
     if as_json:
         print_json([row.as_json() for row in result.rows])

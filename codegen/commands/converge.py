@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from orderconds.commands.screen import counting, print_json, print_table, working
+from codegen.commands.arguments import methods_option, scene_argument, target_names, values_option
+from orderconds.commands.names import completing
+from orderconds.commands.screen import counting, is_shown, print_json, print_table, working
 from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
 
@@ -15,9 +17,15 @@ if TYPE_CHECKING:
 
 
 @click.command("converge", cls=Variadic)
-@click.argument("scene", required=False)
-@click.option("--method", "-m", "methods", multiple=True, required=True, help="TABLEAU or FAMILY:TABLEAU.")
-@click.option("--target", help="A target (see orderconds list targets) or interpreter; by default c.")
+@scene_argument(required=False)
+@methods_option(required=True)
+@values_option
+@click.option(
+    "--target",
+    "-t",
+    help="A target (see orderconds list targets) or interpreter; by default c.",
+    shell_complete=completing(lambda: (*target_names(), "interpreter")),
+)
 @click.option("--form", help="Form of the equations: printed (the default), body-matrix, quaternion.")
 @click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
 @click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
@@ -35,6 +43,7 @@ if TYPE_CHECKING:
 def command(
     scene: str | None,
     methods: tuple[str, ...],
+    parameters: tuple[str, ...],
     target: str | None,
     form: str | None,
     steps: tuple[str, ...],
@@ -49,18 +58,29 @@ def command(
 
     The exit status is 0 if every observed order equals the stated order, and 1 if an observed order differs
     or is undecided.
+
+    \b
+    Examples:
+        orderconds converge free_rigid_body --method cf4 'rkmk(2):rk4'
+        orderconds converge driven_spin -m cf4 -P nu=3/2 --target python
+        orderconds converge --protocol strict --method cf4
     """
     if (scene is None) != (protocol is not None):
         raise click.UsageError("name one SCENE, or give --protocol strict, which has its own scenes")
+    from codegen.scenes import with_values
+
     chosen = (target, form, digits)
-    if scene is None and (steps or any(option is not None for option in chosen)):
+    if scene is None and (steps or parameters or any(option is not None for option in chosen)):
         raise click.UsageError(
-            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits, --form"
+            "--protocol strict uses its own steps and 50 digits; omit --target, --steps, --digits, --form, "
+            "--parameter"
         )
     results = (
         _by_protocol(methods, stated, as_json)
         if scene is None
-        else _on_scene(scene, methods, target, form, steps, digits or 16, stated, as_json)
+        else _on_scene(
+            with_values(scene, parameters), methods, target, form, steps, digits or 16, stated, as_json
+        )
     )
     if as_json:
         print_json([result.as_json() for result in results])
@@ -109,7 +129,7 @@ def _on_scene(
                 raise
             except (InputError, ArithmeticError) as error:
                 results.append(NotEmitted(problem.name, method.label, target or DEFAULT, str(error)))
-        if not as_json:
+        if not as_json and is_shown(results[-1].verdict == "holds"):
             show(results[-1], first=len(results) == 1)
     return results
 
@@ -126,7 +146,7 @@ def _by_protocol(
         with counting(f"{method.label}") as done:
             for result in strict(method, stated_order(method, stated), done):
                 results.append(result)
-                if not as_json:
+                if not as_json and is_shown(result.verdict == "holds"):
                     click.echo(f"{result.method} on {result.scene}: {result.sentence()}")
     return results
 

@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from codegen.commands.arguments import method_names, scene_argument, targets_option
 from orderconds.commands import screen
+from orderconds.commands.names import completing
 from orderconds.commands.place import FOLDER
 
 if TYPE_CHECKING:
@@ -14,27 +16,22 @@ if TYPE_CHECKING:
 
 
 @click.command(name="emit", short_help="Write a specialised integrator for a scene.")
-@click.argument("scene", metavar="SCENE")
+@scene_argument()
 @click.option(
     "--method",
     "-m",
     required=True,
+    shell_complete=completing(method_names, files=True),
     help="TABLEAU or FAMILY:TABLEAU, such as cf4, vcg:triple_jump, 'rkmk(2):rk4'.",
 )
-@click.option(
-    "--target",
-    "-t",
-    "targets",
-    multiple=True,
-    help="A target (orderconds list targets), by default c; may be repeated.",
-)
+@targets_option
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
 @click.option(
     "--prefix", default="", help="Prefix of every external name; by default the names of scene and method."
 )
 @click.option(
     "--parameter",
-    "-p",
+    "-P",
     "parameters",
     multiple=True,
     help="NAME: keep a parameter as a run-time argument; NAME=VALUE: make it a constant.",
@@ -90,6 +87,12 @@ def command(
     A warning is printed if no solver of an implicit method converges in the first steps of the example.
     Without -o no file is written; --explain or --json is then required and prints a description of the
     module.
+
+    \b
+    Examples:
+        orderconds emit free_rigid_body --method cf4 -o out
+        orderconds emit dipole -m vcg:midpoint -t c -t python -o out
+        orderconds emit driven_spin -m ambient:dop853 --adaptive --parameter nu -o out
     """
     from codegen.emitter import bare, compile_method, emit_compiled
     from codegen.ir.precision import precision as known_precision
@@ -117,16 +120,21 @@ def command(
             for path in paths:
                 click.echo(path)
     if as_json:
-        if explain:
-            for record in records:
-                record["passes"] = [
-                    {"name": r.name, "before": r.before, "after": r.after, "removed": r.removed}
-                    for r in compiled.trace
-                ]
-                record["functions"] = functions_of(compiled)
-                record["compared"] = [list(choice.compared) for choice in compiled.solvers]
-        screen.print_json(records)
+        more = explained(compiled) if explain else {}
+        screen.print_json([record | more for record in records])
     return 0
+
+
+def explained(compiled: Compiled) -> dict[str, object]:
+    """Return what ``--explain --json`` adds to the record of a module."""
+    return {
+        "passes": [
+            {"name": r.name, "before": r.before, "after": r.after, "removed": r.removed}
+            for r in compiled.trace
+        ],
+        "functions": functions_of(compiled),
+        "compared": [list(choice.compared) for choice in compiled.solvers],
+    }
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:

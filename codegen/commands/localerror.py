@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from orderconds.commands.screen import print_json, print_table, working
+from codegen.commands.arguments import methods_option, scene_argument, values_option
+from orderconds.commands.screen import counting, is_shown, print_json, print_table
 from orderconds.commands.variadic import Variadic
 
 if TYPE_CHECKING:
@@ -14,31 +15,38 @@ if TYPE_CHECKING:
 
 
 @click.command("localerror", cls=Variadic, short_help="Compute the exact order of emitted steps.")
-@click.argument("scene")
-@click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@scene_argument()
+@methods_option()
+@values_option
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
-def command(scene: str, methods: tuple[str, ...], as_json: bool) -> int:
+def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], as_json: bool) -> int:
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
     The step program runs over power series in h with exact coefficients and is compared with the Taylor
     series of the solution. The field must be a rational function of the coordinates. Initial coordinates
     that are not rational are replaced by nearby rational numbers. The exit status is 1 if the exact order is
     below the order that the order conditions state.
+
+    \b
+    Examples:
+        orderconds localerror free_rigid_body --method cf4
     """
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.orders.exact_order import exact_local_error
 
-    problem = scenes.load(scene)
+    problem = scenes.load(scenes.with_values(scene, parameters))
     errors = []
-    with working("local errors") as progress:
-        for method in methods_for(problem, methods):
-            progress(method.label)
+    chosen = methods_for(problem, methods)
+    with counting("local errors", total=len(chosen)) as done:
+        for method in chosen:
             errors.append(exact_local_error(problem, method))
+            done(method.label)
     if as_json:
         print_json([result.as_json() for result in errors])
     else:
-        for number, result in enumerate(errors):
+        shown = [result for result in errors if is_shown(result.verdict == "holds")]
+        for number, result in enumerate(shown):
             show(result, first=not number)
     return 0 if all(result.verdict == "holds" for result in errors) else 1
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from codegen.commands.arguments import methods_option, scene_argument, values_option
 from orderconds.commands.screen import counting, print_json, print_table
 from orderconds.commands.variadic import Variadic
 from orderconds.errors import InputError
@@ -20,8 +21,9 @@ FEWEST = 200
 @click.command(
     "longrun", cls=Variadic, short_help="Measure the drift of conserved quantities over many steps."
 )
-@click.argument("scene")
-@click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@scene_argument()
+@methods_option()
+@values_option
 @click.option("--h", "size", type=float, help="The step size; by default a hundredth of the scene's span.")
 @click.option(
     "--steps",
@@ -36,6 +38,7 @@ FEWEST = 200
 def command(
     scene: str,
     methods: tuple[str, ...],
+    parameters: tuple[str, ...],
     size: float | None,
     steps: int,
     one_way: bool,
@@ -50,21 +53,27 @@ def command(
     the growth of rounding errors is measured: their root mean square over several initial states, and its
     exponent in the number of steps, with and without compensated summation. The exit status is 1 if a run
     ends early or a method fails.
+
+    \b
+    Examples:
+        orderconds longrun dipole --method vcg:midpoint --steps 100000
+        orderconds longrun free_rigid_body --method cf4 --h 0.05 --one-way
     """
     from codegen import scenes
     from codegen.emitter import compile_method
     from codegen.lab.default_methods import methods_for
     from codegen.lab.long_runs.long_run import LongRun, long_run
 
-    problem = scenes.load(scene)
+    problem = scenes.load(scenes.with_values(scene, parameters))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
     if not 1e-300 <= abs(h) <= 1e300:  # the condition is negated, so that NaN is refused
         raise InputError(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
         )
     runs: list[LongRun] = []
-    with counting(f"{problem.name}: {steps} steps") as done:
-        for method in methods_for(problem, methods):
+    chosen = methods_for(problem, methods)
+    with counting(f"{problem.name}: {steps} steps", total=len(chosen)) as done:
+        for method in chosen:
             try:
                 compiled = compile_method(problem, method)
                 runs.append(long_run(compiled, h, steps, back=not one_way, rounding=not no_rounding))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from codegen.commands.arguments import scene_argument, values_option
 from codegen.errors import SceneError
 from orderconds.commands.screen import print_json, print_table, working
 
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
 
 
 @click.command("recommend", short_help="Find the fastest method for a scene and an error.")
-@click.argument("scene")
+@scene_argument()
+@values_option
 @click.option("--error", type=float, required=True, help="The largest error at the end of the span.")
 @click.option(
     "--need",
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
 def command(
     scene: str,
+    parameters: tuple[str, ...],
     error: float,
     needs: tuple[str, ...],
     stack: int | None,
@@ -48,14 +51,20 @@ def command(
     state stays on the manifold up to rounding), symplectic (for long times; a method that loses a conserved
     quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size control).
     The exit status is 1 if no method reaches the error.
+
+    \b
+    Examples:
+        orderconds recommend free_rigid_body --error 1e-8
+        orderconds recommend dipole --error 1e-4 --need symplectic
     """
     from codegen.lab.efficiency.recommend import BUDGET, Request, recommend
+    from codegen.scenes import with_values
     from orderconds.errors import InputError
 
     if budget is not None and not 0 < budget < 1e5:
         raise InputError(f"the budget {budget:g}", where="--budget", expected="seconds above 0")
     request = Request(
-        scene,
+        with_values(scene, parameters),
         error,
         tuple(dict.fromkeys(word.strip() for need in needs for word in need.split(","))),
         stack,

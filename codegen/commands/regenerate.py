@@ -28,6 +28,10 @@ def command(check_only: bool, output: str | None, listing: str | None, as_json: 
 
     An emitted file that no listed module produces is stale: it is removed, or with --check reported. A file
     that was never emitted is unknown: it is reported and not changed.
+
+    \b
+    Examples:
+        orderconds regenerate --check
     """
     from codegen.regenerate import LIST, compare, contents, entries, write
 

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import click
 
+from codegen.commands.arguments import methods_option, scene_names, values_option
+from orderconds.commands.names import completing
 from orderconds.commands.place import FOLDER
-from orderconds.commands.screen import counting, print_json
+from orderconds.commands.screen import counting, is_shown, print_json
 from orderconds.commands.variadic import Variadic
 
 
@@ -14,8 +16,9 @@ from orderconds.commands.variadic import Variadic
     cls=Variadic,
     short_help="Write HTML pages: orders, cost, stability, long runs.",
 )
-@click.argument("scenes", nargs=-1, metavar="[SCENE]...")
-@click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@click.argument("scenes", nargs=-1, metavar="[SCENE]...", shell_complete=completing(scene_names, files=True))
+@methods_option()
+@values_option
 @click.option("--adaptive", multiple=True, help="Methods to run with step-size control as well.")
 @click.option("--against", "-a", "peers", multiple=True, help="Other integrators (peers), as for bench.")
 @click.option(
@@ -44,6 +47,7 @@ from orderconds.commands.variadic import Variadic
 def command(
     scenes: tuple[str, ...],
     methods: tuple[str, ...],
+    parameters: tuple[str, ...],
     adaptive: tuple[str, ...],
     peers: tuple[str, ...],
     parts: tuple[str, ...],
@@ -59,20 +63,33 @@ def command(
     interrupted report continues when the command is repeated. A method that fails has a row with the reason.
     The pages need no network. The exit status is 1 if an observed order differs from the computed order, if
     the result of an extreme step is wrong, or if a method fails; the pages are written in any case.
+
+    \b
+    Examples:
+        orderconds report free_rigid_body dipole --quick -o report
+        orderconds report top.py --method cf4 --only orders -o report
     """
     from codegen.lab.report import Request, read_scenes, report
+    from codegen.scenes import with_values
 
     if everything and scenes:
         raise click.UsageError("name SCENEs, or give --all")
+    if parameters and not scenes:
+        raise click.UsageError("--parameter belongs to the named SCENEs; name one")
+    scenes = tuple(with_values(name, parameters) for name in scenes)
     request = Request(read_scenes(scenes, everything), methods, peers, parts, effort or "usual", adaptive)
     with counting("reading scenes and methods") as progress:
         path, results = report(request, output, progress)
+    held = all(scene_results.held for scene_results in results)
     if as_json:
         print_json({"page": str(path), "scenes": [scene_results.as_json() for scene_results in results]})
     else:
         for scene_results in results:
+            if not is_shown(scene_results.held):
+                continue
             for measured in scene_results.measured:
                 for line in measured.lines():
                     click.echo(line)
-        click.echo(f"the report: {path}")
-    return 0 if all(scene_results.held for scene_results in results) else 1
+        if is_shown(held):
+            click.echo(f"the report: {path}")
+    return 0 if held else 1

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import click
 
-from orderconds.commands.screen import counting, print_json, print_table
+from codegen.commands.arguments import methods_option, scene_argument, values_option
+from orderconds.commands.screen import counting, is_shown, print_json, print_table
 from orderconds.commands.variadic import Variadic
 from orderconds.processes import in_processes
 
@@ -20,28 +21,43 @@ Job: TypeAlias = tuple[str, tuple[str, ...], bool]
 
 
 @click.command("stability", cls=Variadic, short_help="Stress-test emitted steps on stiff and extreme inputs.")
-@click.argument("scene", required=False)
-@click.option("--method", "-m", "methods", multiple=True, help="TABLEAU or FAMILY:TABLEAU; may be repeated.")
+@scene_argument(required=False)
+@methods_option()
+@values_option
 @click.option("--all", "everything", is_flag=True, help="Every scene of the gallery with its usual methods.")
 @click.option("--quick", is_flag=True, help="Omit the runs of ten million steps.")
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
-def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick: bool, as_json: bool) -> int:
+def command(
+    scene: str | None,
+    methods: tuple[str, ...],
+    parameters: tuple[str, ...],
+    everything: bool,
+    quick: bool,
+    as_json: bool,
+) -> int:
     """Compare single steps of emitted C on extreme inputs with 60-digit results; find the largest usable
     step.
 
     Each case must be accurate, or the emitted code must return an error status. The exit status is 1 if a
     case fails this test, or if a method cannot be emitted for the scene.
+
+    \b
+    Examples:
+        orderconds stability free_rigid_body --method cf4 --quick
+        orderconds stability --all --quick
     """
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
 
     if everything == (scene is not None):
         raise click.UsageError("name one SCENE, or give --all")
-    names = scenes.GALLERY if scene is None else (scene,)
+    if everything and parameters:
+        raise click.UsageError("--parameter belongs to one SCENE; omit --all")
+    names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
         methods_for(scenes.load(name), methods)  # This call raises InputError before the work begins.
     all_results: list[Stability | NotTested] = []
-    with counting("stability") as done:
+    with counting("stability", total=len(names) if len(names) > 1 else None) as done:
         work = _alone if len(names) > 1 else partial(_run, progress=done)
         for name, results in zip(
             names, in_processes(work, [(name, methods, not quick) for name in names]), strict=True
@@ -49,7 +65,7 @@ def command(scene: str | None, methods: tuple[str, ...], everything: bool, quick
             done(name)
             for result in results:
                 all_results.append(result)
-                if not as_json:
+                if not as_json and is_shown(result.held):
                     show(result)
     if as_json:
         print_json([result.as_json() for result in all_results])

@@ -275,6 +275,8 @@ class PointMotions(LieGroup):
     """Elements act on the points of a vector space by maps that need not be linear."""
 
     provides: ClassVar[str] = "motion of points"
+    point_size: int
+    """The number of coordinates of a point."""
 
     @abstractmethod
     def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:

@@ -21,7 +21,7 @@ class SE2(Coadjoint, PointMotions, Projection):
     """
 
     name, layout = "SE(2)", ", cosine and sine of the angle, then the translation"
-    dim, size = 3, 4
+    dim, size, point_size = 3, 4, 2
 
     def identity(self, d: Domain) -> Vector[S]:
         """Return the identity map of the plane."""

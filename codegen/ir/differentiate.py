@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 
@@ -92,6 +93,8 @@ def _derivatives(node: Expr) -> list[Expr]:
         # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
+        case name if name in ELEMENTARY:
+            return [ELEMENTARY[name].slope(x, node)]
         case "quotient":
             # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
             # infinite there.

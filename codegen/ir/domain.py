@@ -281,7 +281,14 @@ class SeriesDomain:
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
-        starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
+        one = self.ring.one
+        starts = {
+            "sin": (1, 2, z),
+            "cos": (0, 2, one),
+            "exp": (0, 1, one),
+            "sinh": (1, 2, z),
+            "cosh": (0, 2, one),
+        }
         # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
@@ -293,12 +300,28 @@ class SeriesDomain:
         if "stumpff" in function:
             k = int(function[-1])
             return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)
+        if function in ("tan", "tanh"):
+            sine, cosine = ("sin", "cos") if function == "tan" else ("sinh", "cosh")
+            return self.call(sine, z) / self.call(cosine, z)
+        if function in ("atan", "asin"):
+            return self._arc(function, z)
         if function not in starts:
             raise ArithmeticError(f"{function} has no exact series")
         k, step, first = starts[function]
-        # The signs alternate in _sum. This is right for sin and cos; for exp the argument -z removes the
-        # alternation.
-        return self._sum(k, step, first, z * z if step == 2 else -z)
+        # The signs alternate in _sum. This is right for sin and cos; for exp, sinh and cosh the opposite sign
+        # of the argument removes the alternation.
+        power = z * z if step == 2 else z
+        return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
+
+    def _arc(self, function: str, z: Scalar) -> Scalar:
+        """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
+        total, power = self.ring.zero, z
+        for j in range(self.order // 2 + 1):
+            factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
+            factor /= 2 * j + 1
+            total = total + power * self.ring.rational(factor.numerator, factor.denominator)
+            power = power * z * z
+        return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return a/b, or 0 if b is zero; the valuation of a must be at least the valuation of b."""

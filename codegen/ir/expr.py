@@ -15,6 +15,7 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.number import Number
 
 if TYPE_CHECKING:
@@ -25,11 +26,7 @@ Payload: TypeAlias = Any
 exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
-    "sqrt",
-    "sin",
-    "cos",
-    "exp",
-    "log",
+    *MATHEMATICAL,
     # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
     "stumpff0",
     "stumpff1",

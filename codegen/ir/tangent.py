@@ -35,8 +35,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # all its arguments are constant.
         slopes = partials(node)
         total = node.space.zero
-        # In one direction the chain rule needs one product for each argument that is not constant, whatever
-        # the number of seeds.
+        # All seeds belong to one direction. The chain rule therefore needs one product for each argument that
+        # is not constant, even if many symbols have a seed.
         for k, rate in moving:
             total = total + slopes[k] * rate
         # Terms may cancel. A zero is not entered in the table, so that nodes that contain this node treat it

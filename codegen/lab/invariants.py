@@ -10,6 +10,7 @@ import math
 
 from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.ir.values import Kind
@@ -17,7 +18,7 @@ from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
-FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+FUNCTIONS = {name: getattr(math, name) for name in MATHEMATICAL}
 
 MANIFOLD = "manifold"
 """The key of the manifold equations in the dictionaries of conserved quantities."""

@@ -62,8 +62,8 @@ def lower_composed(scene: Problem, method: Method) -> Program | None:
     # method.
     if not lowering(method.family).repeats_substeps:
         return None
-    # The coefficients are tested, because a tableau that is a composition need not be declared as a
-    # composition.
+    # Compositions are recognised by their coefficients, because a tableau that is a composition need not be
+    # declared as a composition.
     repetition = substeps(method)
     if repetition is None:
         return None

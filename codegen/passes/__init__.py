@@ -159,8 +159,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
     return [
         Pass("body frame", "the equations are written in the body frame", lambda p: body_frame.run(p, scene)),
         Pass("zeros", ZERO, fold_zeros.run),
-        # This pass precedes the Legendre transform, which would not replace a second variable for the same
-        # momentum.
+        # Here equal momenta become one variable. This must happen before the Legendre transform, because the
+        # transform would replace only one of several variables with the same momentum.
         Pass("shared values", SHARED, value_numbering.run),
         Pass("Legendre transform", "momenta are computed from velocities", lambda p: legendre.run(p, scene)),
         # The Legendre transform introduces inverses of maps. An inverse that is applied directly to the

@@ -16,7 +16,7 @@ TIME, STEP = own("t"), own("h")
 """The time at the beginning of a step, and its size."""
 
 MEMORY, STATISTICS = "memory", "statistics"
-"""The names of two record types, also used for the arguments of these types."""
+"""The names of two record types. An argument of such a type has the same name."""
 
 INPUTS = signal("inputs")
 """The function of time that returns the run-time inputs."""

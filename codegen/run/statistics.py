@@ -45,7 +45,7 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     functions = [
         Function(
             "count_sweeps",
-            "Add the sweeps over one block in one step.",
+            "Record the number of sweeps over one block, and whether the block failed.",
             (statistics, block, sweeps, failed),
             # The caller may pass no statistics. This is tested here, once, and not in the loops.
             (If(given(statistics), adding),),

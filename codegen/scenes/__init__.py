@@ -4,9 +4,11 @@ file."""
 from __future__ import annotations
 
 import ast
+import re
 import runpy
 import sys
 import traceback
+from collections.abc import Sequence
 from contextlib import redirect_stdout
 from dataclasses import replace
 from difflib import get_close_matches
@@ -17,6 +19,7 @@ from pathlib import Path
 from codegen.errors import SceneError
 from codegen.scene.extended_phase_space import extended
 from codegen.scene.problem import Problem
+from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
 from orderconds.errors import InputError, UnknownName
 from orderconds.input_file import read_bytes
@@ -77,13 +80,47 @@ def load(name: str) -> Problem:
     ``name``.
 
     ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum
-    (:mod:`codegen.scene.extended_phase_space`). :class:`SceneError`, with file and line, is raised for a file
-    that fails or defines no scene.
+    (:mod:`codegen.scene.extended_phase_space`). ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have
+    other values. :class:`SceneError`, with file and line, is raised for a file that fails or defines no
+    scene.
+
+    >>> load("driven_spin[nu=3/5]").parameters["nu"].text()
+    '3/5'
     """
+    base, bracket, values = name.removesuffix("]").partition("[")
+    if bracket and name.endswith("]"):
+        changed = with_runtime(load(base), values.split(","))
+        named = ",".join(f"{parameter}={value}" for parameter, value in changed.fixed)
+        return replace(changed, name=f"{changed.name}[{named}]")
     if name.endswith(EXTENDED):
         scene = load(name.removesuffix(EXTENDED))
         return replace(extended(scene), name=scene.name + EXTENDED)
     return _load(name)
+
+
+def with_values(name: str, parameters: Sequence[str]) -> str:
+    """Return the name of a scene with other values of parameters, each given as ``NAME=VALUE``.
+
+    Raises :class:`SceneError` for a parameter without a value.
+
+    >>> with_values("driven_spin", ["nu=3/5"]), with_values("dipole", [])
+    ('driven_spin[nu=3/5]', 'dipole')
+    """
+    for text in parameters:
+        if "=" not in text:
+            raise SceneError(
+                f"the parameter {text!r} has no value", where="--parameter", expected="NAME=VALUE, as eps=3/5"
+            )
+    return f"{name}[{','.join(parameters)}]" if parameters else name
+
+
+def file_stem(scene: Problem) -> str:
+    """Return the name of a scene for use in file names.
+
+    >>> file_stem(load("driven_spin[nu=3/5]")), file_stem(load("linear_oscillator+u"))
+    ('driven_spin_nu=3_5', 'linear_oscillator+u')
+    """
+    return re.sub(r"[^\w+=.-]+", "_", scene.name, flags=re.ASCII).rstrip("_")
 
 
 def _load(name: str) -> Problem:

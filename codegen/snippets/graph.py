@@ -13,11 +13,12 @@ from typing import Any
 
 import networkx as nx
 
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
-LIBRARY = ("cos", "cosh", "exp", "fabs", "isfinite", "log", "sin", "sinh", "sqrt")
+LIBRARY = ("fabs", "isfinite", *sorted(MATHEMATICAL))
 """Functions that both targets have in their mathematical library."""
 
 

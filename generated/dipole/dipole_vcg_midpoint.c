@@ -258,7 +258,7 @@ static const double dipole_vcg_midpoint_differences[17][18] = {
     {1.0, -16.0, 120.0, -560.0, 1820.0, -4368.0, 8008.0, -11440.0, 12870.0, -11440.0, 8008.0, -4368.0, 1820.0, -560.0, 120.0, -16.0, 1.0},
 };
 
-/* Add the sweeps over one block in one step. */
+/* Record the number of sweeps over one block, and whether the block failed. */
 static void dipole_vcg_midpoint_count_sweeps(dipole_vcg_midpoint_statistics *statistics,
     size_t block, size_t sweeps, int failed)
 {

@@ -297,7 +297,7 @@ differences = (
 
 
 def _count_sweeps(statistics, block, sweeps, failed):
-    """Add the sweeps over one block in one step."""
+    """Record the number of sweeps over one block, and whether the block failed."""
     if statistics is not None:
         statistics.sweeps[block] += sweeps
         if sweeps > statistics.most:

@@ -266,7 +266,7 @@ static const double dipole_vcg_triple_jump_differences[17][18] = {
 static const double dipole_vcg_triple_jump_fraction[3] = {1.3512071919596575,
     -1.7024143839193153, 1.3512071919596575};
 
-/* Add the sweeps over one block in one step. */
+/* Record the number of sweeps over one block, and whether the block failed. */
 static void dipole_vcg_triple_jump_count_sweeps(dipole_vcg_triple_jump_statistics *statistics,
     size_t block, size_t sweeps, int failed)
 {

@@ -307,7 +307,7 @@ fraction = (1.3512071919596575, -1.7024143839193153, 1.3512071919596575)
 
 
 def _count_sweeps(statistics, block, sweeps, failed):
-    """Add the sweeps over one block in one step."""
+    """Record the number of sweeps over one block, and whether the block failed."""
     if statistics is not None:
         statistics.sweeps[block] += sweeps
         if sweeps > statistics.most:

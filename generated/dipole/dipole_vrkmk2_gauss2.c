@@ -353,7 +353,7 @@ static const double dipole_vrkmk2_gauss2_differences[17][18] = {
     {1.0, -16.0, 120.0, -560.0, 1820.0, -4368.0, 8008.0, -11440.0, 12870.0, -11440.0, 8008.0, -4368.0, 1820.0, -560.0, 120.0, -16.0, 1.0},
 };
 
-/* Add the sweeps over one block in one step. */
+/* Record the number of sweeps over one block, and whether the block failed. */
 static void dipole_vrkmk2_gauss2_count_sweeps(dipole_vrkmk2_gauss2_statistics *statistics,
     size_t block, size_t sweeps, int failed)
 {

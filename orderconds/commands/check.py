@@ -16,6 +16,7 @@ from msgspec import Struct
 
 from orderconds.checking.limits import MAX_CONDITIONS, Limits
 from orderconds.commands import screen
+from orderconds.commands.names import completing, tableau_names
 from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_text
 from orderconds.processes import in_processes
@@ -35,7 +36,13 @@ WIDTH = 200
 
 
 @click.command(name="check", short_help="Find the exact order of tableaux and compare it with their claims.")
-@click.argument("tableaux", nargs=-1, required=True, metavar="FILE|DIR|NAME...")
+@click.argument(
+    "tableaux",
+    nargs=-1,
+    required=True,
+    metavar="FILE|DIR|NAME...",
+    shell_complete=completing(tableau_names, files=True),
+)
 @click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), even without a claim.")
 @click.option(
     "--order", "-p", type=click.IntRange(1, 20), help="Ignore the claims; require at least this order."
@@ -81,6 +88,12 @@ def command(
     computed order is a lower bound.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
+
+    \b
+    Examples:
+        orderconds check cf4
+        orderconds check tableaux --certified
+        orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     from orderconds.families import get
 
@@ -104,33 +117,37 @@ def command(
         )
         for path in paths
     ]
-    outcomes: list[_Outcome] = []
-    subject = paths[0] if len(paths) == 1 else f"{len(paths)} tableaux"
-    with screen.working(f"checking {subject}"), _without_collection(paths):
-        for outcome in in_processes(_checked, jobs):
-            outcomes.append(outcome)
-            if outcome.verdict is None:
-                click.echo(outcome.text, err=True)
-            elif not as_json:
-                click.echo(outcome.text, nl=False)
+    outcomes = list(_outcomes(jobs, as_json))
     verdicts = [outcome.verdict for outcome in outcomes]
+    held = all(verdict == "holds" for verdict in verdicts)
     if as_json:
         import json
 
         screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
-    elif len(outcomes) > 1:
+    elif len(outcomes) > 1 and screen.is_shown(held):
         _print_summary(verdicts)
-    if None in verdicts:
-        return 2
-    return 0 if all(verdict == "holds" for verdict in verdicts) else 1
+    return 2 if None in verdicts else 0 if held else 1
+
+
+def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
+    """Check tableaux in parallel; print and yield the outcomes in order."""
+    subject = jobs[0].path if len(jobs) == 1 else f"{len(jobs)} tableaux"
+    with screen.counting(f"checking {subject}", len(jobs)) as done, _without_collection(jobs):
+        for job, outcome in zip(jobs, in_processes(_checked, jobs), strict=True):
+            done(job.path)
+            if outcome.verdict is None:
+                click.echo(outcome.text, err=True)
+            elif not as_json and screen.is_shown(outcome.verdict == "holds"):
+                click.echo(outcome.text, nl=False)
+            yield outcome
 
 
 @contextmanager
-def _without_collection(paths: Sequence[str]) -> Iterator[None]:
+def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
     """Switch garbage collection off for one file, because a check creates many small objects that are used
     until the check ends."""
     collects = gc.isenabled()
-    if len(paths) == 1:
+    if len(jobs) == 1:
         gc.disable()
     try:
         yield
@@ -181,7 +198,8 @@ def _checked(job: _Job) -> _Outcome:
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
     if not job.one_of_many:  # only the main process writes to the terminal
-        _print_report(report, detailed=job.detailed)
+        if screen.is_shown(report.verdict == "holds"):
+            _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
     with redirect_stdout(io.StringIO()) as printed:
         _print_report(report, detailed=job.detailed)

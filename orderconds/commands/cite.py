@@ -7,14 +7,20 @@ import difflib
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.names import completing, tableau_names
 from orderconds.errors import TableauError, UnknownName
 
 
 @click.command(name="cite", short_help="Print the BibTeX of a tableau's source.")
-@click.argument("name")
+@click.argument("name", shell_complete=completing(tableau_names, files=True))
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(name: str, as_json: bool) -> int:
-    """Print the BibTeX entry for NAME: a tableau of the library, a tableau file, or a BibTeX key."""
+    """Print the BibTeX entry for NAME: a tableau of the library, a tableau file, or a BibTeX key.
+
+    \b
+    Examples:
+        orderconds cite cf4
+    """
     entries = bibliography()
     source = ""
     key = name

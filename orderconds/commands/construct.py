@@ -18,6 +18,11 @@ from orderconds.commands.place import FILE, put
 def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:
     """Write the tableau of KIND with S stages and exact coefficients. KIND is gauss, radau1a, radau2a,
     lobatto3a, lobatto3b, lobatto3c, lobatto3c_star, lobatto3d or lobatto3e.
+
+    \b
+    Examples:
+        orderconds construct gauss --stages 3
+        orderconds construct lobatto3d --stages 4 -o mine.toml
     """
     from orderconds.tableau import dumps
     from orderconds.tableau.collocation import KINDS, construct

@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.names import completing, tableau_names
 from orderconds.commands.place import FILE, put
 from orderconds.exchange import FORMATS, export, format_of, left_out, name_of, read_data
 from orderconds.tableau import find
@@ -19,7 +20,7 @@ NAMES = click.Choice(list(FORMATS))
 
 
 @click.command(name="convert", short_help="Convert a tableau to or from another file format.")
-@click.argument("source", metavar="FILE|NAME")
+@click.argument("source", metavar="FILE|NAME", shell_complete=completing(tableau_names, files=True))
 @click.option("--from", "of", type=NAMES, help="The format of FILE. Default: from its suffix.")
 @click.option(
     "--to", type=NAMES, help="The format to write. Default: from the suffix of --output, else toml."
@@ -32,6 +33,11 @@ def command(
 ) -> int:
     """Convert a tableau, given as a file or by its name in the library. Input is never executed as code.
     Reading the output again gives the same method.
+
+    \b
+    Examples:
+        orderconds convert rk4 --to latex
+        orderconds convert cf4 --to json -o cf4.json
     """
     bare = of is None and not os.path.exists(source) and "." not in os.path.basename(source)
     path = find(source) if bare else Path(source)

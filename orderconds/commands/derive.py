@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.names import completing, family_names
 
 if TYPE_CHECKING:
     from orderconds.derivation import Derivation
@@ -15,7 +16,7 @@ FORMATS = ("text", "latex", "sympy", "json")
 
 
 @click.command(name="derive", short_help="Print the independent order conditions of a family.")
-@click.argument("family")
+@click.argument("family", shell_complete=completing(family_names))
 @click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="The highest order.")
 @click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
 @click.option(
@@ -42,7 +43,14 @@ def command(
     explain: bool,
     as_json: bool,
 ) -> int:
-    """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order."""
+    """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order.
+
+    \b
+    Examples:
+        orderconds derive vcg --order 3
+        orderconds derive rk --order 4 --stages 4 --explicit
+        orderconds derive cf --order 4 --format latex
+    """
     from orderconds import families
     from orderconds.derivation import derive
     from orderconds.explain.kinds import refuse_too_many_trees

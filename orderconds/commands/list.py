@@ -26,7 +26,14 @@ Records = Iterable[dict[str, str]]
 @click.argument("kind", required=False)
 @click.option("--json", "as_json", is_flag=True, help="Print names and descriptions on stdout as JSON.")
 def command(kind: str | None, as_json: bool) -> int:
-    """List one KIND (families, tableaux, groups, scenes), or all kinds."""
+    """List one KIND (families, tableaux, groups, scenes), or all kinds.
+
+    \b
+    Examples:
+        orderconds list families
+        orderconds list tableaux
+        orderconds list scenes --json
+    """
     kinds = [kind] if kind is not None else kinds_offered()
     listings = {name: list(listing(name)()) for name in kinds}
     if as_json:

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.names import completing, tableau_names
 
 if TYPE_CHECKING:
     from orderconds.backward_error import ModifiedEquation, Term
 
 
 @click.command(name="modified", short_help="Print the modified equation of a method.")
-@click.argument("tableau", metavar="FILE|NAME")
+@click.argument("tableau", metavar="FILE|NAME", shell_complete=completing(tableau_names, files=True))
 @click.option(
     "--order", "-p", type=click.IntRange(1, 10), required=True, help="Print the terms up to h^(ORDER - 1)."
 )

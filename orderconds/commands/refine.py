@@ -21,6 +21,10 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     kept fixed (pins), and a record of the old digits.
 
     Exits with 0 if interval arithmetic proves the new digits, 1 if not, 2 for a file that cannot be read.
+
+    \b
+    Examples:
+        orderconds refine mine.toml --digits 100 -o mine.toml
     """
     from orderconds.proof.certificate import certify
     from orderconds.proof.krawczyk import NotProved

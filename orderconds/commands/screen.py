@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
@@ -44,15 +45,19 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Show a message on a terminal during the work; show nothing elsewhere. The result is a function that
-    changes the message.
+    """Show a message during the work. The result is a function that changes the message.
+
+    The message is shown on a terminal, and with ``--verbose`` also elsewhere: then each message is a line on
+    stderr.
 
     >>> with working("deriving"):
     ...     order = 4
     ...
     """
-    if not (is_terminal() and sys.stderr.isatty()):
-        yield str
+    if not _on_terminal():
+        lines = _Lines()
+        lines.show(message)
+        yield lines.show
         return
     from rich.console import Console
 
@@ -61,25 +66,81 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 
 @contextmanager
-def counting(message: str) -> Iterator[Callable[[str], object]]:
-    """Show a progress bar on a terminal; show nothing elsewhere. The result is a function, to be called with
-    the name of each finished item. If the total is unknown, the items are counted.
+def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
+    """Show the progress of counted work. The result is a function, to be called with the name of each
+    finished item.
 
-    >>> with counting("measuring") as done:
+    ``total`` is the number of items; if it is known, the remaining time is shown. A bar is shown on a
+    terminal. With ``--verbose`` each item is a line on stderr elsewhere.
+
+    >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")
     ...
     """
-    if not (is_terminal() and sys.stderr.isatty()):
-        yield str
+    if not _on_terminal():
+        lines = _Lines(total)
+        lines.show(message)
+        yield lines.finish
         return
     from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import (
+        BarColumn,
+        Progress,
+        SpinnerColumn,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
 
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), TextColumn("{task.completed:.0f} done"))
+    known = "" if total is None else " of {task.total:.0f}"
     console = Console(stderr=True, highlight=False, markup=False)
-    with Progress(*columns, TimeElapsedColumn(), console=console, transient=True) as progress:
-        task = progress.add_task(message, total=None)
+    with Progress(
+        SpinnerColumn(),
+        TextColumn("{task.description}"),
+        *([] if total is None else [BarColumn(20)]),
+        TextColumn("{task.completed:.0f}" + (known or " done")),
+        TimeElapsedColumn(),
+        *([] if total is None else [TextColumn("remaining"), TimeRemainingColumn()]),
+        console=console,
+        transient=True,
+    ) as progress:
+        task = progress.add_task(message, total=total)
         yield lambda text: progress.update(task, advance=1, description=text)
+
+
+def _on_terminal() -> bool:
+    """Return whether progress is drawn on a terminal."""
+    return is_terminal() and sys.stderr.isatty() and not current_run().quiet
+
+
+class _Lines:
+    """Progress as lines on stderr, only with ``--verbose``; ``total`` is the number of items if known."""
+
+    def __init__(self, total: int | None = None) -> None:
+        self.total, self.finished, self.begin = total, 0, time.monotonic()
+
+    def show(self, text: str) -> None:
+        """Write one line with the elapsed time."""
+        if current_run().verbose:
+            click.echo(f"{time.monotonic() - self.begin:7.1f} s  {text}", err=True)
+
+    def finish(self, text: str) -> None:
+        """Count one item, and write a line with the remaining time."""
+        self.finished += 1
+        if self.total is None:
+            self.show(f"{self.finished}  {text}")
+            return
+        rest = (time.monotonic() - self.begin) / self.finished * max(0, self.total - self.finished)
+        self.show(f"{self.finished} of {self.total}, {rest:.1f} s remaining  {text}")
+
+
+def is_shown(held: bool) -> bool:
+    """Return whether a result is printed: with ``--quiet`` only results that do not hold are printed.
+
+    >>> is_shown(held=True), is_shown(held=False)
+    (True, True)
+    """
+    return not (held and current_run().quiet)
 
 
 def print_json(value: object) -> None:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from orderconds.commands import screen
+from orderconds.commands.names import completing, family_names
 from orderconds.commands.place import FILE, put
 from orderconds.errors import InputError
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
 
 @click.command(name="solve", short_help="Find a method, prove its order, and write its tableau.")
-@click.argument("family")
+@click.argument("family", shell_complete=completing(family_names))
 @click.option(
     "--stages",
     "-s",
@@ -97,6 +98,11 @@ def command(family: str, output: str | None, as_json: bool, **options: Any) -> i
     Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
     options. The same seed gives the same file for any number of processes. An interrupted
     search keeps its finished batches in the checkpoint, and the same command continues from there.
+
+    \b
+    Examples:
+        orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
+        orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
     # One thread for each process: results then do not depend on the number of threads.
     for library in ("OPENBLAS", "OMP", "MKL"):

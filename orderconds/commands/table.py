@@ -30,6 +30,11 @@ def command(write: str | None, against: str | None, as_json: bool) -> int:
     """Print a line for each tableau of the library: its orders and, for the family of highest order, the
     number of exponentials, the norm of the leading error and the certificate. Exits with 1 if --check finds a
     different table.
+
+    \b
+    Examples:
+        orderconds table
+        orderconds table --check README.md
     """
     texts = {path: _around(path) for path in (write, against) if path is not None}
     rows = list(computed())

@@ -56,6 +56,11 @@ def command(
     In drawings the root is at the top. A directed edge leads from a derivative in q to one in p (or mu); a
     diamond (L) is a coadjoint action on mu. A note such as (>*>) after a vertex shows its word of
     derivatives: > is a branch, * the edge to the parent.
+
+    \b
+    Examples:
+        orderconds trees rooted --order 4 --draw
+        orderconds trees ordered --order 12 --count
     """
     from orderconds.explain import kinds
 

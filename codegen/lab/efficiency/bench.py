@@ -75,8 +75,8 @@ class Bench:
         ``done`` is called with each row. The default cache is a hidden folder beside the files, so that an
         interrupted bench can continue. This folder is deleted when the files are complete.
         """
-        name = self.scene.name
-        own = MeasurementCache(self.folder / f".{name}.measured" if self.folder else None)
+        name, stem = self.scene.name, scenes.file_stem(self.scene)
+        own = MeasurementCache(self.folder / f".{stem}.measured" if self.folder else None)
         entries: dict[str, tuple[Row, ...]] = {}
         for c in self.candidates:
             rows = measure_rows(c, name, self.exact, cache or own, done)
@@ -85,9 +85,9 @@ class Bench:
         if self.folder is None:
             return result
         texts = {
-            f"{name}.csv": table(result.rows),
-            f"{name}.json": json.dumps([r.as_json() for r in result.rows], indent=2) + "\n",
-            f"{name}.svg": picture(result),
+            f"{stem}.csv": table(result.rows),
+            f"{stem}.json": json.dumps([r.as_json() for r in result.rows], indent=2) + "\n",
+            f"{stem}.svg": picture(result),
         }
         written = write_texts({self.folder / file: text for file, text in texts.items()})
         own.remove()

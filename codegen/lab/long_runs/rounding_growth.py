@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from codegen.emitter import Compiled, emit_compiled
 from codegen.errors import MethodError
 from codegen.ir.domain import NotConverged, PreciseDomain
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.long_runs.compensated import compensated
@@ -193,7 +194,7 @@ def _quantities(
     compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
 ) -> dict[str, Evaluate]:
     """Return expressions as functions of numbers with 60 digits."""
-    functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+    functions = {name: getattr(domain.context, name) for name in MATHEMATICAL}
     return {
         name: straight_line(compiled.scene, exprs).python(domain.number, functions)
         for name, exprs in kept.items()

@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 import numpy
 
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.number_types import Evaluate
@@ -30,7 +31,7 @@ CHUNK = 100_000
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
 """A function of two arrays: states, with one coordinate in each row, and times. It returns rows of values."""
 
-FUNCTIONS = {name: getattr(numpy, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+FUNCTIONS = {name: getattr(numpy, name) for name in MATHEMATICAL}
 
 
 @dataclass

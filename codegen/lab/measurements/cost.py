@@ -17,6 +17,7 @@ from codegen.lab.peers import find
 from codegen.lab.subject import Subject
 from codegen.lower import lowering
 from codegen.printers import DEFAULT
+from codegen.scenes import file_stem
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ class Cost(Measurement[CostResult]):
 
     def files(self, result: CostResult, subject: Subject) -> Mapping[str, str]:
         """Return the rows as CSV."""
-        return {f"{subject.scene.name}.csv": table(result.result.rows)}
+        return {f"{file_stem(subject.scene)}.csv": table(result.result.rows)}
 
 
 def data(result: Result, subject: Subject) -> dict[str, object]:

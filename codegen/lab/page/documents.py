@@ -29,7 +29,7 @@ OVERVIEW = "index.html"
 
 def page_name(results: SceneResults) -> str:
     """Return the file name of the page of a scene."""
-    return f"{results.scene.name}.html"
+    return f"{scenes.file_stem(results.scene)}.html"
 
 
 def render(results: SceneResults, command: str) -> str:

@@ -1,0 +1,77 @@
+"""Arguments and options that several commands of the compiler share: scene, methods, parameters, targets."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import click
+
+from orderconds.commands.names import completing, tableau_names
+
+Command = TypeVar("Command", bound=Callable[..., object])
+
+
+def scene_names() -> tuple[str, ...]:
+    """Return the names of the gallery and of registered scenes."""
+    from codegen import scenes
+
+    return scenes.names()
+
+
+def method_names() -> list[str]:
+    """Return the tableaux of the library, alone and after each family of the compiler."""
+    from codegen import lower
+
+    tableaux = tableau_names()
+    return [*tableaux, *(f"{family}:{tableau}" for family in lower.names() for tableau in tableaux)]
+
+
+def target_names() -> tuple[str, ...]:
+    """Return the names of the targets."""
+    from codegen import printers
+
+    return tuple(printers.names())
+
+
+def scene_argument(*, required: bool = True) -> Callable[[Command], Command]:
+    """Return the decorator that adds the argument SCENE."""
+    complete = completing(scene_names, files=True)
+    return click.argument("scene", required=required, metavar="SCENE", shell_complete=complete)
+
+
+def methods_option(*, required: bool = False) -> Callable[[Command], Command]:
+    """Return the decorator that adds the repeatable option ``--method``."""
+    return click.option(
+        "--method",
+        "-m",
+        "methods",
+        multiple=True,
+        required=required,
+        help="TABLEAU or FAMILY:TABLEAU; may be repeated.",
+        shell_complete=completing(method_names, files=True),
+    )
+
+
+def values_option(command: Command) -> Command:
+    """Add the repeatable option ``--parameter NAME=VALUE``."""
+    return click.option(
+        "--parameter",
+        "-P",
+        "parameters",
+        multiple=True,
+        metavar="NAME=VALUE",
+        help="The value of a parameter of the scene, as nu=3/5; may be repeated.",
+    )(command)
+
+
+def targets_option(command: Command) -> Command:
+    """Add the repeatable option ``--target``."""
+    return click.option(
+        "--target",
+        "-t",
+        "targets",
+        multiple=True,
+        help="A target (orderconds list targets), by default c; may be repeated.",
+        shell_complete=completing(target_names),
+    )(command)

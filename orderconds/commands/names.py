@@ -1,0 +1,40 @@
+"""Shell completion of the names that commands accept: families, tableaux and others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+import click
+from click.shell_completion import CompletionItem
+
+Complete = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
+
+
+def completing(names: Callable[[], Iterable[str]], *, files: bool = False) -> Complete:
+    """Return a completion function of click for the names that ``names`` returns.
+
+    With ``files`` the shell also completes paths if no name fits.
+
+    >>> [item.value for item in completing(lambda: ["cf4", "rk4"])(None, None, "c")]
+    ['cf4']
+    """
+
+    def complete(ctx: click.Context, parameter: click.Parameter, typed: str) -> list[CompletionItem]:
+        fitting = [CompletionItem(name) for name in names() if name.startswith(typed)]
+        return fitting or ([CompletionItem(typed, type="file")] if files else [])
+
+    return complete
+
+
+def family_names() -> list[str]:
+    """Return the names of all families."""
+    from orderconds import families
+
+    return sorted(families.names())
+
+
+def tableau_names() -> list[str]:
+    """Return the names of the tableaux of the library."""
+    from orderconds.tableau.library import available
+
+    return sorted(available())

@@ -1,0 +1,126 @@
+"""Options of every command: one letter has one meaning, --quiet and --verbose, examples, completion."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import click
+import pytest
+from click.shell_completion import ShellComplete
+from click.testing import CliRunner, Result
+
+from orderconds.cli import program
+
+NAMES = program.list_commands(click.Context(program))
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(program, list(words))
+
+
+def command(name: str) -> click.Command:
+    found = program.get_command(click.Context(program), name)
+    assert found is not None
+    return found
+
+
+def examples(name: str) -> list[str]:
+    """The command lines below "Examples:" in the help of a command."""
+    text = run(name, "--help").stdout.partition("Examples:")[2].partition("\n\n")[0]
+    return [line.strip() for line in text.splitlines() if line.strip()]
+
+
+def test_a_letter_has_the_same_meaning_in_all_commands() -> None:
+    meanings: dict[str, set[str]] = {}
+    for name in NAMES:
+        for option in command(name).params:
+            for short in option.opts:
+                if isinstance(option, click.Option) and re.fullmatch("-[A-Za-z]", short):
+                    long = next(word for word in option.opts if word.startswith("--"))
+                    meanings.setdefault(short, set()).add(long)
+    assert meanings["-p"] == {"--order"}
+    assert meanings["-P"] == {"--parameter"}
+    assert {short: longs for short, longs in meanings.items() if len(longs) > 1} == {}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_help_of_a_command_ends_with_examples_that_the_command_accepts(name: str) -> None:
+    lines = examples(name)
+    assert lines
+    for line in lines:
+        first, called, *words = shlex.split(line)
+        assert (first, called) == ("orderconds", name)
+        with click.Context(program, info_name="orderconds") as parent:
+            command(name).make_context(name, words, parent=parent)
+
+
+def test_every_command_with_a_scene_accepts_values_of_parameters() -> None:
+    with_scene = [name for name in NAMES if any(p.name in ("scene", "scenes") for p in command(name).params)]
+    assert len(with_scene) >= 8
+    for name in with_scene:
+        assert any("--parameter" in option.opts for option in command(name).params), name
+
+
+def test_quiet_prints_only_what_does_not_hold(tmp_path: Path) -> None:
+    wrong = tmp_path / "wrong.toml"
+    wrong.write_text('name = "wrong"\nfamily = "rk"\nA = [[]]\nb = ["1"]\n[claims]\nrk = 2\n')
+    assert run("check", "--quiet", "rk4").stdout == ""
+    assert run("check", "rk4").stdout.startswith("rk4: holds")
+    result = run("check", "-q", "rk4", str(wrong))
+    assert result.exit_code == 1
+    assert "wrong: fails" in result.stdout
+    assert "rk4" not in result.stdout
+    assert "contradict" in run("check", "-q", "-v", "rk4").stderr
+
+
+def test_verbose_writes_progress_with_the_remaining_time_to_stderr() -> None:
+    result = run("check", "--verbose", "rk4", "cf4")
+    assert re.search(r"\d\.\d s  2 of 2, 0\.0 s remaining  cf4\n", result.stderr)
+    assert run("check", "rk4", "cf4").stderr == ""
+
+
+@pytest.mark.parametrize(
+    ("words", "typed", "wanted"),
+    [
+        ([], "conv", "converge"),
+        (["derive"], "vr", "vrkmk"),
+        (["check"], "dormand", "dormand_prince5"),
+        (["emit"], "free", "free_rigid_body_s3"),
+        (["emit", "dipole", "--method"], "vcg:tri", "vcg:triple_jump"),
+        (["bench", "dipole", "--target"], "py", "python"),
+    ],
+)
+def test_a_shell_completes_names(words: list[str], typed: str, wanted: str) -> None:
+    completion = ShellComplete(program, {}, "orderconds", "_ORDERCONDS_COMPLETE")
+    assert wanted in [item.value for item in completion.get_completions(words, typed)]
+
+
+@pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
+def test_the_script_of_a_shell_asks_this_program(shell: str) -> None:
+    result = run("completion", shell)
+    assert result.exit_code == 0
+    assert "_ORDERCONDS_COMPLETE=" in result.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("line", [line for name in NAMES for line in examples(name)])
+def test_the_examples_run(line: str, tmp_path: Path) -> None:
+    root = Path(__file__).parents[3]
+    for path in (root / "README.md", *root.glob("docs/library.md")):
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    (tmp_path / "tableaux").symlink_to(root / "tableaux")
+    subprocess.run(
+        [sys.executable, "-m", "orderconds", "convert", "rk4", "-o", "mine.toml"], cwd=tmp_path, check=True
+    )
+    done = subprocess.run(
+        [sys.executable, "-m", "orderconds", *shlex.split(line)[1:]],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=1200,
+    )
+    assert done.returncode == 0, done.stderr
