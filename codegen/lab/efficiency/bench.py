@@ -216,12 +216,12 @@ def table(rows: Sequence[Row]) -> str:
     return stream.getvalue()
 
 
-def curves(result: Result) -> list[Curve]:
+def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return error against CPU time of every candidate with at least one successful run.
 
     A candidate that was measured on several forms of the equations has one curve, of the fastest runs.
     """
-    drawn, styles = [], Styles(result.entries)
+    drawn = []
     for label, rows in result.entries.items():
         points = [(r.seconds, r.error) for r in frontier(rows) if r.error and r.seconds]
         if points:
@@ -233,4 +233,6 @@ def picture(result: Result) -> str:
     """Return the work-precision diagram as an SVG document."""
     title = f"Error against CPU time, {result.scene.title}"
     label = f"error at t = {float(result.scene.span[1]):g}"
-    return standalone(efficiency_figure(f"bench-{result.scene.name}", title, curves(result), label))
+    return standalone(
+        efficiency_figure(f"bench-{result.scene.name}", title, curves(result, Styles(result.entries)), label)
+    )

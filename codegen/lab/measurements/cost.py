@@ -93,7 +93,9 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     """Return the variables of the template."""
     name, last = result.scene.name, float(result.scene.span[1])
     title = f"Error against CPU time, {result.scene.title}"
-    picture = efficiency_figure(f"{name} efficiency", title, curves(result), f"error at t = {last:g}")
+    picture = efficiency_figure(
+        f"{name} efficiency", title, curves(result, subject.styles), f"error at t = {last:g}"
+    )
     return {
         "picture": Picture(
             picture,

@@ -111,6 +111,10 @@ def test_the_boundary_of_stability_is_where_the_function_has_modulus_one() -> No
     x, y = (sum(c) / len(points) for c in zip(*points, strict=True))
     radii = [((a - x) ** 2 + (b - y) ** 2) ** 0.5 for a, b in points]
     assert max(radii) < 1.03 * min(radii)
+    for title in marker_titles(svg)["0"]:
+        real, imaginary = re.findall(r"[+−]?\d+\.\d+", title)
+        z = complex(float(real.replace("−", "-")), float(imaginary.replace("−", "-")))
+        assert abs(1 + z) == pytest.approx(1.0, abs=0.02)
 
 
 def test_stable_regions_are_shaded_and_their_boundaries_have_markers() -> None:
@@ -122,6 +126,7 @@ def test_stable_regions_are_shaded_and_their_boundaries_have_markers() -> None:
 def test_methods_with_the_same_boundary_have_markers_at_different_points() -> None:
     functions = [(label, STYLES.of(label), lambda z: 1 + z) for label in ("a", "b")]
     one, other = marker_titles(region_figure("r", "t", functions)).values()
+    assert len(one) > 2
     assert {t.partition(":")[2] for t in one}.isdisjoint(t.partition(":")[2] for t in other)
 
 
