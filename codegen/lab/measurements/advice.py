@@ -55,11 +55,11 @@ class Advice(Measurement[Recommendations]):
         reached = [(k, best) for k, best in zip(DECADES, result.advice[0].best, strict=True) if best]
         if not reached:
             return ""
-        found = [
+        choices = [
             f"at an error of {decade(k)}, {best[0].partition(' (')[0]} ({duration(best[1])})"
             for k, best in reached
         ]
-        return f"The fastest emitted method: {enumeration(found[:: max(1, len(found) - 1)])}."
+        return f"The fastest emitted method: {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the table of recommendations and the table of properties."""

@@ -77,8 +77,8 @@ class Cost(Measurement[CostResult]):
         first, last = decade(places[0].decade), decade(places[-1].decade)
         if len(winners) == 1:
             return f"At every error from {first} to {last}, the fastest is {next(iter(winners))}."
-        found = [f"{label} at {_decades(ks)}" for label, ks in winners.items()]
-        return f"The fastest is {enumeration(found)}."
+        choices = [f"{label} at {_decades(ks)}" for label, ks in winners.items()]
+        return f"The fastest is {enumeration(choices)}."
 
     def section(self, result: CostResult, subject: Subject) -> Section:
         """Return the work-precision diagram and its tables."""

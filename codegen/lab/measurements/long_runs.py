@@ -64,8 +64,8 @@ class LongRuns(Measurement[Result]):
                 for kept in run.kept:
                     if kept.name == name:
                         laws.setdefault(kept.drift.law, []).append(run.method)
-            found = "; ".join(f"{law}: {enumeration(methods)}" for law, methods in laws.items())
-            return f"Deviation of the {name} over {_count(subject.effort.steps)} steps: {found}."
+            listed = "; ".join(f"{law}: {enumeration(methods)}" for law, methods in laws.items())
+            return f"Deviation of the {name} over {_count(subject.effort.steps)} steps: {listed}."
         return ""
 
     def section(self, result: Result, subject: Subject) -> Section:
