@@ -17,10 +17,10 @@ from codegen.ir.number import Number
 from orderconds.families import Family, family_class, get, names
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
+from orderconds.tableau import CommutatorFree, OrderClaim, RungeKutta, Tableau, find
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
 """The form of a label of a method without tableau: the name of a family, and a number in parentheses if
@@ -199,6 +199,35 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
     return Method(match["family"], None, number)
 
 
+def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
+    """Return the method that an argument of a function in Python denotes: a method, a tableau, or a text.
+
+    ``families`` are the families that accept the scene. ``family`` chooses a family for a tableau, as
+    ``"rkmk(2)"``. Without it, a tableau that claims nothing is used in the family in which its computed order
+    is highest; claims decide otherwise, as in :func:`parse`.
+    """
+    if isinstance(given, Method):
+        return given
+    if isinstance(given, str):
+        return parse(f"{family}:{given}" if family else given, families)
+    label = f"{family}:{given.name}" if family else given.name
+    if not given.claims.orders:
+        given = replace(given, claims=replace(given.claims, orders=tuple(_computed(given, family))))
+    return _method(PATTERN.fullmatch(label), _enclosed(given), label, families)
+
+
+def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
+    """Yield the computed orders of a tableau in the families in which a complete file claims an order; with
+    ``family`` in the variants of this family."""
+    from orderconds.checking import check, claimable_families
+
+    for member in claimable_families(tableau):
+        if family.partition("(")[0] in ("", member.name):
+            for variant in member.claimed_variants():
+                (order,) = check(tableau, family=variant.label()).orders
+                yield variant.claim(order.order)
+
+
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 
@@ -218,7 +247,12 @@ def parse(text: str, families: Sequence[str]) -> Method:
             expected="TABLEAU or FAMILY:TABLEAU",
             hint="write for example vcg:triple_jump",
         )
-    tableau = _enclosed(Tableau.load(_file(match["tableau"])))
+    return _method(match, _enclosed(Tableau.load(_file(match["tableau"]))), text, families)
+
+
+def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
+    """Return the method of a tableau in the family that a text names, or in the family that claims choose."""
+    assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(

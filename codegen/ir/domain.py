@@ -99,12 +99,14 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 2, 3 and z >= 0: by its series for z up to 1, else as (c_{k-1} - k c_k)/(2 z).
+    """Return c_k'(z) for k = 1, 2, 3 and z >= 0; for k = 1 also for z < 0.
+
+    The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
     >>> slope(2, 0.0) == -1 / 24, slope(3, 0.0) == -1 / 120
     (True, True)
     """
-    if z > 1:
+    if abs(z) > 1:
         # Both terms of the closed form tend to 1/(k-1)! as z tends to 0, so they would cancel for small z.
         return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
     total = 0.0
@@ -137,7 +139,7 @@ class FloatDomain:
         """Call the function of the math library, or :func:`stumpff`."""
         if "stumpff" in function:
             return stumpff(int(function[-1]), args[0])
-        if function.startswith("slope"):
+        if "slope" in function:
             return slope(int(function[-1]), args[0])
         if function == "quotient":
             return args[0] / args[1] if args[1] else 0.0
@@ -204,7 +206,7 @@ class PreciseDomain:
         """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
-        if function.startswith("slope"):
+        if "slope" in function:
             return self._slope(int(function[-1]), args[0])
         if "stumpff" not in function:
             return getattr(self.context, function)(*args)
@@ -225,8 +227,8 @@ class PreciseDomain:
         return total
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return c_k'(z): by its series for z up to 1, else by c_{k-1} and c_k."""
-        if z > 1:
+        """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
+        if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
         term = -self.context.mpf(1) / math.factorial(k + 2)
@@ -292,7 +294,7 @@ class SeriesDomain:
         # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
-        if function.startswith("slope"):
+        if "slope" in function:
             k = int(function[-1])
             # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))

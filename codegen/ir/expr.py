@@ -38,6 +38,8 @@ FUNCTIONS = (
     # derivatives of stumpff2 and stumpff3: c_2' = (2 c_4 - c_3)/2 and c_3' = (3 c_5 - c_4)/2
     "slope2",
     "slope3",
+    # derivative of signed_stumpff1: c_1' = (c_3 - c_2)/2 for z of either sign
+    "signed_slope1",
     # a/b, and 0 where b = 0, for removable singularities with the limit 0
     "quotient",
 )

@@ -13,8 +13,9 @@ from dataclasses import replace
 from codegen.certify import certified_order
 from codegen.errors import MethodError
 from codegen.lower import families_for
-from codegen.method import Method, parse
+from codegen.method import Method, method_of, parse
 from codegen.scene.problem import Problem
+from orderconds.tableau import Tableau
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
@@ -89,14 +90,15 @@ PICTURED = (
 """Lists of methods that occur in one picture. Their methods have fixed colours and markers."""
 
 
-def methods_for(scene: Problem, names: Sequence[str] = ()) -> tuple[Method, ...]:
+def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
     """Return the named methods; without names, the default methods for the scene.
 
-    An unknown name raises the errors of :func:`codegen.method.parse`.
+    Methods may also be given as tableaux. An unknown name raises the errors of
+    :func:`codegen.method.parse`.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     families = families_for(scene)
-    return tuple(parse(name, families) for name in (names or defaults))
+    return tuple(method_of(name, families) for name in (names or defaults))
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:

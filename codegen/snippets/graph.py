@@ -49,6 +49,10 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     for k, hyperbolic in enumerate(("cosh", "sinh")):
         needs = (f"stumpff_{k}", "sqrt", hyperbolic)
         listed.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
+    values_of_both = ("signed_stumpff0", "signed_stumpff1")
+    listed.append(
+        Snippet("signed_slope1", "signed_slope", values_of_both, {"terms": stumpff.slopes(1, precision)})
+    )
     switch = [float(z) for z in stumpff.SWITCH]
     for k in range(4):
         first, *rest = stumpff.constants(k, None, precision)

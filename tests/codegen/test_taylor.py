@@ -16,6 +16,7 @@ from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit_compiled, start_of
 from codegen.errors import MethodError
 from codegen.groups import LeftMultiplication, Rn
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.precision import DOUBLE
@@ -23,7 +24,7 @@ from codegen.lab.distance import distance
 from codegen.lab.orders.exact_order import exact_local_error
 from codegen.lab.reference import cached_reference
 from codegen.lab.stability.linear_stability import region
-from codegen.loader import Status, StepFailed, load
+from codegen.loader import load
 from codegen.lower import families_for, lowering, problem_for
 from codegen.method import parse
 from codegen.printers import names as target_names

@@ -31,9 +31,10 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
+from orderconds.tableau import Tableau
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """The rows of each candidate, the fastest candidate for each accuracy, and the files written."""
 
@@ -41,6 +42,15 @@ class Result:
     entries: dict[str, tuple[Row, ...]]
     places: tuple[Place, ...]
     paths: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        best = (
+            f", fastest at error 1e-{self.places[-1].decade}: {self.places[-1].winner}" if self.places else ""
+        )
+        return f"<bench of {self.scene.name}: {len(self.rows)} runs{best}>"
+
+    def _repr_svg_(self) -> str:
+        return picture(self)
 
     @property
     def rows(self) -> tuple[Row, ...]:
@@ -95,14 +105,14 @@ class Bench:
 
 
 def bench(
-    scene: str,
-    methods: Sequence[str],
+    scene: Problem | str,
+    methods: Sequence[Method | Tableau | str],
     targets: Sequence[str],
     peers: Sequence[str],
     budget: float,
     output: str | None,
     progress: Progress,
-    adaptive: Sequence[str] = (),
+    adaptive: Sequence[Method | Tableau | str] = (),
     forms: Sequence[str] = (),
 ) -> Bench:
     """Return a bench of methods and peers on a scene.
@@ -116,7 +126,7 @@ def bench(
     for target in targets:
         if target not in names():
             raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(names())}")
-    problem = scenes.load(scene)
+    problem = scenes.load(scene) if isinstance(scene, str) else scene
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
     for method in controlled:

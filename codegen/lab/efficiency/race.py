@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 from codegen.artifact import Artifact
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, emit_compiled
+from codegen.integrator import Integrator
 from codegen.ir.domain import FloatDomain
 from codegen.lab.efficiency.candidates import Recipe
 from codegen.lab.efficiency.equations import Equations
@@ -22,7 +23,7 @@ from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
 from codegen.lab.timing import samples
-from codegen.loader import Integrator, load
+from codegen.loader import load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED

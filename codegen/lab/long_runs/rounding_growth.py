@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 from codegen.emitter import Compiled, emit_compiled
 from codegen.errors import MethodError
+from codegen.integrator import Integrator, StepFailed
 from codegen.ir.domain import NotConverged, PreciseDomain
 from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
@@ -30,7 +31,7 @@ from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import DIGITS, precise_step, solved_step
 from codegen.lab.straight_line_field import straight_line
-from codegen.loader import Integrator, StepFailed, load
+from codegen.loader import load
 from codegen.lower import problem_for
 from codegen.printers import DEFAULT
 

@@ -13,12 +13,12 @@ from typing import TypeAlias
 
 import numpy
 
+from codegen.integrator import Integrator, StepFailed
 from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import straight_line
-from codegen.loader import Integrator, StepFailed
 from codegen.scene.problem import Problem
 
 SAMPLES = 1000
