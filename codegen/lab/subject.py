@@ -14,6 +14,7 @@ from codegen.emitter import Compiled, bare, compile_method, emit_compiled, quote
 from codegen.errors import SceneError
 from codegen.lab.default_methods import report_methods
 from codegen.lab.measurement_cache import MeasurementCache
+from codegen.lab.page.series_style import ADAPTIVE, Styles
 from codegen.lab.peers import GROUPS, find, installed
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
@@ -128,6 +129,17 @@ class Subject:
         if isinstance(self.exact_or_reason, str):
             raise SceneError(self.exact_or_reason)
         return self.exact_or_reason
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels of all methods and peers of the page."""
+        controlled = (ADAPTIVE + m.label for m in self.adaptive)
+        return (*(m.label for m in self.methods), *controlled, *(peer.name for peer in find(self.peers)))
+
+    @cached_property
+    def styles(self) -> Styles:
+        """The colours and markers of all methods and peers of the page."""
+        return Styles(self.labels)
 
     @cached_property
     def compiled(self) -> MethodResults[CompiledMethod]:

@@ -20,7 +20,9 @@ from codegen.lab.efficiency.peer_candidate import PeerCandidate
 from codegen.lab.efficiency.ranking import Place, by_form, frontier, in_form, places
 from codegen.lab.efficiency.work_precision import Candidate, Refused, Row, measure_rows
 from codegen.lab.measurement_cache import MeasurementCache
-from codegen.lab.page.figures import Curve, efficiency_figure, standalone
+from codegen.lab.page.figures import Curve, efficiency_figure
+from codegen.lab.page.series_style import Styles
+from codegen.lab.page.svg import standalone
 from codegen.lab.peers import Peer, find
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
@@ -224,7 +226,7 @@ def table(rows: Sequence[Row]) -> str:
     return stream.getvalue()
 
 
-def curves(result: Result) -> list[Curve]:
+def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return error against CPU time of every candidate with at least one successful run.
 
     A candidate that was measured on several forms of the equations has one curve, of the fastest runs.
@@ -233,7 +235,7 @@ def curves(result: Result) -> list[Curve]:
     for label, rows in result.entries.items():
         points = [(r.seconds, r.error) for r in frontier(rows) if r.error and r.seconds]
         if points:
-            drawn.append(Curve(label, tuple(points), peer=rows[0].target == "peer"))
+            drawn.append(Curve(label, tuple(points), styles.of(label)))
     return drawn
 
 
@@ -241,4 +243,6 @@ def picture(result: Result) -> str:
     """Return the work-precision diagram as an SVG document."""
     title = f"Error against CPU time, {result.scene.title}"
     label = f"error at t = {float(result.scene.span[1]):g}"
-    return standalone(efficiency_figure(f"bench-{result.scene.name}", curves(result), label), title)
+    return standalone(
+        efficiency_figure(f"bench-{result.scene.name}", title, curves(result, Styles(result.entries)), label)
+    )

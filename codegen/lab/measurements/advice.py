@@ -16,11 +16,11 @@ from codegen.lab.efficiency.task import Task
 from codegen.lab.efficiency.work_precision import Row
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.measurements.cost import Cost
-from codegen.lab.page.formatting import decade, duration
+from codegen.lab.page.formatting import decade, duration, enumeration
 from codegen.lab.subject import Subject
 
 BODY = '{% include "sections/advice.html.j2" %}'
-OVERVIEW = '{% import "parts.html.j2" as parts %}{{ parts.advice(advice) }}'
+OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
 """The safety factor of predictions: smaller than for a single goal, because the goals share the budget."""
@@ -99,6 +99,18 @@ class Advice(Measurement[Recommendations]):
     def as_json(self, result: Recommendations) -> object:
         """Return the best method for each requirement and error, with its step, time and command."""
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
+
+    def verdict(self, result: Recommendations, subject: Subject) -> str:
+        """Return the fastest method without requirements at the largest and the smallest error reached."""
+        own = result.advice[0].best if result.advice else ()
+        choices = [
+            f"at an error of {decade(k)}, {best.method.partition(' (')[0]} ({duration(best.seconds)})"
+            for k, best in zip(DECADES, own, strict=False)
+            if best
+        ]
+        if not choices:
+            return ""
+        return f"The fastest emitted method: {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the table of recommendations and the table of properties."""
