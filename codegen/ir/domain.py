@@ -82,7 +82,7 @@ def stumpff(k: int, z: float) -> float:
         return math.cos(math.sqrt(z))
     # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule begins with the smallest term. For z < 4 the first omitted term is below 1e-27.
+        # Horner's rule begins with the smallest term. If z < 4, the first omitted term is below 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -364,7 +364,8 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The node number of the time is the key of its samples, because equal times are the same node.
+        # The table of samples has the node number of the time as key, because equal times are the same
+        # expression node.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

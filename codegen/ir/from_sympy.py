@@ -30,7 +30,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     import sympy
 
     try:
-        formula = sympy.sympify(expression, strict=True)  # strict: sympify must not parse a string
+        formula = sympy.sympify(expression, strict=True)  # with strict=True, sympify does not parse strings
     except sympy.SympifyError:
         what = f"{type(expression).__name__} {expression!r}"
         raise SceneError(what, where=where, expected="a sympy formula or a number") from None

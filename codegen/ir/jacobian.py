@@ -90,13 +90,14 @@ class _Graph:
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
-        """Eliminate every inner vertex, the cheapest first; among equal costs the vertex nearest to the
-        results."""
+        """Eliminate every inner vertex, the cheapest first; among vertices of equal cost the vertex nearest
+        to the results comes first.
+        """
         # The queue contains -v, so that among vertices of equal cost the vertex with the largest number comes
         # first: it is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue, of which the first valid entry counts.
+        # A vertex may have several entries in the queue; only the first valid entry is used.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)

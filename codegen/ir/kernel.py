@@ -159,8 +159,8 @@ class Start:
 
     If the loops do not converge, earlier solutions are dropped; then the step is halved until the loops
     converge. The solution of each step is the start of a longer step (continuation in h), until the whole
-    step is solved. The search fails after ``TRIES`` steps, or when even a step longer by the fraction
-    ``SHORTEST`` does not converge.
+    step is solved. The search fails after ``TRIES`` steps, or if a step that is longer only by the fraction
+    ``SHORTEST`` does not converge either.
     """
 
     unknowns: tuple[str, ...]

@@ -134,7 +134,9 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Whether computing all later values that depend on block k costs less than half of its sweep."""
+        """Whether computing all later values that depend on block k costs less than half a sweep of block
+        k.
+        """
         rest = [*self._later(k), *self.roots]
         # Recomputed values belong to the corrected unknowns: they replace a last sweep at less than half its
         # cost.

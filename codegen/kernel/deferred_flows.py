@@ -86,13 +86,13 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Whether a flow has duration h, as each part of a consistent splitting does, proved or not."""
-    # The duration is compared in doubles, because a ball around one cannot prove equality, but is rounded to
-    # one.
+    # The comparison rounds the duration to a double. A ball around one cannot prove that the duration is one,
+    # but the ball is rounded to one.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces its duration; None keeps the duration of the program."""
+"""A flow, and the variable that replaces its duration; None if the flow keeps its duration in the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
 """The index of a first flow, the index of a last flow, the duration of the last flow, and the duration of

@@ -169,8 +169,8 @@ def rewritten(
     """Return the roots with nodes replaced by calls; the arguments of the calls are rewritten, too."""
     new: dict[int, Expr] = {}
     for root in roots:
-        # Arguments of replaced nodes are rewritten as well. An explicit stack, because recursion would be too
-        # deep.
+        # Arguments of replaced nodes are rewritten as well. The traversal uses an explicit stack, because
+        # recursion would be too deep.
         waiting = [root]
         while waiting:
             node = waiting[-1]

@@ -24,7 +24,8 @@ NEVER = (Advance, Zero, Identity, *FLOWS)
 NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
 
-It converts operations to lines. With 2 or 5, all emitted files stay the same (edit it and type
+It converts operations to lines. With 2 or 5 in place of 3, all emitted files stay the same (to repeat this,
+edit the value and type
 ``orderconds regenerate --check``). Among longer steps, cg:cg5 on dipole has 6611, 6155 and 6467 operations
 with 2, 3 and 5, and 471, 454 and 394 assignments."""
 
@@ -166,7 +167,7 @@ class Trees:
         # If a shape also occurs elsewhere, its own function remains, and the joined function repeats its
         # lines.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # One call less saves about three lines of text in each place.
+        # After joining, each place contains one call less, which saves about three lines of text.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:

@@ -143,8 +143,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass follows value numbering, which merges equal exponentials: only then are the readers of
-        # exp(x) known.
+        # This pass follows value numbering, which merges equal exponentials. Before equal exponentials are
+        # merged, the number of readers of exp(x) is not known.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
         # Factoring can make values independent of a block's unknowns; this pass moves them out of the block.
@@ -175,12 +175,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # This pass precedes the pass for functions of ad, which requires that exp(x) has only one reader,
-        # because this pass can remove a second reader.
+        # The pass for functions of ad requires that exp(x) has only one reader. The present pass can remove a
+        # second reader, so it comes first.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass follows functions of ad, because only now is it known in which frame momenta need fewer
-        # operations.
+        # This pass follows the pass for functions of ad. Only after that pass is it known in which frame the
+        # momenta need fewer operations.
         Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverse maps, so the passes for maps run again.
         Pass("inverse maps", inverse, opposites.run),

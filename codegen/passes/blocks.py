@@ -78,7 +78,7 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
     """Return the image of each unknown; an image that is itself an unknown is replaced by the image of that
-    unknown. If this chain is closed, the start is used."""
+    unknown. If the images form a closed chain, the result is the start."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]

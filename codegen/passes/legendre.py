@@ -152,13 +152,14 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append the difference of the two momenta, in the one of the frames in which it needs fewer
-    operations."""
+    """Append the difference of the two momenta, in the frame in which this difference needs fewer
+    operations.
+    """
     replaced, computed = _values(build, route)
     # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base
-    # In this case P is a sum of functions of one ad_x, which costs less than the momentum before the adjoint
-    # map.
+    # If P is Ad*_{exp x} of a sum of functions of one ad_x, then P is such a sum, too. It costs less than the
+    # momentum before the adjoint map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:

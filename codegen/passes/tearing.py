@@ -43,7 +43,7 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image; None if that closes a cycle."""
+    """Return the block with an unknown replaced by its image; None if the replacement closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
     # A single unknown is never replaced, because it is in a cycle: an earlier pass has replaced blocks
     # without cycles by plain assignments.

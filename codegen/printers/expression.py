@@ -19,7 +19,9 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Rendering:
-    """Text of |x| and its precedence; ``negative`` is the sign of x. Lines may break between ``segments``."""
+    """The text of |x| and its precedence; ``negative`` is true if x has a minus sign. Lines may break between
+    ``segments``.
+    """
 
     segments: tuple[str, ...]
     precedence: int

@@ -124,8 +124,8 @@ class _Continuation:
         """Return the statements that try one step, from the solution of the last successful one."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # Begin at the solution of the shorter step. Its rate of convergence does not apply to a longer step;
-        # the rate 1 requires a second sweep.
+        # Begin at the solution of the shorter step. The rate of convergence of the shorter step does not
+        # apply to a longer step. With the rate 1 in its place, the stopping rule requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),

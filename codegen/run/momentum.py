@@ -1,8 +1,8 @@
 """The carried momentum: steps use the momentum in the body frame, states contain the momentum in space.
 
 Converting at the beginning and the end of a run costs less than converting in each step. At the end, the
-increase of the space momentum over the run is added to the momentum of the initial state. So if rounding has
-made q slightly non-orthogonal, the conversion perturbs the increase only.
+increase of the space momentum over the run is added to the momentum of the initial state. If rounding has
+made q slightly non-orthogonal, the conversion therefore perturbs only the increase.
 """
 
 from __future__ import annotations

@@ -25,7 +25,8 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Call):
-            # Compilers that do not optimise give each argument of each such call a place of its own.
+            # Compilers that do not optimise reserve a separate place on the stack for each argument of each
+            # such call.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):

@@ -28,8 +28,8 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel and the floating-point format of its module.
 
-    The continuation tries a step whose equations do not converge up to ``tries`` times (``Start.TRIES`` by
-    default).
+    If the equations of a step do not converge, the continuation makes at most ``tries`` attempts (by default
+    ``Start.TRIES``).
     """
 
     kernel: Kernel

@@ -156,8 +156,8 @@ class _Controlled:
         # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A crude choice is enough: a rejection shortens it by a factor of up to 5, and the step after it may
-        # be longer by the factor FIRST.
+        # A crude first step size is enough: a rejection shortens the step by a factor of up to 5, and after
+        # an accepted first step the step size may grow by the factor FIRST.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -258,9 +258,10 @@ class _Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step.
 
-        The status of a failed step is reset to OK as long as a shorter step still changes the time.
+        The status of a failed step is reset to OK if adding the shorter step still changes the time.
         """
-        # If even the shorter step leaves the time unchanged, the status of the failure is the result.
+        # If adding even the shorter step does not change the time, the run returns the status of the failed
+        # step.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

@@ -182,7 +182,7 @@ class Stopping:
         The matrix is exact to first order in h, so the rate of the step before is valid in the first sweep. A
         loop that contracts ends if the predicted next change is below four roundings of the sum of the
         unknowns. A loop that does not contract ends after the second sweep or later, if the change is below
-        the tolerance or below the rounding of the state.
+        the tolerance or below the rounding errors of the state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))

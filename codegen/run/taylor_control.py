@@ -1,4 +1,5 @@
-"""Step control by Taylor coefficients: no step is rejected, because its size follows from its polynomial.
+"""Step control by Taylor coefficients: each step size is computed from the coefficients before the step, so
+no step is rejected.
 
 Let c_k be coefficient k of the solution at the state y, and p the degree. With the maximum norm and
 epsilon = atol + rtol |y|, the step size is the smaller one of (epsilon/|c_k|)^(1/k) for k = p - 1 and k = p,
@@ -139,7 +140,7 @@ class _Controlled:
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
-        # Where the coordinates are those of the state, no arrays are copied.
+        # If the polynomial is in the coordinates of the state, no arrays are copied.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
         self.series = real("series", self.degree * self.size)
@@ -198,7 +199,9 @@ class _Controlled:
         )
 
     def is_sound(self) -> Term:
-        """Return the test of both states: the new one may not depend on some entries of the old one."""
+        """Return the test that both states are finite. Both are tested, because the new state need not depend
+        on all entries of the old state.
+        """
         return both(all_finite(self.trial), all_finite(self.state))
 
     def expand_in_loop(self) -> Function:
@@ -246,7 +249,7 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute the numbers of one order which its code reads."""
+        """Return the statements that compute the numbers that the code of one order reads."""
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]

@@ -137,7 +137,7 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number gets the kind of the other operand; with this count as other operand, an index becomes a
+# A Python number gets the kind of the other operand. The other operand is this count, so an index becomes a
 # count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
@@ -227,13 +227,13 @@ INFINITY = Term("infinity")
 
 
 def both(*tests: Term) -> Term:
-    """Return the conjunction of tests; evaluation ends at the first that is false."""
+    """Return the conjunction of tests; evaluation ends at the first test that is false."""
     # The tests are joined from the left, because all targets print this form without parentheses.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
 def either(*tests: Term) -> Term:
-    """Return the disjunction of tests; evaluation ends at the first that is true."""
+    """Return the disjunction of tests; evaluation ends at the first test that is true."""
     return reduce(lambda a, b: Term("or", (a, b), Kind.FLAG), tests)
 
 
@@ -243,7 +243,9 @@ def negated(test: Term) -> Term:
 
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
-    """Return one of two values; unlike a branch, an array language computes both of them."""
+    """Return one of two values. In array languages a select computes both values, and a branch computes only
+    one.
+    """
     # A Python number beside a term gets the kind of the term; two Python numbers are reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)

@@ -63,7 +63,7 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Whether a target may raise an exception where C computes an infinity or a NaN."""
-    # Only a function that contains the kernel alone can turn an exception into a status.
+    # An exception can become a status only in a function that contains nothing but the kernel.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 

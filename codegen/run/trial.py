@@ -66,7 +66,7 @@ class Trials:
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
         counts, state = self.machine.record(STATISTICS), list(self.initial)
         time = [float(first)] if self.plan.time else []
-        # The signals of the user are not known, and a system without control is the usual first test.
+        # The run-time inputs of the user are not known, and zero inputs are the usual first test.
         signals = [lambda t: (0.0,) * number] if number else []
         # The step size is computed from exact rationals and rounded once, as in the usage example.
         h = float(longer * (last - first) / PARTS)

@@ -222,7 +222,7 @@ class WarmStart:
         """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three stored solutions, the guess is the last one, and is not tested"),
+            Note("with fewer than three stored solutions, the guess is the last solution, and is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [

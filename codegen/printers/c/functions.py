@@ -69,7 +69,9 @@ class FunctionPrinter:
         return f"{'' if self.unit.record(name).public else 'struct '}{self.prefix}{name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
-        """Return the declaration of a parameter; without ``static`` sizes in a ``header``, as in C++."""
+        """Return the declaration of a parameter. In a ``header`` array sizes have no ``static``, which C++
+        does not allow.
+        """
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change, and the compiler checks it.
         const = "" if parameter.text in self.writes[function.name] else "const "

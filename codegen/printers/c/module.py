@@ -33,9 +33,10 @@ FRAMES = 640
 """Bytes for return addresses, saved registers and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""Bytes of the bound on the stack for each number of a step, in either precision, without and with equations.
+"""The stack bound counts this many bytes for each number of a step: without equations, and with equations.
 
-Single precision needs no less: an optimiser keeps pairs of numbers for vector instructions in 16 bytes. Where
+Single precision needs as many bytes as double precision, because an optimiser keeps pairs of numbers for
+vector instructions in 16 bytes. Where
 equations are solved, an optimiser also needs space for values without a name, which it moves out of a loop.
 The most that was measured with equations were 8.8 bytes in double precision and 8.0 bytes in single
 precision.

@@ -169,7 +169,9 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Whether a statement reads (or writes) the entry after those of ``group`` and may join the group."""
+        """Whether a statement reads (or writes) the next entry after the entries of ``group`` and may join
+        the group.
+        """
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target

@@ -56,7 +56,7 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
     """Return start and a tuple of terms: on one line without parentheses, else on several in parentheses."""
     space = "    " * depth
-    # The comma makes a single term a tuple.
+    # The comma after a single term makes a tuple of it.
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
         return [line]
