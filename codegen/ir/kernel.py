@@ -33,7 +33,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 
 SLOWEST = 2.0**-12
 """The least contraction factor of a sweep that is trusted. Rounding errors make a smaller measured factor
-unreliable, so it is replaced by this one."""
+unreliable, so a smaller factor is replaced by this value.
+"""
 
 UNIT = 2.0**-53
 """Half the distance from 1 to the next larger double: the largest relative rounding error."""

@@ -48,7 +48,8 @@ class Assignments:
             # If the kernel remembers solutions, one statement before all loops starts all of them.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # The leading matrix comes before the body, because it is computed outside the sweeps and must not
+            # The matrix to leading order in h comes before the body, because it is computed outside the
+            # sweeps and must not
             # read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
@@ -60,8 +61,8 @@ class Assignments:
                     inside.append(Let(name, value))
             # An exact matrix comes after the body, because it depends on the unknowns and reads body values.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # Newton's last correction changes the unknowns after the body; body values belong to the unknowns
-            # before it.
+            # After the body, Newton's method corrects the unknowns once more. The values of the body belong
+            # to the unknowns before this correction.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)

@@ -20,7 +20,7 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""A function call counts as this many operations; chosen with ``benchmarks/emitted.py``.
+"""A function call counts as this many operations. The number was chosen with ``benchmarks/emitted.py``.
 
 With 20 in place of 10, all emitted files stay the same. With 5, the files of five explicit methods change. To
 repeat this
@@ -29,7 +29,8 @@ comparison, edit the value and type ``orderconds regenerate --check``."""
 WIDTH = 8
 """The number of independent operations that a processor completes during one addition.
 
-Chosen with ``benchmarks/emitted.py``. With 16 in place of 8, all emitted files stay the same. With 4, the
+The number was chosen with ``benchmarks/emitted.py``. With 16 in place of 8, all emitted files stay the same.
+With 4, the
 files of
 ``rkmk:rk4`` on free_rigid_body and of one splitting change. Repeat the comparison as for :data:`CALL`."""
 

@@ -19,8 +19,8 @@ from codegen.ir.kernel import Kernel, Let
 TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
 """Latency of operations, in units of an addition.
 
-On x86 processors additions and products of doubles take about four cycles, a division about 14. The latency
-of a function is that of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
+On x86 processors additions and products of doubles take about four cycles, a division about 14. A function
+has the latency of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
 matter little: with a division of 2 or 8, none of five explicit methods of the gallery changes. With a call of
 3 or 12, only splitting:blanes_moan_rkn4 on fast_heavy_top changes, and keeps its number of operations."""
 

@@ -1,4 +1,4 @@
-"""Flows deferred across steps: the leading flow of a step, and flows that commute with all others.
+"""Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
 
 If a step of a splitting ends with the flow that the next step begins with, these two flows are joined. The
 leading flow is then applied once before the first step. A part that commutes with every other part is applied
@@ -49,7 +49,8 @@ def part(program: Program, scene: Problem) -> Parted | None:
     # If a flow has a duration other than h, or a stage time, its place in the step matters.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # A free part commutes with all other parts, so removing it does not affect the order of the others.
+    # A free part commutes with all other parts, so removing the free part does not change the order of the
+    # other parts.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)

@@ -137,7 +137,7 @@ def _counted(
             roots += statement.arguments
         elif isinstance(statement, SharedCall):
             total = _plus(total, {statement.function: 1})
-            # A call that returns several orders counts as one call.
+            # A call that returns several Stumpff functions counts as one call.
             roots.append(statement.argument)
         else:
             roots.append(statement.value)

@@ -139,7 +139,7 @@ class Outline:
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # The order is that of execution, so that functions are numbered by their first call.
+            # The trees are in the order of execution, so that functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -178,7 +178,7 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Whether those results of a tree that are read depend on the same blocks as its inputs.
+        """Whether all results of a tree that are read depend on the same blocks as the inputs of the tree.
 
         The results must also be newer than the inputs: an older node is the result of another operation.
         """

@@ -285,6 +285,8 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
 
 
 def distinct(assign: Assign) -> list[Coefficient]:
-    """Return the distinct coefficients of a sum without those that are one, by first appearance."""
+    """Return the distinct coefficients of a sum, except coefficients equal to one, in the order of their
+    first appearance.
+    """
 
     return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

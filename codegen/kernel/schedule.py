@@ -41,7 +41,7 @@ class SharedCall:
 
     @property
     def function(self) -> str:
-        """The name of the function that computes these orders, for example ``stumpff_12``."""
+        """The name of the function that computes c_k for all k in ``orders``, for example ``stumpff_12``."""
         return "stumpff_" + "".join(map(str, self.orders))
 
 
@@ -141,14 +141,14 @@ class Arrangement:
 
 def arrange(kernel: Kernel) -> Arrangement:
     """Return the printable statements of a kernel, in the kernel's order and with the same roundings."""
-    # One counter of names for the step and all its loops, because a target may have a single scope.
+    # The step and all its loops share one counter of names, because a target may have a single scope.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
     # Errors are computed together with the outputs, so that they share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The orders are recorded before all statements, because the first call for an argument computes every
-    # order that a later statement needs.
+    # The required Stumpff functions c_k are recorded before all statements, because the first call for an
+    # argument computes every c_k that a later statement needs.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -192,7 +192,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # Stumpff orders of the loop body are collected apart from those before the loop: the arguments in the
+    # The Stumpff functions of the loop body are recorded separately from the Stumpff functions before the
+    # loop: the arguments in the
     # body depend on the unknowns, so no call before the loop computes these values.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
@@ -203,7 +204,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # A leading matrix is computed before the loop and must not read body values.
+        # A matrix to leading order in h is computed before the loop and must not read body values.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
@@ -267,7 +268,7 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The orders are sorted, because they form the snippet's name: stumpff_12, whichever order is read
+        # The indices k are sorted, because they form the snippet's name: stumpff_12, whichever c_k is read
         # first.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
@@ -317,7 +318,7 @@ class _Scope:
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # All orders for this argument are known from now on, so they are never computed again.
+            # All recorded c_k of this argument are known from now on, so they are never computed again.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 

@@ -104,7 +104,9 @@ def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel |
 
 
 def _names(kernel: Kernel) -> Callable[[str], str]:
-    """Return a function that returns names which differ from those of the kernel and from one another."""
+    """Return a function that returns a new name at each call: no name of the kernel, and no earlier
+    result.
+    """
     taken = {s for f in kernel.state for s in f.symbols} | set(kernel.scalars)
 
     def name(base: str) -> str:

@@ -48,8 +48,9 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""Treatments of the critical path: none; multiply step sizes and constants first; order the assignments;
-apply all of :mod:`codegen.kernel.critical_path`."""
+"""How the critical path is shortened: not at all; by multiplying step sizes and constants first; by ordering
+the assignments; by all methods of :mod:`codegen.kernel.critical_path`.
+"""
 
 
 def to_kernel(

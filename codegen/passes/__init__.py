@@ -129,7 +129,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # After flows have been joined, nothing may read the stage times of the replaced flows.
+        # After flows have been joined, the stage times of the replaced flows may be unused.
         Pass("unused values", UNUSED, dead.run),
         # This pass follows the pass for zeros, because terms that cancel would keep a composition in one
         # large block.
@@ -167,7 +167,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # result of its map is removed.
         Pass("inverse maps", inverse, opposites.run),
         # This pass follows the Legendre transform. Before the transform the force of a stage depends on the
-        # momentum of the stage, and this dependence is part of a cycle.
+        # momentum of the stage, and this dependence is part of a cycle, which prevents tearing.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
         # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),

@@ -57,7 +57,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # An unknown belongs to the component that computes its image, if the component reads it.
+        # An unknown belongs to the component that computes the image of the unknown, if the component also
+        # reads the unknown.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]
@@ -69,7 +70,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # Residuals need not be kept: :mod:`codegen.passes.legendre` adds them after the last split.
+        # The new blocks have no residuals: :mod:`codegen.passes.legendre` adds residuals after the last
+        # split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
     # At the solution an unknown equals its image, and that image may now be computed without a block.
     names.update(image)

@@ -103,7 +103,7 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # The second solution of an embedded method would need a second new frame.
+        # Embedded methods are not supported, because their second solution would need a second new frame.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))

@@ -46,10 +46,10 @@ A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower b
 is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The number of sweeps and of digits in a step that is repeated to confirm a difference of doubles."""
+"""If results in doubles differ, the step is repeated with this number of sweeps and this number of digits."""
 
 NOT_A_NUMBER = "differs by nan"
-"""The end of the message if a result is not finite: the step is then too long for a comparison."""
+"""A message with this end means that a result is not finite: the step is too long for a comparison."""
 
 APART = 16
 """The smallest ratio of consecutive step sizes at which programs are compared.

@@ -1,5 +1,5 @@
 """Runs of a splitting that defer flows: the last flow of a step and the first flow of the next step are
-computed as one flow, and flows that commute with all others are applied once for many steps.
+computed as one flow, and flows that commute with all other flows are applied once for many steps.
 
 Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
 after the deferred flows have been applied. They are applied when a row is due, after the last step, and after
@@ -52,7 +52,7 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH = "begin", "finish"
-"""The names of the functions for the leading flow and for the flows that commute with all others."""
+"""The names of the functions for the leading flow and for the flows that commute with all other flows."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""
@@ -68,7 +68,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
             _core(_plan(plan, deferred.begin), BEGIN, "Leading flow, applied once before the first step.")
         )
     if deferred.finish is not None:
-        about = "Flows that commute with all others, applied once for many steps."
+        about = "Flows that commute with all other flows, applied once for many steps."
         sequence.append(_core(_plan(plan, deferred.finish), FINISH, about))
     return (*sequence, _Deferring(plan, deferred).step(), _Deferring(plan, deferred).run())
 
@@ -165,8 +165,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # At most three attempts: a fast one, a careful one that counts the good steps, and one that
-            # makes only these.
+            # There are at most three attempts: a fast attempt, a careful attempt that counts the good steps,
+            # and an attempt that makes only the good steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             *completed(),
@@ -210,7 +210,9 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # One product instead of a sum over steps makes one rounding error, however many steps were deferred.
+        # The elapsed time is one product and not a sum over steps, because a product makes a single rounding
+        # error,
+        # however many steps were deferred.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),

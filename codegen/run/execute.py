@@ -1,7 +1,8 @@
 """An executor of the run representation over any ordered scalars, for example floats or a ring.
 
 It executes the same statements as emitted code, so it takes the same sweeps, matrices and steps; only the
-arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function is compiled to closures once, so that
+arithmetic differs, because the scalars belong to a domain (:mod:`codegen.ir.domain`). Each function is
+compiled to closures once, so that
 a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
@@ -466,7 +467,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
     import numpy
 
-    # The order of operations is that of the emitted code, so that doubles agree in every bit.
+    # The operations have the same order as in the emitted code, so that doubles agree in every bit.
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []

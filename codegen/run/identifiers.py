@@ -1,4 +1,4 @@
-"""Identifiers of a unit in a target: legal names for the kernel's symbols, distinct from all others.
+"""Identifiers of a unit in a target: legal names for the kernel's symbols, distinct from all other names.
 
 The names of the run representation are legal in every target and are used unchanged. Names of a kernel come
 from scenes and programs. In each function these get identifiers that no other name of the function has.

@@ -47,7 +47,7 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of the derivative, none if it was not requested."""
+    """Return the functions that compute the derivative; no functions if the derivative was not requested."""
     if plan.kernel.vary is None:
         return ()
     # The derivative has a separate plan, because the kernel of variations has other inputs, outputs and loops
@@ -98,7 +98,7 @@ class _Jacobian:
         """Return the function with its parameters and body."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
-        # The derivative is that of one step with constant inputs, as in the public function ``step``.
+        # The differentiated step has constant inputs, as in the public function ``step``.
         given = (self.given,) if plan.held else ()
         # Each call of ``vary`` yields a column, but callers expect the matrix by rows.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])

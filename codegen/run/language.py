@@ -1,6 +1,7 @@
 """The run representation: the code around a kernel as a small imperative program.
 
-Stopping rules, warm starts, continuation, runs and step control are written in it once, one file for each
+Stopping rules, warm starts, continuation, runs and step control are written once in this representation, one
+file for each
 concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any scalars.
 
 A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
@@ -171,7 +172,7 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 
 
 def direct(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms of a statement itself, targets first, without those of inner bodies."""
+    """Return the terms of a statement itself, targets first, without the terms of inner bodies."""
     match statement:
         case Assign(target, term):
             return (target, term)
@@ -191,7 +192,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
 
 
 def statements(body: Iterable[Statement]) -> Iterator[Statement]:
-    """Yield every statement, those of inner bodies included."""
+    """Yield every statement, including the statements of inner bodies."""
     for statement in body:
         yield statement
         for inner in blocks(statement):

@@ -26,7 +26,7 @@ def momentum_before(plan: Plan) -> Term:
 
 
 def turning(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that convert the momentum, and those that begin and end a run."""
+    """Return the functions that convert the momentum, and the functions that begin and end a run."""
     carried = plan.kernel.carried
     if carried is None:
         return ()

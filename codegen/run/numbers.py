@@ -1,4 +1,6 @@
-"""The number of scalars that a unit holds at once, which bounds the stack of a call."""
+"""The number of scalars that the functions of a unit store at the same time, which bounds the stack of a
+call.
+"""
 
 from __future__ import annotations
 
@@ -30,8 +32,8 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Arrays of one name in different blocks are counted separately: a compiler need not overlap
-            # them.
+            # Arrays of one name in different blocks are counted separately: a compiler need not store them in
+            # the same memory.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
         # A scalar that is assigned several times has one place on the stack.

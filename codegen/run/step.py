@@ -64,8 +64,8 @@ def kernel_step(plan: Plan) -> Function:
     # All outputs are computed before the first entry of the state is overwritten, because they read the old
     # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read these entries, because other entries determine them. So the new state does not
-    # show a NaN in them.
+    # The kernel does not read these entries, because other entries determine them. A NaN in one of these
+    # entries would therefore not appear in the new state.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
@@ -112,7 +112,8 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # Age 0 makes the next step compute a new matrix: after ``period`` steps the old one contracts poorly.
+        # Age 0 makes the next step compute a new matrix: after ``period`` steps the iteration with the old
+        # matrix contracts poorly.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence

@@ -201,7 +201,7 @@ class _Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The extrapolation assumes solutions at equal distances in time.
+        # The memory is cleared, because the extrapolation assumes solutions at equal distances in time.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (

@@ -54,8 +54,8 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""This number is added to the rate, because the last change is applied, too, and its relative error is about
-this large.
+"""This number is added to the rate of convergence. The loop also applies the last change to the unknowns, and
+the relative error of this change is about as large as this number.
 """
 
 FOUR_ROUNDINGS = 2.0**-50

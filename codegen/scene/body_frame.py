@@ -35,7 +35,7 @@ must agree."""
 
 @dataclass(frozen=True)
 class BodyField:
-    """Formulas in the coordinates of q and of P; the symbols of P are those of mu.
+    """Formulas in the coordinates of q and of P; P has the same symbols as mu.
 
     ``velocity`` is W, ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
     inverse matrix (rows of numbers); otherwise it is None.

@@ -174,7 +174,7 @@ def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: 
 
 
 def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
-    """Return the entries of A that are constants. Raises InputError if an entry depends on others."""
+    """Return the entries of A that are constants. Raises InputError if an entry depends on other entries."""
     values = {}
     for name in (x for line in A for x in line):
         form = elimination.cell(name)
