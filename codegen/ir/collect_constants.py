@@ -135,8 +135,8 @@ class _Gathering:
         if not _is_inverse(atom):
             return c, atom
         # A numerator other than 1 costs nothing, and it replaces the first reader's product. Later readers
-        # share the division: they multiply d by the ratio of their coefficient to the first one, which is
-        # often 1.
+        # share the division: they multiply d by the ratio of their coefficient to the coefficient of the
+        # first reader, which is often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 

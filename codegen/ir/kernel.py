@@ -155,8 +155,8 @@ class Start:
     extrapolated by one step. With the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1
     - 3 u2 + u3 and so on. At most ``depth`` solutions are kept. The degree grows while the differences of the
     solutions decrease. The first change of the loops is the error of the extrapolation. If it exceeds
-    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. The unknowns
-    are those of all loops of the kernel, in order.
+    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. These are the
+    unknowns of all loops of the kernel, in order.
 
     If the loops do not converge, earlier solutions are dropped; then the step is halved until the loops
     converge. The solution of each step is the start of a longer step (continuation in h), until the whole
@@ -334,7 +334,7 @@ class Kernel:
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
-        """Yield every assignment, including those inside loops."""
+        """Yield every assignment, including the assignments inside loops."""
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement

@@ -179,7 +179,8 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Return a polynomial without the left side of any relation."""
         done: Polynomial = {}
-        # popitem removes the latest entry. The order is that of insertion, so it does not depend on hashes.
+        # popitem removes the latest entry. The entries are in the order of insertion, which does not depend
+        # on hashes.
         waiting = dict(polynomial)
         # Each pass of the loop replaces one leading product. The loop ends, because the class
         # accepts only relations whose repeated replacement ends.

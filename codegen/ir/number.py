@@ -24,7 +24,8 @@ _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
 
 def is_normal(value: Fraction) -> bool:
-    """Whether a double represents this number to its full precision: it is neither too large nor denormal.
+    """Whether a double represents this number to the full precision of doubles: the number is neither too
+    large nor denormal.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]

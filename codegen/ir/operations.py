@@ -51,7 +51,9 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results of an operation whose parameters do not change them."""
+    """The kinds of the arguments and of the results, for an operation whose kinds do not depend on its
+    parameters.
+    """
     # Passes use linearity to move factors and sums out of an operation, for example ad_x(c v + w) = c ad_x v
     # + ad_x w.
     linear_in_last: ClassVar[bool] = False

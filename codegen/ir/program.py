@@ -125,7 +125,7 @@ class Program:
     frame: str = SPACE
 
     def assigns(self) -> Iterator[Assign]:
-        """Yield every assignment in order, including those inside blocks."""
+        """Yield every assignment in order, including the assignments inside blocks."""
         for statement in self.body:
             if isinstance(statement, Assign):
                 yield statement

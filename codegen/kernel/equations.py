@@ -39,7 +39,8 @@ as its emitted header states. A limit of 6000 gives the same kernels."""
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations in additions or products; other operations cost one.
 
-These are rough latencies. They only decide whether one cost is below half of another, so exact values do not
+These are rough latencies. They only decide whether one cost is below half of another cost, so exact values do
+not
 matter."""
 
 

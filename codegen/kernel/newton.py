@@ -87,7 +87,8 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no pivots, so no branches on data. An inaccurate inverse only slows the iteration down.
+    # Cofactors need no pivots, and therefore no branches that depend on data. An inaccurate inverse only
+    # slows the iteration down.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor

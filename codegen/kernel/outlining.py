@@ -5,7 +5,7 @@ differ only in their operands and in the coefficients of their sums. Both become
 (:mod:`codegen.kernel.outlined_functions`). The function computes only the results that are read, and has only
 the arguments on which these results depend. Separate calls cannot share common subexpressions, such as the
 sine and cosine of one angle, and compute them again. Smaller code is worth this cost only for long steps, so
-only these are outlined.
+only long steps are outlined.
 
 The rewriting is exact. To verify it, the old and the new expressions are evaluated at one point.
 """

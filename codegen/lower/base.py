@@ -65,8 +65,8 @@ class Lowering(ABC):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Whether the states of a step stay on the manifold of the scene up to rounding.
 
-        A step by group elements stays on the manifold. If the group is abelian, the coordinates are those of
-        a vector space, so every method stays on it.
+        A step by group elements stays on the manifold. If the group is abelian, the manifold has the
+        coordinates of a vector space, so every method stays on the manifold.
         """
         from orderconds.families import family_class
 

@@ -234,7 +234,7 @@ def _carrier(parts: Parts) -> Summand | None:
         return None
     for summand in parts.summands:
         # The carrier is the first summand without t. Any other summand without t would also be correct,
-        # because the order conditions are those of the extended system.
+        # because the order conditions hold for the extended system with either choice.
         if not summand.timed:
             return summand
     raise MethodError(

@@ -63,7 +63,7 @@ def bracket_program(method: Method) -> BracketProgram:
 def lower(scene: Problem, method: Method) -> Program:
     """Return the program of an RKMK method without a cut-off.
 
-    The errors are those of :func:`bracket_program`.
+    The errors are the same as in :func:`bracket_program`.
     """
     tableau, written = method.runge_kutta(), bracket_program(method)
     y = Var("y", Kind.POINT)

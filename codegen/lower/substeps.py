@@ -108,7 +108,7 @@ def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> boo
     """Whether the stages from k on start from the result of the update by the stages before k."""
     s = len(b)
     # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
-    # depend on later ones.
+    # depend on later stages.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )

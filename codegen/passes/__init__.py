@@ -175,8 +175,8 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # The pass for functions of ad requires that exp(x) has only one reader. The present pass can remove a
-        # second reader, so it comes first.
+        # The pass for functions of ad requires that exp(x) has only one reader. This pass may remove a second
+        # reader of exp(x), and therefore precedes the pass for functions of ad.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
         # This pass follows the pass for functions of ad. Only after that pass is it known in which frame the

@@ -71,8 +71,8 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations that are worth factoring: a map has fewer combinations than values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched, because a map in a block is evaluated in every sweep, and a map outside
-        # only once in a step.
+        # Only blocks are searched: a map in a block is evaluated in every sweep, but a map outside blocks is
+        # evaluated only once in a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}

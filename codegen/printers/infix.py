@@ -52,7 +52,7 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""The longest operand, and the longest comparison, in which no line breaks."""
+"""No line breaks inside an operand of at most SHORT characters or a comparison of at most LONG characters."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:

@@ -55,7 +55,8 @@ def header(
     stack: str = "",
     inputs: Sequence[str] = (),
 ) -> list[str]:
-    """Return the recipe's lines up to the usage example, none longer than ``width`` unless a word is longer.
+    """Return the recipe's lines up to the usage example. A line is longer than ``width`` only if it is a
+    single long word.
 
     ``stack`` states the bound on the stack of a call, if the bound is known. ``inputs`` describes the
     run-time inputs.

@@ -133,7 +133,8 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # Only step-size control reads the error estimate, and it uses no continuation in h.
+        # The error estimate is not needed: only step-size control reads it, and step-size control uses no
+        # continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state, because h is the parameter of the

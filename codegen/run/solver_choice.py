@@ -25,7 +25,7 @@ and its step size is limited by accuracy only. A step by Newton's method may tak
 compute, but its step size may be larger by a still larger factor.
 
 Kernels of many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
-computed. The kernel is not built if a known solver is certain to be preferred to it
+computed. The kernel is not built if a solver that has been tried is certain to be preferred to this kernel
 (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
 """
 
@@ -284,10 +284,10 @@ class _Selection:
         return candidate.kernel, self.choices(candidate.kernel, reasons)
 
     def consider(self, solver: str) -> None:
-        """Build and try the kernel of a solver, unless it cannot be the best.
+        """Build and try the kernel of a solver. A solver that cannot be the best is skipped.
 
-        If Newton's method converges with many unknowns, robust or not, simplified Newton is tried only if it
-        may be faster: it inverts a matrix in each step.
+        If there are many unknowns and Newton's method converges, simplified Newton is tried only if it may be
+        faster: it inverts a matrix in each step.
         """
         least = self.least(solver)
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust

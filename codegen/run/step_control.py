@@ -4,7 +4,7 @@ The error norm of a step is the root mean square of its estimate over atol + rto
 the norm is at most one. Let p be the order of the estimate. After an accepted step, the step size is
 multiplied by 0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step;
 this factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
-factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. The limits are those of Hairer, Norsett and Wanner, Solving
+factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving
 Ordinary Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). With the
 exponents 0.7/p and 0.4/p, which damp more, the sizes follow the solution more slowly: DOP853 needs 15 to 20 %
 more steps on ``heavy_top``. The exponents 0.8/p and 0.2/p are multiples of one power of the norm.
@@ -230,7 +230,8 @@ class _Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is that of the previous step, at most that of FLOOR.
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step, at
+        # most its value for the norm FLOOR.
         # The previous error damps the controller: step sizes oscillate less where stability limits them. The
         # first step has no previous error.
         trend = select(self.starting, self.root, number(1.0) / self.previous)

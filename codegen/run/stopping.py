@@ -16,7 +16,8 @@ All tests are relative, so the number of sweeps does not depend on the units of 
 diverging iteration is never accepted on the grounds that its values are still small. A change that is not
 finite ends a loop with NOT_FINITE.
 
-A stopping test by rate times change is that of Hairer and Wanner, Solving Ordinary Differential Equations II,
+The stopping test by rate times change is taken from Hairer and Wanner, Solving Ordinary Differential
+Equations II,
 section IV.8.
 """
 

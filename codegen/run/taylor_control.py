@@ -65,7 +65,7 @@ LEAST = 1e-30
 """The least size of a coefficient: smaller coefficients permit steps beyond every span."""
 
 ROWS = 4
-"""Products of a sum that are added at once."""
+"""The number of rows whose products are added to each inner sum in one pass."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -73,7 +73,9 @@ ORDER_TERM = own(ORDER)
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the adaptive run and those of its functions that are not in :func:`polynomial_step`."""
+    """Return the adaptive run and its functions, without the functions that :func:`polynomial_step`
+    returns.
+    """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
@@ -146,7 +148,9 @@ class _Controlled:
         self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
-        """Return the functions that compute and evaluate the polynomial, and those of its coordinates."""
+        """Return the functions that compute and evaluate the polynomial, and the functions that convert its
+        coordinates.
+        """
         enter, leave = self.expansion.enter, self.expansion.leave
         listed = []
         if enter is not None:
@@ -336,7 +340,8 @@ class _Controlled:
         return (
             *self.entered(),
             Call(EXPAND, (self.start, *moment, self.series)),
-            # An infinity or NaN in a coefficient reaches the later ones, and no shorter step removes it.
+            # If a coefficient is infinite or NaN, so are later coefficients, and a shorter step does not
+            # help.
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),

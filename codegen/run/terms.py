@@ -352,7 +352,7 @@ def _read(name: str) -> Term:
 
 
 def symbols(root: Expr) -> Iterator[str]:
-    """Yield the symbols of an expression, in the order in which it reads them."""
+    """Yield the symbols of an expression, in the order in which the expression reads the symbols."""
     # Expressions share nodes: without this set, the walk could take exponential time.
     seen: set[int] = set()
     waiting = [root]

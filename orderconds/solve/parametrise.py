@@ -69,7 +69,9 @@ class _Cells:
 
 
 def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
-    """Return the text of a row of coefficients, without zeros at its end unless it is ``full``."""
+    """Return the text of a row of coefficients. Zeros at the end of the row are left out, unless ``full`` is
+    true.
+    """
     texts = [cells.written(name) for name in names]
     while not full and texts and texts[-1] == "0":
         texts.pop()

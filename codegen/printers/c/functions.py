@@ -178,10 +178,10 @@ class _Body:
         return [*(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of statements; many consecutive short ones share lines."""
+        """Return the lines of statements; many consecutive short statements share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
-            # A declaration must come between two statements, so it ends a group of short ones.
+            # A declaration must come between two statements, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
             # Only plain copies share lines: a line with several sums would be hard to read.

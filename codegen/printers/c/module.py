@@ -223,7 +223,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         return literal(real, real.round(float(x)))
 
     initial = ", ".join(map(number, recipe.initial))
-    # The example starts at t = 0; the order of the arguments is that of ``run``.
+    # The example starts at t = 0; the arguments are in the order of ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["constant", "NULL"] if interface.inputs else []

@@ -46,7 +46,7 @@ class FunctionPrinter:
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function."""
         own = self.identifiers[function.name]
-        # All functions are private: public ones in the template convert arguments and raise exceptions.
+        # All functions are private: public functions in the template convert arguments and raise exceptions.
         head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
         # Text from users must not end the docstring, nor contain an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
