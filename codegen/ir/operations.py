@@ -40,7 +40,9 @@ class Problem(Protocol):
         """Return the state after the exact flow of a part for the time tau."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Return the product of a word's functions of ad_x, or of ad*_x if ``dual`` is true, applied to v."""
+        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
+        ad_x.
+        """
 
     def dimension(self) -> int:
         """Return the dimension of the Lie algebra."""

@@ -163,7 +163,7 @@ def arrange(kernel: Kernel) -> Arrangement:
         # Starts are computed before the loop, in the scope around it.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
-        # Body values that are read after the loop need variables outside of it.
+        # Body values that are read after the loop need variables outside of the loop.
         later = _read_later(kernel, position)
         loops += 1
         statements.append(_iteration(statement, loops, starts, scope, later))
@@ -172,7 +172,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     # Outputs and errors are rewritten as one list in one scope; the list is split below.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
-    # Calls inside a function are shared only inside that function, never with its callers.
+    # A function shares calls of library functions only between its own statements, and never with its
+    # callers.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
@@ -217,7 +218,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 def _taken(kernel: Kernel) -> dict[str, int]:
     """Return the counter of fresh names; its keys are all names of the kernel."""
-    # Every name of the kernel counts as used, so that fresh names differ from all of them.
+    # Every name of the kernel counts as used, so that fresh names differ from all names of the kernel.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -235,7 +236,9 @@ def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block; pending statements must come before the next statement."""
+    """Rewrites the expressions of one block. The statements in ``pending`` must come before the next
+    statement.
+    """
 
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
@@ -276,14 +279,17 @@ class _Scope:
         """Return the statements of an assignment; a shared call that computes its value replaces it."""
         value = self.rewrite(let.value)
         before = self.take()
-        # The shared call has already named this result; a second name would only be a copy.
+        # The shared call has already given this result a name. A second name would only be a copy of the
+        # value.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
         return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Simple]:
-        """Return the pending statements, which must precede the next one, and clear them."""
+        """Return the pending statements, which must precede the next statement, and clear the list of pending
+        statements.
+        """
         pending, self.pending = self.pending, []
         return pending
 
@@ -333,7 +339,7 @@ class _Scope:
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space
-        # A power is written as a product that repeats its base, so the base must be a name.
+        # A power is written as a product that repeats the base of the power, so the base must be a name.
         base = self._named(base)
         # Targets write powers of up to three factors as x * x * x.
         if n <= 3:

@@ -317,7 +317,8 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Corrected values that no root reads are dropped, because their calls would count as used.
+    # Corrected values that no root reads are dropped, because the functions that they call would count as
+    # used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # All roots are in one flat list, so that trees that occur in several blocks are found.

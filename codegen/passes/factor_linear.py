@@ -31,7 +31,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # If L(x) has a second reader, it is computed anyway, and a map of the sum would be an additional map.
+        # If L(x) has a second reader, L(x) is computed anyway. Applying L to the sum would then take one more
+        # map.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
         # Terms with equal operation and equal first arguments are values of the same linear map. Other terms
         # get unique keys.

@@ -39,7 +39,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # Without the number, value numbering can merge the maps of different multiples of x.
+    # After the number has been removed, value numbering can merge the maps of different multiples of x.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
@@ -88,7 +88,7 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
-        # A negative power of h in the quotient is not allowed, because h may be zero.
+        # The quotient must not contain a negative power of h, because h may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []

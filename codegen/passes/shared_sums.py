@@ -34,7 +34,8 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # The sets are default arguments, because a closure would use the sets of a later round.
+            # The sets are passed as default arguments, because a closure would read the sets of a later
+            # round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,

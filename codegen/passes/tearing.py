@@ -31,8 +31,8 @@ def run(program: Program) -> Program:
         # Momenta and forces are tried first. The remaining unknowns are then velocities, whose extrapolation
         # from earlier steps is the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # The search is greedy and has a fixed order, because finding the smallest set of unknowns (a
-            # minimum feedback vertex set) is NP-hard.
+            # The search is greedy and has a fixed order. It does not look for the smallest set of unknowns, a
+            # minimum feedback vertex set, because this problem is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]

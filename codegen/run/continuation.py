@@ -64,7 +64,8 @@ def continued(plan: Plan, core: str) -> Function:
 class _Continuation:
     """Builds the function; the attributes are the variables of the function."""
 
-    # Fractions of h: the longest step that succeeded, and the step that is tried now. The factor is the
+    # Two steps as fractions of h: the longest step that succeeded, and the step that is tried now. The factor
+    # is the
     # ratio of consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")

@@ -96,7 +96,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
-        """Return the product of the rows i after the first and i before the last."""
+        """Return the product of row ``first + i`` of ``left`` and row ``last - i`` of ``right``."""
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:

@@ -53,7 +53,9 @@ COMPLETED = count("completed", 1, optional=True, cell=True)
 
 
 def is_looped(plan: Plan) -> bool:
-    """Whether the kernel is inlined in a run: it has a small state, and no other function contains it."""
+    """Whether the kernel is inlined in a run: the kernel has a small state, and no other function contains
+    the kernel.
+    """
     kernel = plan.kernel
     # A function call in each step would force the state to memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS

@@ -25,7 +25,8 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import needed, snippets
 from codegen.templates import environment
 
-# -ffp-contract=off: a fused multiply-add rounds once, not twice, so results would depend on the machine.
+# -ffp-contract=off forbids fused multiply-adds, which round once and not twice: with them, results would
+# depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
