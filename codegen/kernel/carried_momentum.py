@@ -32,7 +32,7 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """Whether the program and the emitted code use the same frame."""
+        """Whether the program and the emitted code use the same frame for momenta."""
         # If both use space, or both the body, the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
@@ -56,7 +56,8 @@ class Frames:
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
         """Return the kernel's new state, computed from the program's; ``start`` is ``begin`` of ``state``."""
-        # The second state is that of an embedded solution; without an embedded solution it is empty.
+        # The second state belongs to the embedded solution; it is empty for a method without an embedded
+        # solution.
         if self._alike or not new:
             return new
         q = new[: self._size]

@@ -30,7 +30,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     Further keys count one sweep of each block, and the entries of the block's Newton matrix without the
     inversion. Changes of sign, comparisons, extrapolation and the stopping rule are not counted.
     """
-    # The operations of a function count at each of its calls, so totals are comparable with unoutlined steps.
+    # The operations of an outlined function count at each call, so that totals can be compared with steps
+    # without outlined functions.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
