@@ -83,7 +83,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # A group consists of at least one part and at most half of the parts. Small groups are tried first,
     # because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # wide divides the number of parts, so the last end is the last cut.
+        # ``wide`` divides the number of parts, so the end of the last group is the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.

@@ -50,8 +50,8 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
     # Without stored solutions there is nothing to follow from a shorter step to a longer one.
     if plan.start is None:
         return []
-    # A diverging iteration may overflow before it reaches its limit of sweeps, so the step is repeated after
-    # either failure.
+    # A diverging iteration may also overflow before it reaches its limit of sweeps. Therefore the step is
+    # repeated after NOT_FINITE as well as after NOT_CONVERGED.
     failed = either(STATUS.equals(code(NOT_CONVERGED)), STATUS.equals(code(NOT_FINITE)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
@@ -85,8 +85,8 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # With a factor near 1 there is no progress: the branch of solutions probably ends before the whole
-        # step.
+        # If the factor is near 1, there is no progress, probably because the branch of solutions ends before
+        # the full length of the step.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -106,9 +106,10 @@ class _Continuation:
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.failure),)),
-            # Only the whole step changes the state: shorter steps only provide initial guesses.
+            # Only the step of full length changes the state; shorter steps only provide initial guesses.
             Assign(state, self.trial),
-            # The earlier solutions belong to shorter steps; a polynomial through them would be wrong.
+            # The earlier solutions belong to steps of other lengths, so a polynomial through these solutions
+            # would be a bad initial guess.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
@@ -154,7 +155,8 @@ class _Continuation:
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # Squaring undoes one square root: after a failure, one success restores the factor.
+        # A failure replaces the factor by its square root, and a success squares the factor, so one success
+        # restores the factor after a failure.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),

@@ -3,8 +3,9 @@ computed as one flow, and flows that commute with all other flows are applied on
 
 Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
 after the deferred flows have been applied. They are applied when a row is due, after the last step, and after
-:data:`codegen.ir.kernel.LONGEST` steps. A NaN persists through later steps, so the next complete state shows
-it. The run is then repeated with the deferred flows applied in every step, to find the last good state.
+:data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state in all later steps, so it is found in the
+next complete state. The run is then repeated with the deferred flows applied in every step, to find the last
+good state.
 """
 
 from __future__ import annotations
@@ -89,7 +90,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # Durations come last, so that all functions of the unit take their arguments in one order.
+    # Durations are the last arguments, so that all functions of the unit have their arguments in the same
+    # order.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
@@ -139,7 +141,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # A single step defers nothing: its caller sees the complete state.
+            # A single step defers no flow, because its caller reads the state, which must be complete.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -182,7 +184,8 @@ class _Deferring:
         """
         state = self.plan.state()
         failed = (
-            # The next attempt makes exactly the steps that were good, and is therefore the last.
+            # The next attempt makes exactly the steps that were good. It cannot fail and is therefore the
+            # last attempt.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )

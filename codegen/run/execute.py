@@ -82,8 +82,8 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # Entries of tables are converted once, because converting them at each access would take most of
-            # the time.
+            # The entries of tables are converted only once. Conversion at each access would take most of the
+            # time of a run.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
         # No word is reserved, because the executor uses identifiers as keys of a dictionary and not as names
@@ -138,7 +138,8 @@ class Machine:
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
         """Return the result of a function after an arithmetic error."""
-        # Exact and many-digit scalars raise where IEEE arithmetic computes an infinity or a NaN.
+        # Exact numbers and mpmath numbers raise an exception where IEEE arithmetic computes an infinity or a
+        # NaN.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)
@@ -205,7 +206,8 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # The count is evaluated once, before the loop: no body changes it.
+            # The count is evaluated once, before the loop, because the body of a loop never changes its
+            # count.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -380,7 +382,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # All numbers of a domain have the same precision, so nothing is converted.
+            # All numbers of a domain have the same precision, so ``wide`` and ``narrow`` convert nothing.
             case "wide" | "narrow":
                 return first
             case "given":

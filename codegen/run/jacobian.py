@@ -100,7 +100,7 @@ class _Jacobian:
         matrix = real("jacobian", dim * dim)
         # The differentiated step has constant inputs, as in the public function ``step``.
         given = (self.given,) if plan.held else ()
-        # Each call of ``vary`` yields a column, but callers expect the matrix by rows.
+        # Each call of ``vary`` computes a column, but the result is stored by rows.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
@@ -150,7 +150,8 @@ class _Jacobian:
                 If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
             ]
         inner: tuple[Statement, ...] = (
-            # The variation comes first: it is linearised at the point where the substep begins.
+            # The variation is advanced first, because the linearised substep is evaluated at the state before
+            # the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
             # The number of the substep is increased even after a failure: the status ends the loop, and the

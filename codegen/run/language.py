@@ -176,7 +176,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
     match statement:
         case Assign(target, term):
             return (target, term)
-        # The name comes first, because callers expect targets before the terms that are read.
+        # The target comes first, because callers expect targets before the terms that are read.
         case Array(name, values):
             return (name, *values)
         case For(index, count):
@@ -224,7 +224,8 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
             return (target,)
         case Array(name):
             return (name,)
-        # Printers declare the index in the head of the loop, so the loop counts as its assignment.
+        # Printers declare the index in the head of the loop, so the loop counts as an assignment to the
+        # index.
         case For(index):
             return (index,)
         case Call(results=results):

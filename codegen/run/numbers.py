@@ -19,7 +19,8 @@ def numbers_held(unit: Unit) -> int:
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     public = [held[f.name] for f in unit.functions if f.public]
-    # All private functions may be inlined into one frame. Only one public function runs at a time.
+    # All private functions may be inlined into one stack frame, so their scalars are added. Only one public
+    # function runs at a time, so the largest number is taken.
     return sum(held.values()) - sum(public) + max(public)
 
 
@@ -36,7 +37,7 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
             # the same memory.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
-        # A scalar that is assigned several times has one place on the stack.
+        # A scalar that is assigned several times counts once, because it has one place on the stack.
         scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
     return arrays + passed + len(scalars) + len(function.parameters)
 

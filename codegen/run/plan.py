@@ -34,7 +34,7 @@ class Plan:
 
     kernel: Kernel
     format: Precision
-    # A trial of a solver sets this limit to one, so that continuation in h does not hide a failure.
+    # In a trial of a solver this limit is one, so that continuation in h does not hide that the solver fails.
     tries: int | None = None
 
     @cached_property

@@ -131,7 +131,8 @@ class _Controlled:
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
         parameters = (plan.state(), *chosen, *passed, self.accepted, self.rejected)
-        # Integration backwards in time is allowed, so both signs are tested. For a NaN both tests are
+        # Integration backwards in time is allowed, so the test has a case for each direction. For a NaN both
+        # tests are
         # false.
         moving = either(self.now < self.end, self.now > self.end)
         body: tuple[Statement, ...] = (
@@ -150,8 +151,8 @@ class _Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested once, before the loop, because the loop only scales step sizes by bounded
-        # factors.
+        # The arguments are tested once, before the loop. This is enough, because the loop only multiplies
+        # step sizes by bounded factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
@@ -190,7 +191,7 @@ class _Controlled:
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
                 (Assign(STATUS, code(LIMIT)),),
-                # The test is false for a NaN, so an estimate that is not a number rejects the step.
+                # The test is false for a NaN, so a step is rejected if its error estimate is not a number.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
         )

@@ -125,7 +125,7 @@ class Term:
 
     def part(self, start: int, size: int) -> Term:
         """Return ``size`` entries of an array of reals, from ``start`` on."""
-        # The whole array needs no offset in C and no slice in Python.
+        # If the part is the whole array, it is printed without an offset in C and without a slice in Python.
         if start == 0 and self.shape == (size,):
             return self
         return Term("part", (self,), self.kind, number=start, shape=(size,))
@@ -265,7 +265,8 @@ def size(x: Term) -> Term:
 def greatest(terms: Iterable[Term]) -> Term:
     """Return the greatest of some reals."""
     listed = tuple(terms)
-    # A single term is returned without a call, because ``max`` of a single number is an error in Python.
+    # If there is only one term, it is returned without a call, because ``max`` of a single number is an error
+    # in Python.
     return listed[0] if len(listed) == 1 else call("greatest", *listed)
 
 
@@ -286,7 +287,7 @@ def all_finite(*terms: Term) -> Term:
 
 def total(terms: Iterable[Term]) -> Term:
     """Return a sum from left to right."""
-    # The order is fixed, so that all targets round alike.
+    # The order of additions is fixed, so that all targets have the same rounding errors.
     return reduce(lambda a, b: a + b, terms)
 
 
@@ -333,8 +334,8 @@ def narrow(x: Term) -> Term:
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
     """Yield every name in terms, including names in expressions of the kernel."""
-    # The terms are reversed, because the stack is read from its end, and names must appear in the order of
-    # the text.
+    # The stack is read from its end, so the terms are pushed in reverse order: names are then yielded in the
+    # order of the text.
     waiting = list(terms)[::-1]
     while waiting:
         term = waiting.pop()

@@ -57,7 +57,7 @@ def is_looped(plan: Plan) -> bool:
     the kernel.
     """
     kernel = plan.kernel
-    # A function call in each step would force the state to memory.
+    # If each step were a function call, the state would have to be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     plain = bool(kernel.outputs) and kernel.estimate is None
     return alone and plain and not (plan.counting or plan.time or _may_raise(kernel))
@@ -94,7 +94,7 @@ class Rows:
 
     def due(self, step: Term = DONE) -> Term:
         """Return the test that the state after ``step`` steps is a row."""
-        # The flag comes first, because a remainder by a stride of zero is undefined.
+        # The flag is tested first, because the remainder of a division by a stride of zero is undefined.
         return both(self.recording, (step % STRIDE).equals(0))
 
     def add(self, state: Term) -> list[Statement]:
@@ -216,7 +216,7 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
-    # All new values have names of their own, so the order of these copies is arbitrary.
+    # Each new value has a separate name, so the copies may be made in any order.
     taken: list[Statement] = [Assign(x, y) for x, y in zip(numbers, new, strict=True)]
     taken += [Assign(DONE, DONE + 1), If(rows.due(), tuple(row))]
     inner: list[Statement] = [
