@@ -71,7 +71,7 @@ class _Graph:
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
-        # A vertex u that is not in the table depends on no variable.
+        # A vertex u is in the table only if it depends on a variable.
         if u not in self.after:
             return
         old = self.before[v].get(u)

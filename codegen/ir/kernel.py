@@ -116,8 +116,8 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # 512 rounding units. One unit is too small, because the rounding errors of all terms of a sweep change
-    # the unknowns.
+    # The tolerance is 512 rounding units. One unit would be too small, because the rounding errors of all
+    # terms of a sweep change the unknowns.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None

@@ -160,7 +160,8 @@ class Linear(Operation):
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # A product by 1 is omitted, because over power series it would be a full multiplication.
+                # A product by 1 is omitted, because in power series it would cost as much as any other
+                # product.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -279,8 +280,8 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the inverse operation, with the same g."""
-        # Ad_g Ad_{g^-1} = 1. The plain duals are inverse to each other, too, although they reverse the order
-        # of products: Ad*_{gk} = Ad*_k Ad*_g.
+        # Ad_g Ad_{g^-1} = 1. The same holds for the duals, although they reverse the order of products:
+        # Ad*_{gk} = Ad*_k Ad*_g.
         return Adjoint(self.dual, not self.inverse)
 
 

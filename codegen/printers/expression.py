@@ -91,7 +91,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("the printer received a power that the schedule has not rewritten")
-                # Products are rounded alike in every target, but the last bit of a library's pow may differ.
+                # Powers are printed as products, because products are rounded alike in every target, but
+                # results of ``pow`` may differ in the last bit.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)

@@ -38,7 +38,8 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments, in parentheses if the precedence is below ``level``."""
-        # An equal level needs no parentheses, because callers pass a higher level where grouping matters.
+        # If the precedence is equal to ``level``, no parentheses are needed, because callers pass a higher
+        # level where grouping matters.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")

@@ -41,7 +41,8 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
             initial_indent=start,
             subsequent_indent=indent,
             break_long_words=False,
-            # A command or a name that is broken at a hyphen could not be copied.
+            # Lines are not broken at hyphens, because a command or a name with a line break could not be
+            # copied.
             break_on_hyphens=False,
         )
     return lines

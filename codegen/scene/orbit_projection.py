@@ -53,7 +53,8 @@ def _orthonormal(
     which is orthonormal."""
     basis: list[list[float]] = []
     for vector in vectors:
-        # The second pass removes the rounding errors of the first.
+        # The projection is made twice, because the second projection removes the rounding errors of the first
+        # projection.
         rest = _remainder(_remainder(vector, [*known, *basis]), [*known, *basis])
         length = math.hypot(*rest)
         if length > INDEPENDENT * max(1.0, math.hypot(*vector)):

@@ -57,8 +57,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Explicit kernels call each function a few times only; inlining all branches there would only add
-        # code.
+        # Explicit kernels call each function only a few times, so inlining all branches would make the code
+        # longer without making it faster.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
@@ -85,7 +85,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
-        # Prototypes come from the same functions as definitions, so the two cannot differ.
+        # Prototypes and definitions are printed by the same functions, so they cannot differ.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -146,14 +146,15 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     compare the bound with ``-fstack-usage`` and with a painted stack.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
+    # ``invert`` has local variables, a row and a permutation. If the kernel is inlined, there is one stack
+    # frame less.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
         EACH_SOLVING if interface.blocks else EACH,
     )
     numbers = numbers_held(unit)
-    # Rounded up to 64 bytes, which covers the alignment of vector registers.
+    # The bound is rounded up to 64 bytes, to include the alignment of vector registers.
     bound = -(-(each * numbers + frames) // 64) * 64
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
