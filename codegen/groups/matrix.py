@@ -16,7 +16,7 @@ from codegen.groups.linear_algebra import S, Vector, dot, invert, matmul, ration
 from codegen.ir.domain import Domain, ExprDomain, SeriesDomain
 
 LONGEST = 1000
-"""The largest number of terms of an exponential series; doubles overflow before a series needs more."""
+"""The largest number of terms of an exponential series; doubles overflow before a series needs more terms."""
 
 
 class MatrixGroup(MatrixElements, Coadjoint):

@@ -124,7 +124,7 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        kinetic = space.zero  # the potential may be singular at the neutral element
+        kinetic = space.zero  # the potential is singular at the neutral element
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
 

@@ -33,8 +33,8 @@ class Kind:
     ``members`` enumerates the members of an order; ``count`` computes their number independently, from
     generating functions. ``text`` is the text of a member, ``diagram`` its drawing, ``names`` the text of its
     elementary differential or Hamiltonian. One family provides the conditions of the members. If
-    ``independent`` is true, the members correspond to an independent set of its conditions, otherwise to all
-    conditions.
+    ``independent`` is true, the members correspond to an independent set of conditions of the family,
+    otherwise to all conditions.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]

@@ -172,7 +172,9 @@ def _vertex(vertex: Vertex, x: float, y: float) -> str:
 
 
 def _edge(vertex: Vertex, branch: Branch, x: float, y: float, far: float, high: float) -> str:
-    """Draw a line from rim to rim, with an arrow head in its middle if it has a direction."""
+    """Draw the line of an edge between the rims of its vertices. A directed edge has an arrow head in the
+    middle.
+    """
     length = ((far - x) ** 2 + (high - y) ** 2) ** 0.5
     along = ((far - x) / length, (high - y) / length)
     near, rim = _room(vertex), _room(branch.vertex)

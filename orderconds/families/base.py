@@ -221,7 +221,7 @@ class Family(ABC):
         if not conditions:
             return ()
         if isinstance(ring, Balls):
-            with precision(ring.bits):  # set the precision once, not in each operation
+            with precision(ring.bits):  # the precision is set once for all operations
                 differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
             if not all(x.is_finite() for x in differences):
                 raise ZeroDivisionError("division by a ball that contains zero")

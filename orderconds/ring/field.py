@@ -277,7 +277,8 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        if type(other) is Algebraic and other.field is self.field:  # same field: the most frequent case
+        # usually both operands are elements of one field
+        if type(other) is Algebraic and other.field is self.field:
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
             return NotImplemented

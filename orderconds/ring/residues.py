@@ -79,7 +79,8 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    __array_ufunc__ = None  # with this, Python calls __radd__ etc. if the left operand is a NumPy scalar
+    # with this attribute, Python calls __radd__ etc. if the left operand is a NumPy scalar
+    __array_ufunc__ = None
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:
         self.ring, self.values = ring, values

@@ -71,7 +71,7 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
         if tree not in seen:
             members = [tree]
             seen.add(tree)
-            for member in members:  # the list grows during the loop
+            for member in members:  # trees are appended to the list during the loop
                 for other in switched(member):
                     if other not in seen:
                         seen.add(other)

@@ -101,7 +101,9 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return an entry that is the only one in its row or, if there is none, in its column."""
+    """Return an entry that is the only entry in its row. If there is no such entry, return an entry that is
+    the only entry in its column.
+    """
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
             if sum(other[alone] == entry[alone] for other in unknown) == 1:

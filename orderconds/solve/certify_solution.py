@@ -47,8 +47,9 @@ STEPS = (
     Fraction(1, 100),
     Fraction(1, 1000),
 )
-"""Free coefficients are rounded to multiples of the coarsest of these units for which a good solution
-remains."""
+"""Free coefficients are rounded to multiples of one of these units: the coarsest unit for which a good
+solution is found.
+"""
 
 FINE = (Fraction(1, 10**5), Fraction(1, 10**7))
 """The units for rounding if the principal error was minimised. They may be coarse, because near a minimum
@@ -248,7 +249,7 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
     label = problem.ansatz.family
     try:
         report = check(tableau, label, problem.order)
-    except ZeroWeight:  # the formulas of the family divide by the weights, and one weight is zero
+    except ZeroWeight:  # one weight is zero, and the formulas of the family divide by the weights
         return None
     if report.verdict != "holds" or report.orders[0].certificate != "exact":
         return None

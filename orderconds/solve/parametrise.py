@@ -344,7 +344,8 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The middle step comes last in this order, so that the constraint on the sum of the steps determines it.
+    # The middle step comes last in this order, so that the constraint on the sum of the steps determines the
+    # middle step.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)

@@ -161,6 +161,7 @@ def _finished(
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        except (NotProved, ZeroWeight) as problem_met:  # the formulas of some families divide by weights
+        # a weight may be zero, and the formulas of some families divide by weights
+        except (NotProved, ZeroWeight) as problem_met:
             refused = str(problem_met)
     return None, refused

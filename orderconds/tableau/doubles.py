@@ -29,14 +29,14 @@ SHORT = 26
 """A double with at most this number of significant bits is exact."""
 
 PRINTED = 16
-"""A decimal in the file of another program that has at least this number of digits is a printed double."""
+"""If a decimal in a file of another program has at least this number of digits, it is a printed double."""
 
 LARGE = 64
 """Short doubles with a larger binary exponent are not written as exact decimals, because their texts would be
 too long."""
 
 LONGEST = 1200
-"""No double has more significant decimal digits."""
+"""The largest number of significant decimal digits that a double can have."""
 
 _DOUBLE = re.compile(r"-?(?:\d+\.?\d*|\.\d+)d", re.ASCII)
 
@@ -115,8 +115,8 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Whether a decimal without exponent is the text of a double: it has 16 or 17 digits, or it has more
-    digits and is the double nearest to it, rounded to this number of digits.
+    """Whether a decimal without exponent is the text of a double. A decimal of 16 or 17 digits is. A decimal
+    of more digits is, if the nearest double, rounded to the same number of digits, gives the same decimal.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

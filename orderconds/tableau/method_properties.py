@@ -26,7 +26,7 @@ def _all(verdicts: Iterable[Verdict]) -> Verdict:
 
 
 def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
-    """Decide whether x = y. Even a ball is equal to itself, that is, if x and y are the same object."""
+    """Decide whether x = y. If x and y are the same object, they are equal, even if they are balls."""
     return True if x is y else ring.is_zero(x - y)
 
 

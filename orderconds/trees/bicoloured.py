@@ -19,8 +19,8 @@ BicolouredTree = bytes
 
 
 def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
-    """Yield every rooted tree with vertices of two colours, each once, trees with a black root first (HLW
-    III.2.1, TP).
+    """Yield every rooted tree with vertices of two colours exactly once; trees with a black root come first
+    (HLW III.2.1, TP).
 
     >>> [text(tree) for tree in bicoloured_rooted_trees(2)]
     ['[.]', '[o]', '(.)', '(o)']
@@ -31,7 +31,8 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
 
 
 def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
-    """Return every free tree with alternating colours once. The root is a vertex for which the height of the
+    """Return every free tree with alternating colours exactly once. The root is a vertex for which the height
+    of the
     tree is least.
 
     In such a tree any two neighbours differ in colour. These are the trees of symplectic partitioned methods

@@ -88,8 +88,8 @@ def text(tree: DirectedTree) -> str:
 
 @lru_cache(maxsize=32)
 def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every rooted tree with directed edges, each once (the trees of partitioned Runge-Kutta methods
-    with b = bhat).
+    """Return every rooted tree with directed edges exactly once. These are the trees of partitioned
+    Runge-Kutta methods with b = bhat.
 
     >>> [text(tree) for tree in directed_rooted_trees(3)]
     ['[[.]]', '[[^.]]', '[^[.]]', '[^[^.]]', '[..]', '[^..]', '[^.^.]']
@@ -108,7 +108,7 @@ def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
 
 
 def directed_free_trees(vertices: int) -> tuple[DirectedTree, ...]:
-    """Return every free tree with directed edges, each once, rooted by :func:`representative`.
+    """Return every free tree with directed edges exactly once. Its root is chosen by :func:`representative`.
 
     >>> [text(tree) for tree in directed_free_trees(3)]
     ['[..]', '[^.^.]', '[[.]]']

@@ -20,7 +20,7 @@ Move = tuple[Tree, Tree]
 
 @lru_cache(maxsize=32)
 def free_trees(vertices: int) -> tuple[Tree, ...]:
-    """Return every free tree once. The root is a vertex for which the height of the tree is least.
+    """Return every free tree exactly once. The root is a vertex for which the height of the tree is least.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in free_trees(5)]

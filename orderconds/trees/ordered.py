@@ -16,7 +16,7 @@ _RISING = bytes(range(256))
 
 
 def ordered_trees(vertices: int) -> Iterator[Tree]:
-    """Yield every ordered tree with ``vertices`` vertices, each once.
+    """Yield every ordered tree with ``vertices`` vertices exactly once.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in ordered_trees(4)]
@@ -26,7 +26,7 @@ def ordered_trees(vertices: int) -> Iterator[Tree]:
 
 
 def ordered_forests(vertices: int) -> Iterator[Forest]:
-    """Yield every ordered forest with ``vertices`` vertices, each once. For zero vertices, yield the empty
+    """Yield every ordered forest with ``vertices`` vertices exactly once. For zero vertices, yield the empty
     forest.
 
     >>> from orderconds.trees.levels import text

@@ -12,7 +12,8 @@ from orderconds.trees.levels import Tree
 
 
 def rooted_trees(vertices: int) -> Iterator[Tree]:
-    """Yield every rooted tree with ``vertices`` vertices once, in canonical form, from the tall tree to the
+    """Yield every rooted tree with ``vertices`` vertices exactly once, in canonical form, from the tall tree
+    to the
     bushy tree.
 
     >>> from orderconds.trees.levels import text
