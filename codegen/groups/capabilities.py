@@ -89,7 +89,9 @@ class Coadjoint(LieGroup):
 
 
 class RightTrivialisation(LieGroup):
-    """The conversion of tangent vectors to elements of the Lie algebra; the Jacobian of a step needs it."""
+    """The conversion of tangent vectors to elements of the Lie algebra, which is required for the Jacobian of
+    a step.
+    """
 
     provides: ClassVar[str] = "right trivialisation of tangent vectors"
 

@@ -64,7 +64,7 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
 def step_operations(kernel: Kernel) -> dict[str, dict[str, int]]:
     """Return the number of each operation of a kernel, as :func:`operations` counts them.
 
-    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates it.
+    A kernel without outputs computes the coefficients of a Taylor polynomial, and evaluates the polynomial.
     """
     expansion = kernel.expansion
     if kernel.outputs or expansion is None:

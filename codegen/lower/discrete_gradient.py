@@ -48,8 +48,8 @@ class DiscreteGradient(FieldLowering):
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program.
 
-        :class:`codegen.errors.MethodError` is raised if, at some point where the field does not vanish, the
-        energy does not change in any direction of the group.
+        :class:`codegen.errors.MethodError` is raised if the differential of the energy along the group
+        vanishes at a point where the field does not vanish.
         """
         _check_bivector(problem, method)
         return _program(problem, method)

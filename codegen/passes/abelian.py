@@ -1,7 +1,8 @@
 """Vanishing brackets of an abelian group, and dexp^{-1} truncated at order 0.
 
 The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
-and ad and P are zero. On any group dexp^{-1} truncated at order 0 is the identity, and P truncated at order 0
+and ad and the derivative P of dexp^{-1} are zero. On any group dexp^{-1} truncated at order 0 is the
+identity, and P truncated at order 0
 is zero.
 """
 

@@ -348,7 +348,9 @@ def names(terms: Iterable[Term]) -> Iterator[Term]:
 
 @lru_cache(maxsize=4096)
 def _read(name: str) -> Term:
-    """Return the name of a symbol that an expression reads; one object serves all its readers."""
+    """Return the name of a symbol that an expression reads. All expressions that read the symbol share one
+    object.
+    """
     return own(name)
 
 

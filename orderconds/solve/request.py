@@ -98,7 +98,8 @@ def solve(
     >>> heun.tableau.b, heun.certificate
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
-    refuse_too_many_trees(families.get(family), order - 1)  # symmetric methods need no more for even order
+    # a symmetric method of even order needs only conditions of lower order
+    refuse_too_many_trees(families.get(family), order - 1)
     spec = Spec(
         stages=stages,
         explicit=explicit,

@@ -36,7 +36,7 @@ LARGE = 64
 too long."""
 
 LONGEST = 1200
-"""The largest number of significant decimal digits that a double can have."""
+"""An upper bound of the number of significant decimal digits of a double."""
 
 _DOUBLE = re.compile(r"-?(?:\d+\.?\d*|\.\d+)d", re.ASCII)
 

@@ -62,8 +62,8 @@ def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
 
 
 def _parallel(x: Row, y: Row, ring: Ring) -> bool:
-    # Most coefficients and minors are zero. Two rows are not parallel if each of the two has a non-zero entry
-    # at a position where the other row has a zero.
+    # Most coefficients and minors are zero, so a faster test comes first: two rows are not parallel if each
+    # of them has a non-zero entry where the other row has a zero.
     zeros = [(ring.is_zero(u), ring.is_zero(v)) for u, v in zip(x, y, strict=True)]
     if (False, True) in zeros and (True, False) in zeros:
         return False
