@@ -51,7 +51,7 @@ class Frames:
             # The state contains the momentum of the body, and the program computes in space: apply
             # Ad*_{q^-1}.
             return (*q, *self.scene.body_group.Adtinv(domain, q, mu))
-        # Unless the kernel is whole, the run has transformed the momentum before the first step.
+        # If the kernel is not ``whole``, the run has transformed the momentum before the first step.
         return (*q, *inward(self.scene, domain, {"q": q, "mu": mu})) if self.whole else state
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:

@@ -99,7 +99,8 @@ class _Translation:
         self.env: dict[Var, Any] = {}
         self.hints: dict[int, str] = {}
         self.blocks: list[Block] = []
-        # Names chosen by users are reserved first, so that generated names are changed and not theirs.
+        # Names chosen by users are reserved first. If a generated name is equal to such a name, the generated
+        # name is changed.
         self.taken = {*scene.symbols, *scene.runtime, *scene.inputs, "h", TIME, LEAD, ELAPSED}
         self.outline, self.inside = Outline(program, scene, self.domain), False
         self.sums = SeriesSums(program, scene)

@@ -30,7 +30,8 @@ def places(kernel: Kernel) -> tuple[Place, ...]:
 
     The variation, if the kernel has one, is its last field and lies in a separate array.
     """
-    # Callers of a Jacobian pass the variation separately, so it does not count as part of the state.
+    # Callers of a Jacobian pass the variation separately, so the variation does not count as part of the
+    # state.
     whole = sum(len(f.symbols) for f in kernel.state if f.name != VARIATION)
     result: list[Place] = []
     start = 0

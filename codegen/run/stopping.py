@@ -134,7 +134,7 @@ class Stopping:
 
     def converged(self) -> list[Statement]:
         """Return the statements that set the flag ``converged``."""
-        # Tolerances are multiples of the unit roundoff: single precision needs fewer sweeps.
+        # Tolerances are multiples of the unit roundoff, so single precision needs fewer sweeps.
         form, previous = self.plan.format, self.previous
         close, tolerance = (form.scaled(x) for x in (self.loop.close, self.loop.tolerance))
         # The predicted next change, rate times change, must be below rounding, because a small change alone

@@ -1,7 +1,7 @@
 """Whether the projection of a scene's action reaches the orbit of the initial state.
 
-An action of a group without projection returns a point unchanged (:meth:`Action.to_orbit`). A method that
-only projects its results then stays on the orbit only if the orbit is open.
+An action of a group without projection returns a point unchanged (:meth:`Action.to_orbit`). In this case the
+results of a method that relies on the projection stay on the orbit only if the orbit is open.
 """
 
 from __future__ import annotations

@@ -144,7 +144,7 @@ class ExponentialsFormula(ActionFormula):
         bounds. None means no bound."""
         if not word:
             return one()
-        # The first term is the one in which all letters come from different exponentials.
+        # In the first term all letters come from different exponentials.
         lengths = reversed(list(compositions(len(word))))
         return total(*(self._runs(row, word, parts, above, below) for parts in lengths))
 

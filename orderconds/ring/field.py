@@ -58,7 +58,8 @@ class NumberField:
     ``generators`` are the adjoined roots; ``images`` are these roots as polynomials in x. ``parent`` is the
     field to which the last root was adjoined; ``parent_image`` is the primitive element of the parent as a
     polynomial in x. ``reciprocals`` is a cache of inverses. The cache is small, because the formulas of
-    methods divide only by a few weights. It saves time, because one division costs as much as many products.
+    methods divide only by a few weights. The cache saves time, because one division costs as much as many
+    products.
     """
 
     def __init__(

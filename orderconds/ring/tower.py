@@ -206,8 +206,9 @@ def _multipliers(degree: int) -> Iterator[int | None]:
 
 
 def _times(vector: list[Algebraic], powers: list[Algebraic], multiplier: int | None) -> list[Algebraic]:
-    """Return the product of an element of the algebra, given by its coefficients of b^j, and ab or b +
-    multiplier a."""
+    """Return the product of an element of the algebra and c, where c is ab or b + ``multiplier`` a. The
+    element is given by its coefficients of b^j.
+    """
     field = powers[0].field
     top = vector[-1]
     shifted = [x + top * p for x, p in zip([field.zero, *vector[:-1]], powers, strict=True)]

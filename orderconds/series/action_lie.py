@@ -44,7 +44,8 @@ class MuntheKaasActionSeries(ActionSeries):
     ) -> None:
         super().__init__(ring, b)
         self._cutoff = cutoff
-        # One entry for the exponents of all stages, and one for the exponent of the update.
+        # The table has one entry for the exponents of all stages, and one entry for the exponent of the
+        # update.
         self._rows: tuple[list[Exponential], ...] = ([sparse(ring, row) for row in A], [sparse(ring, b)])
         self._sums = tuple(Sums(rows, ring.zero) for rows in self._rows)
         self._powers: dict[tuple[int, int, Word], Stages] = {}

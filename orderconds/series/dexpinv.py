@@ -36,7 +36,7 @@ class DexpinvSeries:
         self, ring: Ring, A: Sequence[Sequence[Element]], b: Sequence[Element], cutoff: int | None = None
     ) -> None:
         self._ring, self._cutoff = ring, cutoff
-        # One entry for the arguments of all stages, and one for the argument of the step.
+        # The table has one entry for the arguments of all stages, and one entry for the argument of the step.
         self._rows = (Sums([sparse(ring, row) for row in A], ring.zero), Sums([sparse(ring, b)], ring.zero))
         self._stages = len(b)
         self._powers: dict[tuple[int, int, Forest], list[Element]] = {}
