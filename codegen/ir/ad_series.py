@@ -61,8 +61,7 @@ def simplified(word: Word) -> Word:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
     # The loop runs over a copy of the table, because the rule adds keys to the table. The rule is applied at
-    # most once, because it
-    # removes the only exponential.
+    # most once, because it removes the only exponential.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
         if function == "dexp" and n > 0 and rate == -scale:

@@ -136,9 +136,8 @@ class _Gathering:
         if not _is_inverse(atom):
             return c, atom
         # A numerator other than 1 costs no more than the numerator 1, and saves the product of the first
-        # reader. Later readers
-        # share the division: they multiply d by the ratio of their coefficient to the coefficient of the
-        # first reader, which is often 1.
+        # reader. Later readers share the division: they multiply d by the ratio of their coefficient to the
+        # coefficient of the first reader, which is often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 

@@ -49,8 +49,7 @@ class Assignments:
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
             # The matrix to leading order in h comes before the body, because it is computed outside the
-            # sweeps and must not
-            # read body values.
+            # sweeps and must not read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
             # Skip corrected values that nothing reads later: they would cost assignments in every sweep.

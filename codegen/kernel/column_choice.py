@@ -23,16 +23,14 @@ CALL = 10
 """A function call counts as this many operations. The number was chosen with ``benchmarks/emitted.py``.
 
 With 20 in place of 10, all emitted files stay the same. With 5, the files of five explicit methods change. To
-repeat this
-comparison, edit the value and type ``orderconds regenerate --check``."""
+repeat this comparison, edit the value and type ``orderconds regenerate --check``."""
 
 WIDTH = 8
 """The number of independent operations that a processor completes during one addition.
 
 The number was chosen with ``benchmarks/emitted.py``. With 16 in place of 8, all emitted files stay the same.
-With 4, the
-files of
-``rkmk:rk4`` on free_rigid_body and of one splitting change. Repeat the comparison as for :data:`CALL`."""
+With 4, the files of ``rkmk:rk4`` on free_rigid_body and of one splitting change. Repeat the comparison as for
+:data:`CALL`."""
 
 
 def fastest(program: Program, scene: Problem) -> Kernel:
@@ -48,8 +46,8 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
     # Run-time inputs are sampled in every step, so no flow is deferred if the scene has run-time inputs. The
-    # core is the
-    # step without its deferred flows; only the core is computed in every step, so only the core is compared.
+    # core is the step without its deferred flows; only the core is computed in every step, so only the core
+    # is compared.
     parted = None if scene.inputs else part(program, scene)
     core = program if parted is None else parted.core
     # All variants are compiled and compared, because the common subexpressions of the scene decide which is

@@ -3,8 +3,7 @@
 A processor executes several products at a time, but a step of flows is one chain of dependent operations. The
 chain leads from an angle through its sine and cosine, the rotated attitude and the kicked momentum to the
 next angle. The values c of the sine and the cosine are known late in this chain. An expression that is linear
-in such
-values, k (m - g (d + c_1 v + c_2 w)), is rewritten as k (m - g d) - c_1 (k g v) - c_2 (k g w). Three
+in such values, k (m - g (d + c_1 v + c_2 w)), is rewritten as k (m - g d) - c_1 (k g v) - c_2 (k g w). Three
 operations then follow c instead of six. The rewriting is exact, but adds a few products, so only the longest
 chain is rewritten.
 """

@@ -40,8 +40,7 @@ WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations in additions or products; other operations cost one.
 
 These are rough latencies. They only decide whether one cost is below half of another cost, so exact values do
-not
-matter."""
+not matter."""
 
 
 @dataclass(frozen=True)

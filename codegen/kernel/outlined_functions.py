@@ -53,8 +53,8 @@ def function(
 ) -> tuple[Function, list[int], list[str]]:
     """Return the function for a tree, and its arguments: positions of inputs of the tree, then parameters.
 
-    The parameters are the scene's parameters that operations of the tree read at run time.
-    ``read`` are the indices of the results that the function computes. ``fixed`` has, for each input
+    The parameters are the scene's parameters that operations of the tree read at run time. ``read`` are the
+    indices of the results that the function computes. ``fixed`` has, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
     None.
     """

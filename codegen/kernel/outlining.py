@@ -32,16 +32,15 @@ LONG, LONG_EXPLICIT = 700, 500
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
 dipole has 545 lines, not 2345, and takes a third less time. If either limit is doubled, the kernels of nine
 methods of the gallery do not change. To choose the numbers again, set both to 0 and compare ``orderconds
-bench
-dipole`` for methods near these lengths."""
+bench dipole`` for methods near these lengths."""
 
 WORTH = 0.85
 """The outlined step is used if it has at most this fraction of the assignments.
 
 Calls cost time, too, so the step must become much shorter. The exact limit hardly matters: the fraction is
-between 0.23 and 0.5 for ``cg:cg5``,
-``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on heavy_top. It is 0.86 for one
-variant of ``cg:cg5`` on heavy_top. :mod:`codegen.kernel.translate` computes the fraction."""
+between 0.23 and 0.5 for ``cg:cg5``, ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4``
+on heavy_top. It is 0.86 for one variant of ``cg:cg5`` on heavy_top. :mod:`codegen.kernel.translate` computes
+the fraction."""
 
 AGREE = 1e-9
 """Largest relative difference of values that are equal up to rounding.

@@ -27,9 +27,8 @@ NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
 
 It converts operations to lines. With 2 or 5 in place of 3, all emitted files stay the same (to repeat this,
-edit the value and type
-``orderconds regenerate --check``). Among longer steps, cg:cg5 on dipole has 6611, 6155 and 6467 operations
-with 2, 3 and 5, and 471, 454 and 394 assignments."""
+edit the value and type ``orderconds regenerate --check``). Among longer steps, cg:cg5 on dipole has 6611,
+6155 and 6467 operations with 2, 3 and 5, and 471, 454 and 394 assignments."""
 
 Values = tuple[Expr, ...]
 

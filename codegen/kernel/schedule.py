@@ -194,8 +194,8 @@ def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
     # The Stumpff functions of the loop body are recorded separately from the Stumpff functions before the
-    # loop: the arguments in the
-    # body depend on the unknowns, so no call before the loop computes these values.
+    # loop: the arguments in the body depend on the unknowns, so no call before the loop computes these
+    # values.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
     images = tuple(inner.rewrite(e) for e in loop.images)

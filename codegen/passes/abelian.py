@@ -2,8 +2,7 @@
 
 The pass is exact. If every bracket vanishes, dexp^{-1}, dexp* and the adjoint operations are the identity,
 and ad and the derivative P of dexp^{-1} are zero. On any group dexp^{-1} truncated at order 0 is the
-identity, and P truncated at order 0
-is zero.
+identity, and P truncated at order 0 is zero.
 """
 
 from __future__ import annotations

@@ -3,8 +3,7 @@
 The pass is exact. An edge leads from each assignment to every assignment that reads one of its values. An
 unknown is represented by its image, the right-hand side of the unknown's fixed-point equation. A component
 without a cycle becomes assignments outside blocks; a component with a cycle becomes a block with its own
-unknowns.
-Explicit methods therefore need no solver, and a composition tableau is solved stage by stage.
+unknowns. Explicit methods therefore need no solver, and a composition tableau is solved stage by stage.
 """
 
 from __future__ import annotations

@@ -55,8 +55,7 @@ APART = 16
 """The smallest ratio of consecutive step sizes at which programs are compared.
 
 The iteration for rewritten equations may converge only in smaller steps; a comparison in one step in which
-they
-converge is enough."""
+they converge is enough."""
 
 LARGEST = 2.0**512
 """Results above this number are not compared: a step with such a result is too long."""

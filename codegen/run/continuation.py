@@ -65,8 +65,7 @@ class _Continuation:
     """Builds the function; the attributes are the variables of the function."""
 
     # Two steps as fractions of h: the longest step that succeeded, and the step that is tried now. The factor
-    # is the
-    # ratio of consecutive fractions.
+    # is the ratio of consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
 

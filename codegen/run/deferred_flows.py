@@ -214,8 +214,7 @@ class _Deferring:
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
         # The elapsed time is one product and not a sum over steps, because a product makes a single rounding
-        # error,
-        # however many steps were deferred.
+        # error, however many steps were deferred.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),

@@ -2,8 +2,7 @@
 
 It executes the same statements as emitted code, so it takes the same sweeps, matrices and steps; only the
 arithmetic differs, because the scalars belong to a domain (:mod:`codegen.ir.domain`). Each function is
-compiled to closures once, so that
-a run of many steps does not traverse the statements again.
+compiled to closures once, so that a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
 >>> from codegen.run.language import Assign, Function, Return, Unit, While

@@ -1,8 +1,8 @@
 """The run representation: the code around a kernel as a small imperative program.
 
 Stopping rules, warm starts, continuation, runs and step control are written once in this representation, one
-file for each
-concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any scalars.
+file for each concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any
+scalars.
 
 A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
 :class:`While`, :class:`If`, :class:`Call` and :class:`Return`; ``select`` is a term. Its rules suit targets

@@ -113,8 +113,7 @@ def _aged(plan: Plan) -> list[Statement]:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
         # With age 0 the next step computes a new matrix, because after ``period`` steps the iteration with
-        # the old
-        # matrix contracts poorly.
+        # the old matrix contracts poorly.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence

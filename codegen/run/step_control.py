@@ -132,8 +132,7 @@ class _Controlled:
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
         parameters = (plan.state(), *chosen, *passed, self.accepted, self.rejected)
         # Integration backwards in time is allowed, so the test has a case for each direction. For a NaN both
-        # tests are
-        # false.
+        # tests are false.
         moving = either(self.now < self.end, self.now > self.end)
         body: tuple[Statement, ...] = (
             *self.begin(),
@@ -232,9 +231,8 @@ class _Controlled:
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
         # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step, at
-        # most its value for the norm FLOOR.
-        # The previous error damps the controller: step sizes oscillate less where stability limits them. The
-        # first step has no previous error.
+        # most its value for the norm FLOOR. The previous error damps the controller: step sizes oscillate
+        # less where stability limits them. The first step has no previous error.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
         # A rejection shows that the predicted step size was too large: do not increase the step at once
         # (Hairer, Norsett and Wanner).

@@ -17,8 +17,7 @@ diverging iteration is never accepted on the grounds that its values are still s
 finite ends a loop with NOT_FINITE.
 
 The stopping test by rate times change is taken from Hairer and Wanner, Solving Ordinary Differential
-Equations II,
-section IV.8.
+Equations II, section IV.8.
 """
 
 from __future__ import annotations

@@ -69,8 +69,8 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the forms of a scene: the equations as printed first, then each form that its group offers.
 
     For the coordinates of the scene and for the coordinates of covers, the frame with fewer operations is
-    chosen: the
-    body frame for inertia that is fixed in the body, and the space frame for inertia that is fixed in space.
+    chosen: the body frame for inertia that is fixed in the body, and the space frame for inertia that is
+    fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)

@@ -41,8 +41,7 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
     """Return the implied orders, by label, in all families whose conditions are a subset of the conditions of
-    a family
-    in ``facts``.
+    a family in ``facts``.
 
     >>> consequences([("vrkmk(1)", 3)])
     {'vrkmk(1)': 3, 'sprk': 3, 'rk': 3, 'symplectic_rk': 3}

@@ -1,11 +1,10 @@
 """Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
 Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of other coefficients. They restrict a
-family to a
-sub-family, in which fewer conditions of the family are independent. A condition is left out if its value is a
-fixed combination of kept conditions of its order and of products of kept conditions of lower order, and this
-combination is valid for every method of the sub-family and for the exact flow. The condition therefore holds
-if the kept conditions hold.
+family to a sub-family, in which fewer conditions of the family are independent. A condition is left out if
+its value is a fixed combination of kept conditions of its order and of products of kept conditions of lower
+order, and this combination is valid for every method of the sub-family and for the exact flow. The condition
+therefore holds if the kept conditions hold.
 
 Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each
 combination is then verified exactly at one member of the sub-family, drawn from a digest of the file

@@ -127,8 +127,7 @@ def _rounded_free(
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
     """Solve for the coefficients ``solved``, with all other coefficients fixed, and return the solution near
-    ``start``
-    with its residual norm."""
+    ``start`` with its residual norm."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:
         whole = np.repeat(start[None], len(points), axis=0)

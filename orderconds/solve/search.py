@@ -207,8 +207,7 @@ def batches(
     """Yield ``count`` batches 0, 1, ... in order; batches in the checkpoint are not computed again.
 
     With several processes, the first new batch runs in this process, and all other batches run in further
-    processes. With
-    ``cluster``, all new batches run on the dask cluster at this address. Raises
+    processes. With ``cluster``, all new batches run on the dask cluster at this address. Raises
     :class:`~orderconds.errors.InputError` for a cluster that does not answer.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")

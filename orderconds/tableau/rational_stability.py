@@ -1,8 +1,7 @@
 """A- and L-stability for rational coefficients, with flint's polynomials and certified roots.
 
 The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation here is fast enough for
-methods
-with a hundred stages.
+methods with a hundred stages.
 """
 
 from __future__ import annotations

@@ -32,8 +32,7 @@ def bicoloured_rooted_trees(vertices: int) -> Iterator[BicolouredTree]:
 
 def alternating_free_trees(vertices: int) -> tuple[BicolouredTree, ...]:
     """Return every free tree with alternating colours exactly once. The root is a vertex for which the height
-    of the
-    tree is least.
+    of the tree is least.
 
     In such a tree any two neighbours differ in colour. These are the trees of symplectic partitioned methods
     for separable Hamiltonians (Abia and Sanz-Serna 1993; HLW VI.7.2). If a symmetry of the uncoloured tree

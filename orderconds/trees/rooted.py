@@ -13,8 +13,7 @@ from orderconds.trees.levels import Tree
 
 def rooted_trees(vertices: int) -> Iterator[Tree]:
     """Yield every rooted tree with ``vertices`` vertices exactly once, in canonical form, from the tall tree
-    to the
-    bushy tree.
+    to the bushy tree.
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in rooted_trees(4)]

@@ -1,8 +1,7 @@
 """Prints functions of the run representation as C: types, declarations, statements.
 
 A scalar that is assigned once is ``const``, and so is an array parameter that the function does not change.
-Arrays are
-copied by ``memcpy``, and records are cleared by ``memset``.
+Arrays are copied by ``memcpy``, and records are cleared by ``memset``.
 """
 
 from __future__ import annotations

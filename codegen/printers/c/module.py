@@ -37,10 +37,9 @@ EACH, EACH_SOLVING = 8, 10
 """The stack bound counts this many bytes for each number of a step: without equations, and with equations.
 
 Single precision needs as many bytes as double precision, because an optimiser keeps pairs of numbers for
-vector instructions in 16 bytes. Where
-equations are solved, an optimiser also needs space for values without a name, which it moves out of a loop.
-The most that was measured with equations were 8.8 bytes in double precision and 8.0 bytes in single
-precision.
+vector instructions in 16 bytes. Where equations are solved, an optimiser also needs space for values without
+a name, which it moves out of a loop. The most that was measured with equations were 8.8 bytes in double
+precision and 8.0 bytes in single precision.
 """
 
 MEASURED = "gcc 12 and clang 14 at -O0 to -O3 on x86-64"
