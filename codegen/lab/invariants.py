@@ -27,7 +27,10 @@ MANIFOLD = "manifold"
 def functions(scene: Problem) -> dict[str, Evaluate]:
     """Return each conserved quantity as a function (state, t) of floats."""
     kept = expressions(scene)
-    return {name: straight_line(scene, exprs).python(float, FUNCTIONS) for name, exprs in kept.items()}
+    return {
+        name: straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS)
+        for name, exprs in kept.items()
+    }
 
 
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:

@@ -33,7 +33,7 @@ class Effort:
     ``budget`` is the CPU time in seconds that one run of the bench may take. ``steps`` is the number of steps
     of a long run. The flags add measurements. ``back``: each long run is also run backward to the start.
     ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the scene. ``endurance``: runs of
-    ten million steps.
+    ten million steps. ``search`` are the seconds of the search for the fastest methods of the library.
     """
 
     budget: float
@@ -43,11 +43,14 @@ class Effort:
     rounding: bool
     stiff: bool
     endurance: bool
+    search: float = 25.0
 
 
-QUICK = Effort(0.002, ("c-dop853",), 10_000, back=False, rounding=False, stiff=False, endurance=False)
+QUICK = Effort(
+    0.002, ("c-dop853",), 10_000, back=False, rounding=False, stiff=False, endurance=False, search=8.0
+)
 USUAL = Effort(0.05, ("c-dop853", "heyoka"), 100_000, back=True, rounding=True, stiff=True, endurance=False)
-FULL = Effort(0.5, ("all",), 1_000_000, back=True, rounding=True, stiff=True, endurance=True)
+FULL = Effort(0.5, ("all",), 1_000_000, back=True, rounding=True, stiff=True, endurance=True, search=100.0)
 EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 
@@ -96,6 +99,7 @@ class Subject:
 
     ``name`` is the scene as the user wrote it. ``adaptive`` are the methods that run with step-size control.
     ``results`` holds the results of measurements by name, so a measurement can use the result of another one.
+    ``named`` says that the user named the methods.
     """
 
     name: str
@@ -107,6 +111,7 @@ class Subject:
     cache: MeasurementCache = field(default_factory=lambda: MeasurementCache(None))
     progress: Progress = str
     results: dict[str, object] = field(default_factory=dict)
+    named: bool = False
 
     @cached_property
     def exact_or_reason(self) -> Reference | str:
@@ -190,4 +195,4 @@ def subject(
         chosen, controlled = report_methods(scene)
     others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))
     find(others)
-    return Subject(name, scene, chosen, controlled, others, effort)
+    return Subject(name, scene, chosen, controlled, others, effort, named=bool(methods or adaptive))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from codegen.certify import certified_order
 from codegen.emitter import quoted
 from codegen.errors import MethodError
 from codegen.lower import families_for, lowering
-from codegen.method import Method, with_estimate
+from codegen.method import Method, parse, with_estimate
 from codegen.scene.classical_forms import PRINTED, classical_forms
 from codegen.scene.problem import Problem
 from orderconds.families import Family, family_class
@@ -156,11 +156,22 @@ def _both(method: str, order: int, stages: int, tableau: str, controlled: bool) 
         yield Recipe(method, order, stages, tableau, adaptive=True)
 
 
-def in_turns(recipes: Iterable[Recipe]) -> list[Recipe]:
-    """Return recipes with few stages first, so that families and forms take turns."""
-    places: dict[tuple[str, str], int] = defaultdict(int)
-    ranked = []
-    for recipe in sorted(recipes, key=lambda r: r.stages):
-        places[recipe.family, recipe.form] += 1
-        ranked.append((places[recipe.family, recipe.form], recipe))
-    return [recipe for _, recipe in sorted(ranked, key=lambda pair: pair[0])]
+def method_of(recipe: Recipe, problem: Problem) -> Method:
+    """Return the method of a recipe; MethodError if the scene or the family refuses it."""
+    method = replace(parse(recipe.method, families_for(problem)), adaptive=recipe.adaptive)
+    method.embedded()
+    return method
+
+
+def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
+    """Yield the recipes of named methods, with or without step-size control, in every form that suits them.
+
+    The order of a method is the one that is proved for the scene.
+    """
+    forms = [form.key for form in classical_forms(problem)]
+    for label, adaptive in methods:
+        method = parse(label, families_for(problem))
+        order = certified_order(method, problem).order
+        stages = order if method.coefficients is None else size(method.tableau)
+        for form in forms if lowering(method.family).in_coordinates else forms[:1]:
+            yield Recipe(method.label, order, stages, method.name, adaptive, form)

@@ -196,8 +196,9 @@ def _quantities(
 ) -> dict[str, Evaluate]:
     """Return expressions as functions of numbers with 60 digits."""
     functions = {name: getattr(domain.context, name) for name in MATHEMATICAL}
+    scene = compiled.scene
     return {
-        name: straight_line(compiled.scene, exprs).python(domain.number, functions)
+        name: straight_line(scene.name, scene.symbols, exprs).python(domain.number, functions)
         for name, exprs in kept.items()
     }
 

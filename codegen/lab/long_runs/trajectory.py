@@ -151,7 +151,7 @@ def array_functions(
         return evaluate
 
     return {
-        name: vectorised(straight_line(scene, exprs).python(float, FUNCTIONS))
+        name: vectorised(straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS))
         for name, exprs in (kept or expressions(scene)).items()
     }
 

@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from codegen import scenes
 from codegen.build import find_compiler
-from codegen.lab.efficiency.requirements import NEEDS
+from codegen.lab.efficiency.requirements import REQUIREMENTS
 from codegen.lab.measurement import Section
 from codegen.lab.page.formatting import scientific
 from codegen.lab.scene_results import SceneResults
@@ -60,7 +60,7 @@ def render_overview(every: Sequence[SceneResults], command: str) -> str:
         }
         for results in every
     ]
-    return _filled("overview.html.j2", command, scenes=summaries, needs=NEEDS)
+    return _filled("overview.html.j2", command, scenes=summaries, needs=REQUIREMENTS)
 
 
 def _html(section: Section) -> Markup:

@@ -11,7 +11,8 @@ import pytest
 from codegen.errors import MethodError
 from codegen.lab import subject as subjects
 from codegen.lab.efficiency import emitted_candidate, peer_candidate
-from codegen.lab.efficiency.requirements import NEEDS
+from codegen.lab.efficiency.requirements import DECADES, REQUIREMENTS
+from codegen.lab.measurements.advice import Advice
 from codegen.lab.measurements.orders import Orders, agreement
 from codegen.lab.measurements.stability import StabilityTests
 from codegen.lab.orders import order_study
@@ -164,11 +165,25 @@ def test_the_overview_links_to_the_page_and_names_each_requirement(
     overview: str, found: SceneResults
 ) -> None:
     assert f'<a href="{page_name(found)}">' in overview
-    for need in NEEDS:
+    for need in REQUIREMENTS:
         assert need.name in overview
-    assert re.findall(r"No method on this[^<]*", overview) == [
-        "No method on this page satisfies: symplectic, adaptive."
-    ]
+    assert re.findall(r"No method satisfies[^<]*", overview) == ["No method satisfies: symplectic, adaptive."]
+
+
+def test_each_cell_of_the_advice_has_the_time_the_step_and_the_command(
+    overview: str, found: SceneResults
+) -> None:
+    lines = {line.need: line.best for line in part(found, Advice).advice}
+    cells = [best for best in lines["any emitted method"] if best is not None]
+    assert len(cells) == len(DECADES)
+    times = [best.seconds for best in cells]
+    assert times == sorted(times)  # a smaller error never takes less time
+    for best in cells:
+        assert best.command == f"orderconds emit free_rigid_body --method {best.method} -o ."
+        assert best.h is not None
+        assert best.steps == round(2 / best.h)
+        assert best.command in overview
+    assert lines["symplectic"] == (None,) * len(DECADES)
 
 
 def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> None:
