@@ -57,7 +57,9 @@ class Jobs(Sequence[Job]):
         return len(self.goals)
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
-        """Return the next job; jobs are read once, in order."""
+        """Return the next job; jobs are read once, in order. IndexError ends an iteration."""
+        if k >= len(self):
+            raise IndexError(k)
         queue = min((q for q in self.queues if self.queues[q]), key=self._place)
         self.turns[queue] += 1
         recipe = self.queues[queue].popleft()
