@@ -238,5 +238,6 @@ def test_named_methods_alone_are_searched() -> None:
 def test_a_search_among_very_few_tableaux_ends() -> None:
     """A single job runs in this process, and the queue of jobs must end there too."""
     result = recommend(Request("free_rigid_body", 1e-3, tableaux=("cf4",)))
-    assert {p.entry.recipe.method.tableau.name for p in result.places} == {"cf4"}
+    assert all(p.entry.recipe.method.endswith("cf4") for p in result.places)
+    assert result.places
     assert list(Jobs({})) == []
