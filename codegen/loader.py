@@ -22,6 +22,7 @@ from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.printers import target as known_target
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
+from codegen.run.status import reason
 from orderconds.errors import InputError
 
 State = Any
@@ -43,6 +44,9 @@ class Status(IntEnum):
     NOT_FINITE = 2
     BAD_STEP = 3
     LIMIT = 4
+    TOO_FAR = 5
+    SINGULAR = 6
+    TOO_SHORT = 7
 
 
 class StepFailed(ArithmeticError):
@@ -312,7 +316,9 @@ class CompiledIntegrator(Integrator):
             status = self._run(*arguments)
         final = self._ffi.unpack(state, size)
         if status != Status.OK:
-            raise begun.failed(status, completed[0], final, reason(status, self._block(counted), h))
+            raise begun.failed(
+                status, completed[0], final, reason(Status(status).name, self._block(counted), h)
+            )
         flat = self._ffi.unpack(rows, row_count * size) if stride else []
         return final, [flat[i : i + size] for i in range(0, len(flat), size)]
 
@@ -328,7 +334,7 @@ class CompiledIntegrator(Integrator):
             status = run(*arguments, accepted, rejected)
         final = self._ffi.unpack(state, self.interface.size)
         if status != Status.OK:
-            why = reason(status, self._block(counted), span[2])
+            why = reason(Status(status).name, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
                 why = f"expected finite numbers and no negative tolerance, found {given}"
@@ -359,7 +365,7 @@ class CompiledIntegrator(Integrator):
         derive = getattr(self._library, f"{self.interface.prefix}jacobian")
         status = derive(begun.numbers, *time, h, *begun.values, *inputs, matrix)
         if status != Status.OK:
-            raise begun.failed(status, 0, begun.numbers, reason(status, "an implicit block", h))
+            raise begun.failed(status, 0, begun.numbers, reason(Status(status).name, "an implicit block", h))
         flat = self._ffi.unpack(matrix, size * size)
         return [flat[i : i + size] for i in range(0, size * size, size)]
 
@@ -433,19 +439,6 @@ class InterpretedIntegrator(Integrator):
             raise begun.failed(failure.status, failure.step, failure.state, failure.reason) from None
         finally:
             self._count(counts, begun.statistics)
-
-
-def reason(status: int, block: str, h: float) -> str:
-    """Return the reason why a step has failed, for an error message."""
-    match status:
-        case Status.BAD_STEP:
-            return f"the step size h = {h} is not finite"
-        case Status.LIMIT:
-            return "the end is not reached: too many steps, or a step too small to change t"
-        case Status.NOT_CONVERGED:
-            return f"{block} did not converge"
-        case _:
-            return f"{block} computed a number that is not finite" if block else "the new state is not finite"
 
 
 def like(state: State, values: Sequence[Any]) -> State:
