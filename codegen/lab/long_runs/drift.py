@@ -62,8 +62,8 @@ STRAIGHT = 0.0225
 """The same variance about a line. It is less than STRAIGHT for 1 % of all random walks."""
 
 STEADY = 3.2
-"""The mean increment over BLOCKS blocks in units of its standard error. It exceeds STEADY for 1 % of all random
-walks."""
+"""The mean increment over BLOCKS blocks in units of its standard error. It exceeds STEADY for 1 % of all
+random walks."""
 
 TINY = 1e-24
 """Smaller variances, relative to the square of the largest deviation, consist of rounding errors."""
@@ -79,11 +79,11 @@ class Drift:
     ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random
     walk, 1 for a drift. ``rounding`` is the largest deviation that rounding errors can explain. If too few
     values are finite, the slope is NaN. ``persists`` is whether the deviation is monotone in the means of
-    consecutive parts. ``confined`` and ``unlike_walk`` are whether a random walk is excluded as the law of the
-    deviation, without and with a line added to it. ``later`` is the largest deviation divided by the largest deviation of the first half.
-    ``ratios`` are the variance ratios of increments over NEAR and over FAR blocks. ``until`` is the time at
-    which the deviation saturates; the slope, its interval, ``exponent`` and ``persists`` are then those of
-    the record before.
+    consecutive parts. ``confined`` and ``unlike_walk`` are whether a random walk is excluded as the law of
+    the deviation, without and with a line added to it. ``later`` is the largest deviation divided by the
+    largest deviation of the first half. ``ratios`` are the variance ratios of increments over NEAR and over
+    FAR blocks. ``until`` is the time at which the deviation saturates; the slope, its interval,
+    ``exponent`` and ``persists`` are then those of the record before.
     """
 
     slope: float
