@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from orderconds.families import Family, family_class, get, names
+from orderconds.families.base import all_nonzero
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
+from orderconds.tableau.library import available
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -199,6 +201,41 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
     return Method(match["family"], None, number)
 
 
+def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> MethodError:
+    """Return the error for a tableau that none of the families can read."""
+    formats = sorted({f for name in families for f in family_class(name).formats})
+    return MethodError(
+        f"the tableau {tableau.name} has the format {tableau.family}; it claims no order under "
+        f"{', '.join(families)}",
+        where=text,
+        expected=f"a tableau of format {' or '.join(formats)}",
+        hint=f"write for example {_example(families)}",
+    )
+
+
+def _label(family: str, tableau: str) -> str:
+    """Return the label of a method, with a cut-off if the family takes one."""
+    return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
+
+
+def _divides_by_zero(family: str, tableau: Tableau) -> bool:
+    """Whether the formulas of the family divide by a weight of the tableau that may be zero."""
+    method = tableau.read_as(("rk",))
+    if not family_class(family).needs_nonzero_weights or not isinstance(method, RungeKutta):
+        return False
+    return not all_nonzero(method.b, tableau.ring)
+
+
+def _example(families: Sequence[str]) -> str:
+    """Return the label of a method of the first family that has a tableau in the library."""
+    for name in families:
+        kind = family_class(name)
+        for example in available():
+            if kind.has_tableau and Tableau.load(find(example)).read_as(kind.formats) is not None:
+                return _label(name, example)
+    raise AssertionError(families)
+
+
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 
@@ -239,6 +276,9 @@ def parse(text: str, families: Sequence[str]) -> Method:
     # its exponents.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
+    readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
+    if not readable or (family is not None and family not in readable):
+        raise _unreadable(text, tableau, families if family is None else (family,))
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # as splitting(3)
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
@@ -246,13 +286,14 @@ def parse(text: str, families: Sequence[str]) -> Method:
     if family is not None and not family_class(family).takes_cutoff:
         return Method(family, tableau)
     if not wanted:
+        # The first family may need a cut-off, too: then a name without one would lead to a second hint.
+        fitting = [f for f in ((family,) if family else readable) if not _divides_by_zero(f, tableau)]
+        label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
         raise MethodError(
             f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
             where=text,
             expected="a cut-off in the method's name" if family else "a family in the method's name",
-            hint=f"write {family}(2):{match['tableau']}"
-            if family
-            else f"write {families[0]}:{match['tableau']}",
+            hint=f"write {label}",
         )
     best = min(wanted, key=lambda c: (-c.order, families.index(c.family), c.cutoff or 0))
     uncut = Method(best.family, tableau)
