@@ -5,6 +5,8 @@
 #   make test-all  the same with the proofs that take minutes, and coverage
 #   make gate      check every tableau of the library
 #   make lint      ruff, mypy --strict, import-linter, limits of size and complexity (.ci/structure.py)
+#   make docs      build the documentation as a web site in build/site
+#   make reference write the pages of docs/ that follow from the program: commands, Python, outputs of sessions
 #   make bench     time this project beside its peers (benchmarks/)
 
 SHELL := /bin/bash
@@ -17,7 +19,7 @@ EMITTED := $(REPORT)/emitted
 # Neighbouring tests share what they derive, so each process begins with a run of neighbours and takes over others' last.
 PYTEST := $(BIN)/python -m pytest -n 2 --dist worksteal -rs --doctest-modules orderconds codegen tests
 
-.PHONY: demo test test-all bench gate lint compiler clean
+.PHONY: demo test test-all bench gate lint docs reference compiler clean
 .DELETE_ON_ERROR:
 
 # The stamp makes an old environment follow pyproject.toml and constraints.txt. The pins also bind the build backend.
@@ -62,11 +64,24 @@ bench: $(INSTALLED) compiler
 	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[peers]'
 	@set -e; for script in benchmarks/*.py; do echo "$$script"; $(BIN)/python $$script; done
 
+# MkDocs stops at the first broken link (--strict).
+docs: $(INSTALLED)
+	PIP_CONSTRAINT=$(CURDIR)/constraints.txt $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	$(BIN)/python .ci/reference.py --check
+	$(BIN)/mkdocs build --strict --quiet
+	@echo "open build/site/index.html"
+
+reference: $(INSTALLED)
+	$(BIN)/python .ci/reference.py
+	$(BIN)/python tests/sessions.py
+	$(BIN)/orderconds table --write docs/reference/library.md
+
 # The gate: every claim of the library holds with a certificate, nothing that a tableau can serve is left unclaimed, and
-# the README shows the library as it is.
+# docs/reference/library.md shows the library as it is.
 gate: $(INSTALLED)
 	$(BIN)/orderconds check --complete --certified tableaux
-	$(BIN)/orderconds table --check README.md
+	$(BIN)/orderconds table --check docs/reference/library.md
+	$(BIN)/python .ci/reference.py --check
 
 lint: $(INSTALLED)
 	$(BIN)/ruff check .

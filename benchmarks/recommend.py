@@ -28,9 +28,9 @@ TURNS = 5
 
 def timed(scene: str, results: list[Result]) -> list[float]:
     """Return the least CPU seconds of several runs, timed alternately."""
-    asked = Request(scene, 1.0)
-    exact = cached_reference(asked.problem())
-    racers = [Racer(asked.equations(r.entry.recipe.form), exact, r.entry) for r in results]
+    task = Request(scene, 1.0).task
+    exact = cached_reference(task.problem())
+    racers = [Racer(task.equations(r.entry.recipe.form), exact, r.entry) for r in results]
     for racer, result in zip(racers, results, strict=True):
         racer.error(result.control)
     turns = [[x.seconds(r.control) for x, r in zip(racers, results, strict=True)] for _ in range(TURNS)]

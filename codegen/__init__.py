@@ -14,8 +14,20 @@ from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
     from codegen.emitter import emit as emit
+    from codegen.lab.efficiency.advice import recommend as recommend
+    from codegen.lab.efficiency.measured import bench as bench
+    from codegen.lab.orders.scene_convergence import converge as converge
     from codegen.loader import load as load
 
-__all__ = ["emit", "load"]
+__all__ = ["bench", "converge", "emit", "load", "recommend"]
 
-lazy(__name__, emitter=("emit",), loader=("load",))
+lazy(
+    __name__,
+    emitter=("emit",),
+    loader=("load",),
+    **{
+        "lab.efficiency.advice": ("recommend",),
+        "lab.efficiency.measured": ("bench",),
+        "lab.orders.scene_convergence": ("converge",),
+    },
+)

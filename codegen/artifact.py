@@ -24,13 +24,16 @@ from orderconds.output_file import is_temporary, write_files
 MANIFEST = "manifest.json"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Artifact:
     """An emitted module in one target language: ``files`` maps file names to texts, ``manifest`` is the
     module's entry in the manifest."""
 
     files: Mapping[str, str]
     manifest: Mapping[str, Any]
+
+    def __repr__(self) -> str:
+        return f"<emitted {self.key[0]}, target {self.key[1]}: {', '.join(sorted(self.files))}>"
 
     @property
     def key(self) -> tuple[str, str]:

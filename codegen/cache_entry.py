@@ -15,7 +15,7 @@ import shutil
 import stat
 import tempfile
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
@@ -105,7 +105,22 @@ def recall(entry: Path) -> bytes | None:
 def keep(entry: Path, content: bytes) -> None:
     """Write an entry and its digest, each atomically; raise OSError if one of them cannot be written."""
     entry.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    write_files({_digest_file(entry): _digest(content) + b"\n", entry: content}, private=True)
+    write_entries({_digest_file(entry): _digest(content) + b"\n", entry: content})
+
+
+def write_entries(contents: Mapping[Path, bytes]) -> None:
+    """Write files that the user alone can read, each atomically; a folder in the place of a file is removed.
+
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     (Path(folder) / "x" / "y").mkdir(parents=True)
+    ...     write_entries({Path(folder) / "x": b"content"})
+    ...     (Path(folder) / "x").read_bytes()
+    b'content'
+    """
+    for path in contents:
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+    write_files(contents, private=True)
 
 
 def _digest_file(entry: Path) -> Path:

@@ -46,6 +46,7 @@ class CertifiedOrder:
             "exact": "the residuals of all order conditions up to this order are zero in exact arithmetic",
             "ball": "interval arithmetic proves that a method of this order exists whose coefficients "
             "differ from the decimals of the tableau by at most one unit in the last digit",
+            "double": "the conditions hold up to the rounding of the coefficients, which are doubles",
             "decimal": "the conditions hold up to the printed digits of the coefficients",
             "none": f"the uncertainty of the coefficients is {self.radius}, "
             "which is larger than the rounding error of a double",
@@ -116,6 +117,8 @@ def upwards(x: float) -> str:
 
 
 def _certified(method: Method, order: FamilyOrder, classical: str = "") -> CertifiedOrder:
-    radius = "" if method.coefficients is None else uncertainty(method.coefficients, DOUBLE_BITS)
+    # Coefficients that were given as doubles are emitted unchanged, whatever their author meant.
+    known = method.coefficients is None or method.coefficients.doubles
+    radius = "" if known else uncertainty(method.tableau, DOUBLE_BITS)
     certificate = "none" if radius else order.certificate
     return CertifiedOrder(order.order, certificate, order.limit is not None, order.failing, classical, radius)

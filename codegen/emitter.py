@@ -29,7 +29,7 @@ from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
 from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
-from codegen.method import Method, parse
+from codegen.method import Method, method_of
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -43,6 +43,7 @@ from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
 from orderconds import __version__
 from orderconds.errors import InputError
+from orderconds.tableau import Tableau
 
 SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
 
@@ -98,7 +99,7 @@ def optimise_method(scene: Problem, method: Method) -> Optimised:
 
 def compile_method(
     scene: Problem | str,
-    method: Method | str,
+    method: Method | Tableau | str,
     parameters: Sequence[str] = (),
     inputs: Sequence[str] = (),
     frame: str = "space",
@@ -107,6 +108,7 @@ def compile_method(
     solver: str = AUTO,
     jacobian: bool = False,
     form: str = PRINTED,
+    family: str = "",
 ) -> Compiled:
     """Return a method on a scene (or their names), lowered, optimised and translated to a kernel.
 
@@ -115,7 +117,8 @@ def compile_method(
     ``frame`` is the frame of momenta (:func:`codegen.scene.momentum_frame.with_frame`). ``solver`` is the
     solver of implicit blocks (:mod:`codegen.run.solver_choice`). ``adaptive`` adds the error estimate of an
     embedded method, ``jacobian`` the derivative of a step. ``form`` is the key of a classical form of the
-    scene (:mod:`codegen.scene.classical_forms`). Errors: SceneError, MethodError, UnknownName, TableauError.
+    scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
+    (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
     if isinstance(scene, str):
         scene = scenes.load(scene)
@@ -125,8 +128,7 @@ def compile_method(
         scene = with_inputs(scene, tuple(inputs))
     chosen = find_form(scene, form) if form != PRINTED else None
     scene = with_frame(scene if chosen is None else chosen.problem, frame)
-    if isinstance(method, str):
-        method = parse(method, families_for(scene))
+    method = method_of(method, families_for(scene), family)
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
@@ -165,7 +167,7 @@ def work(kernel: Kernel) -> int:
 
 def emit(
     scene: Problem | str,
-    method: Method | str,
+    method: Method | Tableau | str,
     target: str = DEFAULT,
     *,
     prefix: str = "",
@@ -177,26 +179,30 @@ def emit(
     solver: str = AUTO,
     jacobian: bool = False,
     form: str = PRINTED,
+    family: str = "",
 ) -> Artifact:
     """Return the integrator of a method on a scene as a module of a target.
 
     ``scene`` is a name of the gallery, the path of a Python file, or a problem. ``method`` is
-    ``FAMILY:TABLEAU`` or ``TABLEAU``. External names begin with ``prefix``, by default scene and method.
-    ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that become run-time
-    inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run with step
-    control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks: ``newton``,
-    ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key
-    of a classical form of the scene, by default the equations as printed. Errors: the errors of
+    ``FAMILY:TABLEAU`` or ``TABLEAU``, or an :class:`orderconds.Tableau`, which is used in ``family``, by
+    default in the family in which its order is highest. External names begin with ``prefix``, by default
+    scene and method. ``precision`` is ``double`` or ``single``. ``inputs`` are signals of the scene that
+    become run-time inputs. ``frame`` is the frame of momenta, ``space`` or ``body``. ``adaptive`` adds a run
+    with step control, ``jacobian`` the derivative of a step. ``solver`` is the solver of implicit blocks:
+    ``newton``, ``simplified-newton``, ``fixed-point``, or ``auto`` for the cheapest. ``form`` is the key of a
+    classical form of the scene, by default the equations as printed. Errors: the errors of
     :func:`compile_method`, UnknownName for an unknown target, and InputError for a prefix that is not a valid
     name in C.
     """
     known_target(target)
     known_precision(precision)
     named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
-    named["method"] = bare(method) if isinstance(method, str) else method.label
+    options = {"solver": solver, "form": form, "family": family}
     compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
+        scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options
     )
+    whole = isinstance(method, str) and not family
+    named["method"] = bare(str(method)) if whole else compiled.method.label
     return emit_compiled(compiled, target, prefix, named, precision=precision)
 
 

@@ -18,11 +18,11 @@ from orderconds.families import Family, family_class, get, names
 from orderconds.families.base import all_nonzero
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
-from orderconds.tableau import CommutatorFree, RungeKutta, Tableau, find
+from orderconds.tableau import CommutatorFree, OrderClaim, RungeKutta, Tableau, find
 from orderconds.tableau.library import available
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
 ALONE = re.compile(r"(?P<family>[a-z_]+)(?:\((?P<number>\d{1,3})\))?")
 """The form of a label of a method without tableau: the name of a family, and a number in parentheses if
@@ -213,6 +213,22 @@ def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> MethodE
     )
 
 
+def _unclaimed(
+    match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
+) -> MethodError:
+    """Return the error for a tableau that claims no order under the families that can read it."""
+    family = match["family"]
+    fitting = [f for f in readable if not _divides_by_zero(f, tableau)]
+    # A family that takes a cut-off needs one: a name without it would lead to a second hint.
+    label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
+    return MethodError(
+        f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
+        where=text,
+        expected="a cut-off in the method's name" if family else "a family in the method's name",
+        hint=f"write {label}",
+    )
+
+
 def _label(family: str, tableau: str) -> str:
     """Return the label of a method, with a cut-off if the family takes one."""
     return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
@@ -236,6 +252,35 @@ def _example(families: Sequence[str]) -> str:
     raise AssertionError(families)
 
 
+def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
+    """Return the method that an argument of a function in Python denotes: a method, a tableau, or a text.
+
+    ``families`` are the families that accept the scene. ``family`` chooses a family for a tableau, as
+    ``"rkmk(2)"``. Without it, a tableau that claims nothing is used in the family in which its computed order
+    is highest; claims decide otherwise, as in :func:`parse`.
+    """
+    if isinstance(given, Method):
+        return given
+    if isinstance(given, str):
+        return parse(f"{family}:{given}" if family else given, families)
+    label = f"{family}:{given.name}" if family else given.name
+    if not given.claims.orders:
+        given = replace(given, claims=replace(given.claims, orders=tuple(_computed(given, family))))
+    return _method(PATTERN.fullmatch(label), _enclosed(given), label, families)
+
+
+def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
+    """Yield the computed orders of a tableau in the families in which a complete file claims an order; with
+    ``family`` in the variants of this family."""
+    from orderconds.checking import check, claimable_families
+
+    for member in claimable_families(tableau):
+        if family.partition("(")[0] in ("", member.name):
+            for variant in member.claimed_variants():
+                (order,) = check(tableau, family=variant.label()).orders
+                yield variant.claim(order.order)
+
+
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 
@@ -255,7 +300,12 @@ def parse(text: str, families: Sequence[str]) -> Method:
             expected="TABLEAU or FAMILY:TABLEAU",
             hint="write for example vcg:triple_jump",
         )
-    tableau = _enclosed(Tableau.load(_file(match["tableau"])))
+    return _method(match, _enclosed(Tableau.load(_file(match["tableau"]))), text, families)
+
+
+def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: Sequence[str]) -> Method:
+    """Return the method of a tableau in the family that a text names, or in the family that claims choose."""
+    assert match is not None
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(
@@ -286,15 +336,7 @@ def parse(text: str, families: Sequence[str]) -> Method:
     if family is not None and not family_class(family).takes_cutoff:
         return Method(family, tableau)
     if not wanted:
-        # The first family may need a cut-off, too: then a name without one would lead to a second hint.
-        fitting = [f for f in ((family,) if family else readable) if not _divides_by_zero(f, tableau)]
-        label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
-        raise MethodError(
-            f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
-            where=text,
-            expected="a cut-off in the method's name" if family else "a family in the method's name",
-            hint=f"write {label}",
-        )
+        raise _unclaimed(match, tableau, text, families, readable if family is None else [family])
     best = min(wanted, key=lambda c: (-c.order, families.index(c.family), c.cutoff or 0))
     uncut = Method(best.family, tableau)
     if best.order <= uncut.kind.minimal_brackets and uncut.can_reduce_brackets():

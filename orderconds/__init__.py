@@ -32,7 +32,7 @@ h^p. Words t_1 ... t_k are written in the order of action: t_1 acts first.
 
 >>> import orderconds
 >>> sorted(orderconds.__all__)
-['Tableau', 'check', 'derive']
+['Tableau', 'check', 'construct', 'convert', 'derive', 'refine', 'solve', 'trees']
 """
 
 from __future__ import annotations
@@ -42,11 +42,28 @@ from typing import TYPE_CHECKING
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
+    from orderconds.checking.refinement import refine as refine
     from orderconds.checking.verdict import check as check
     from orderconds.derivation import derive as derive
+    from orderconds.exchange.conversion import convert as convert
+    from orderconds.explain.enumeration import trees as trees
+    from orderconds.solve.request import solve as solve
     from orderconds.tableau import Tableau as Tableau
+    from orderconds.tableau.collocation import construct as construct
 
 __version__ = "0.1.0"
-__all__ = ["Tableau", "check", "derive"]
+__all__ = ["Tableau", "check", "construct", "convert", "derive", "refine", "solve", "trees"]
 
-lazy(__name__, derivation=("derive",), tableau=("Tableau",), **{"checking.verdict": ("check",)})
+lazy(
+    __name__,
+    derivation=("derive",),
+    tableau=("Tableau",),
+    **{
+        "checking.verdict": ("check",),
+        "exchange.conversion": ("convert",),
+        "explain.enumeration": ("trees",),
+        "checking.refinement": ("refine",),
+        "solve.request": ("solve",),
+        "tableau.collocation": ("construct",),
+    },
+)

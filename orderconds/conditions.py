@@ -14,8 +14,11 @@ from typing import Any
 from orderconds.formula import Formula, named
 from orderconds.formula.notation import latex_fraction
 
+SHOWN = 80
+"""The largest number of characters of an equation in ``repr``."""
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class OrderCondition:
     """The condition that a method's value on ``tree`` equals ``rhs``, the value of the exact flow.
 
@@ -84,3 +87,11 @@ class OrderCondition:
 
     def __str__(self) -> str:
         return f"{self.expression} = {self.rhs}"
+
+    def __repr__(self) -> str:
+        shown = str(self)
+        shown = shown if len(shown) <= SHOWN else f"{shown[:SHOWN]} ..."
+        return f"OrderCondition({self.family} {self.tree}: {shown})"
+
+    def _repr_latex_(self) -> str:
+        return rf"$\displaystyle {self.latex_equation}$"

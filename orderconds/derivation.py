@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import chain
+from typing import overload
 
 from orderconds import families
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Derivation:
     """The conditions of ``family`` (a label, as ``rkmk(1)``) up to ``order``, grouped by order.
 
-    ``by_order[n - 1]`` holds the conditions of exactly order n.
+    ``by_order[n - 1]`` holds the conditions of exactly order n. A derivation is a sequence of its conditions.
+
+    >>> derivation = derive("rk", order=3)
+    >>> derivation, len(derivation)
+    (Derivation(rk, order 3: 1, 1, 2 conditions), 4)
+    >>> [condition.tree for condition in derivation]
+    ['[]', '[.]', '[[.]]', '[..]']
     """
 
     family: str
@@ -33,6 +41,42 @@ class Derivation:
         """All conditions, by increasing order."""
         return tuple(chain.from_iterable(self.by_order))
 
+    def __iter__(self) -> Iterator[OrderCondition]:
+        return iter(self.conditions)
+
+    def __len__(self) -> int:
+        return sum(self.counts)
+
+    @overload
+    def __getitem__(self, index: int) -> OrderCondition: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[OrderCondition, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> OrderCondition | tuple[OrderCondition, ...]:
+        return self.conditions[index]
+
+    def __repr__(self) -> str:
+        counts = ", ".join(map(str, self.counts))
+        return f"Derivation({self.family}, order {self.order}: {counts} conditions)"
+
+    def latex(self) -> str:
+        """Return LaTeX for a paper: numbered equations with their trees and labels, and the definitions of
+        all symbols (:mod:`orderconds.typeset.article`)."""
+        from orderconds.typeset.article import article
+
+        return article(self.family, self.by_order)
+
+    def _repr_latex_(self) -> str:
+        from orderconds.typeset.notebook import formula
+
+        return formula(self.conditions)
+
+    def _repr_html_(self) -> str:
+        from orderconds.typeset.notebook import table
+
+        return table(self.family, self.by_order)
+
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of ``orderconds derive --format json``."""
         return {
@@ -43,9 +87,20 @@ class Derivation:
         }
 
 
-def derive(family: str, order: int, *, every: bool = False, **options: int | None) -> Derivation:
+def derive(
+    family: str,
+    order: int,
+    stages: int | None = None,
+    *,
+    explicit: bool = False,
+    every: bool = False,
+    **options: int | None,
+) -> Derivation:
     """Derive the independent order conditions of ``family`` up to ``order``; with ``every`` the conditions of
     all trees.
+
+    With ``stages`` the sums are expanded for methods with this number of stages, and with ``explicit`` for
+    explicit methods (:func:`orderconds.stage_expansion.expand_stages`).
 
     ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
     in ``"rkmk(1)"``.
@@ -59,10 +114,21 @@ def derive(family: str, order: int, *, every: bool = False, **options: int | Non
     (1, 1, 2)
     >>> print(derivation.conditions[0])
     sum_i b_i = 1
+    >>> print(derive("rk", order=2, stages=2, explicit=True)[1])
+    b_2 a_21 = 1/2
     """
+    if explicit and stages is None:
+        raise InputError(
+            "explicit has no effect without stages", where="derive", expected="a number of stages"
+        )
     chosen = families.get(family, **options)
     if order < 1:
         raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
     conditions = chosen.all_conditions if every else chosen.essential_conditions
     by_order = tuple(conditions(n) for n in range(1, order + 1))
-    return Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))
+    derivation = Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))
+    if stages is None:
+        return derivation
+    from orderconds.stage_expansion import expand_stages
+
+    return expand_stages(derivation, stages, explicit=explicit)

@@ -17,6 +17,12 @@ class _LazyPackage(ModuleType):
         value = self.__dict__[name] = getattr(import_module(homes[name]), name)
         return value
 
+    def __setattr__(self, name: str, value: object) -> None:
+        # The import system stores an imported module in its package. A function of the interface that has the
+        # name of a module stays; statements "from package.module import name" do not need the attribute.
+        if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
+            super().__setattr__(name, value)
+
     def __dir__(self) -> list[str]:
         return sorted({*self.__dict__, *self.__dict__["_homes"]})
 
@@ -24,8 +30,9 @@ class _LazyPackage(ModuleType):
 def lazy(package: str, **names: tuple[str, ...]) -> None:
     """Make the names of an imported package load from their modules on first use; ``dir`` loads no module.
 
-    ``names`` maps each module of the package to the names that load from it. No module may have one of these
-    names, because the import system would replace the object with this name by the module.
+    ``names`` maps each module of the package to the names that load from it. If a module or package inside
+    the package has one of these names, the attribute of the package is nevertheless the object, not the
+    module.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)
@@ -35,5 +42,9 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     AttributeError: module 'orderconds' has no attribute 'nothing'
     """
     module = sys.modules[package]
-    module.__dict__["_homes"] = {n: f"{package}.{home}" for home, own in names.items() for n in own}
+    homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
+    module.__dict__["_homes"] = homes
+    for name in homes:
+        if isinstance(module.__dict__.get(name), ModuleType):  # imported before this call
+            del module.__dict__[name]
     module.__class__ = _LazyPackage

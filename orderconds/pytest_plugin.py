@@ -1,49 +1,104 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
-Without a flag the plugin does nothing. ``--orderconds-complete`` requires a claim for every family that a
-tableau can claim. ``--orderconds-certified`` requires a proof of every order. ``orderconds check`` has the
-same two flags. A tableau that claims nothing is skipped, with a reason. Files ``*.toml`` without the keys of
-a tableau (``pyproject.toml``) are skipped, unless the command line names the file itself.
+Without a flag the plugin does nothing. The flags are those of ``orderconds check``:
+``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
+``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every format are collected. A tableau that
+claims no order is skipped, with its computed order; ``--orderconds-require-claims`` lets it fail. Other
+files of these formats, such as ``pyproject.toml``, are named at the end with the reason why they are skipped.
+A file that the command line names is always collected. Python modules are parsed and not imported.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-FLAGS = ("--orderconds", "--orderconds-complete", "--orderconds-certified")
+FLAGS = {
+    "--orderconds": "collect tableau files (TOML, JSON, CSV, NPZ, Python, LaTeX, C) and check their claims",
+    "--orderconds-require-claims": "like --orderconds; a tableau that claims no order fails",
+    "--orderconds-complete": "like --orderconds, and require a claim for every family of a tableau",
+    "--orderconds-certified": "like --orderconds, and require a proof of every order",
+    "--orderconds-execute": "like --orderconds, and run Python files to obtain their arrays",
+}
+
+SKIPPED = pytest.StashKey[dict[str, str]]()
+"""The skipped files, with the reasons."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the flags."""
     group = parser.getgroup("orderconds", "order conditions of tableaux")
+    for flag, text in FLAGS.items():
+        group.addoption(flag, action="store_true", help=text)
     group.addoption(
-        "--orderconds", action="store_true", help="collect *.toml files as tableaux and check their claims"
+        "--orderconds-tolerance",
+        type=float,
+        metavar="UNITS",
+        help="the uncertainty of coefficients that are binary floats, in units of rounding (default: 8)",
     )
-    group.addoption(
-        "--orderconds-complete",
-        action="store_true",
-        help="like --orderconds, and require a claim for every family that a tableau can claim",
-    )
-    group.addoption(
-        "--orderconds-certified",
-        action="store_true",
-        help="like --orderconds, and require a proof of every order",
-    )
+
+
+def _is_on(config: pytest.Config) -> bool:
+    return any(config.getoption(flag) for flag in FLAGS)
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Collect a tableau file if the flag is given."""
-    if file_path.suffix != ".toml" or not any(map(parent.config.getoption, FLAGS)):
+    """Collect a tableau file if a flag is given."""
+    if not _is_on(parent.config):
         return None
-    from orderconds.tableau.file import meant_as_tableau
+    from orderconds.exchange.folder import SUFFIXES, reason_to_skip
 
-    if not (parent.session.isinitpath(file_path) or meant_as_tableau(file_path)):
+    config = parent.config
+    if (
+        file_path.suffix not in SUFFIXES
+        or _is_test_module(file_path, config)
+        or not _asked(file_path, config)
+    ):
+        return None
+    reason = reason_to_skip(file_path)
+    if reason and not (parent.session.isinitpath(file_path) and file_path.suffix != ".py"):
+        config.stash.setdefault(SKIPPED, {})[str(file_path)] = reason
         return None
     return TableauFile.from_parent(parent, path=file_path)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Keep pytest from importing a tableau module that the command line names."""
+    if not _is_on(parent.config) or _is_test_module(module_path, parent.config):
+        return None
+    from orderconds.exchange.folder import reason_to_skip
+
+    return None if reason_to_skip(module_path) else NoTests.from_parent(parent, path=module_path)
+
+
+def _asked(path: Path, config: pytest.Config) -> bool:
+    """Whether the command line names a file or a folder above it; pytest also visits files next to these."""
+    places = (config.invocation_params.dir / argument.partition("::")[0] for argument in config.args)
+    return any(path.is_relative_to(place) or path.is_relative_to(place.resolve()) for place in places)
+
+
+def _is_test_module(path: Path, config: pytest.Config) -> bool:
+    """Whether pytest collects a module of this name as tests."""
+    return path.suffix == ".py" and any(fnmatch(path.name, x) for x in config.getini("python_files"))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """Name the skipped files."""
+    for path, reason in config.stash.get(SKIPPED, {}).items():
+        terminalreporter.write_line(f"orderconds: skipped {path}: {reason}")
+
+
+class NoTests(pytest.File):
+    """A module without tests."""
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """Return nothing."""
+        return ()
 
 
 class TableauFile(pytest.File):
@@ -59,15 +114,21 @@ class TableauItem(pytest.Item):
 
     def runtest(self) -> None:
         """Check the file; raise :class:`ClaimFails` with the text that ``orderconds check`` prints."""
-        from orderconds.checking import check
+        from orderconds.checking import check, read
 
-        complete, certified = (bool(self.config.getoption(flag)) for flag in FLAGS[1:])
-        report = check(self.path, complete=complete, certified=certified)
+        require, complete, certified, execute = (
+            bool(self.config.getoption(flag)) for flag in list(FLAGS)[1:]
+        )
+        report = check(
+            read(self.path, execute=execute),
+            complete=complete,
+            certified=certified,
+            tolerance=self.config.getoption("--orderconds-tolerance"),
+        )
+        if report.verdict == "unclaimed" and not require:
+            pytest.skip(report.conclusion)
         if report.verdict != "holds":
             raise ClaimFails(report.summary())
-        if all(family.claimed is None for family in report.orders) and not complete:
-            orders = ", ".join(f"{family.family} {family.order}" for family in report.orders)
-            pytest.skip(f"the file claims no order; computed orders: {orders}")
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """Return the verdict. If the file cannot be read, return the message, without a traceback."""
@@ -83,4 +144,4 @@ class TableauItem(pytest.Item):
 
 
 class ClaimFails(AssertionError):
-    """A claim of the file does not hold, or cannot be decided."""
+    """A claim of the file does not hold, or cannot be decided, or is missing."""

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from orderconds import families
-from orderconds.derivation import Derivation
+from orderconds.errors import InputError
 from orderconds.families.stage_form import Name
 from orderconds.formula import Coefficient, Formula, Power, Product, Total
 from orderconds.ring.protocol import Element
@@ -16,8 +16,16 @@ from orderconds.ring.protocol import Element
 if TYPE_CHECKING:
     from flint import fmpq
 
+    from orderconds.derivation import Derivation
     from orderconds.ring.laurent import LaurentPolynomials
     from orderconds.ring.polynomials import Polynomials
+
+
+MAX_COMPUTED = 5_000_000
+"""Largest estimated number of terms that are computed: about 500 MB."""
+
+MAX_TERMS = 500_000
+"""Largest number of terms that are written: about 20 MB of text, and 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
@@ -25,7 +33,7 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 
     If ``explicit`` is true, the tableau is strictly lower triangular. Otherwise all its entries are
     variables. Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered
-    by stages alone.
+    by stages alone, and if there are more than :data:`MAX_TERMS` terms.
 
     >>> from orderconds.derivation import derive
     >>> derivation = derive("rk", order=2)
@@ -34,7 +42,9 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
     >>> print(expand_stages(derivation, 2, explicit=True).conditions[-1])
     b_2 a_21 = 1/2
     """
+    _refuse_more_terms(derivation, _terms_at_most(derivation, stages, explicit=explicit), MAX_COMPUTED)
     ring, names, values = polynomials(derivation, stages, explicit=explicit)
+    _refuse_more_terms(derivation, sum(len(list(ring.terms(value))) for value in values), MAX_TERMS)
     symbols = [Coefficient(*name) for name in names]
     expanded = iter(values)
     return replace(
@@ -44,6 +54,27 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
             for conditions in derivation.by_order
         ),
     )
+
+
+def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
+    """Return an estimate from above of the number of terms.
+
+    A tree with n vertices gives one term for each choice of n indices. In an explicit method two neighbours
+    have stages * (stages - 1)/2 pairs of indices and not stages^2.
+    """
+    factor = Fraction(stages - 1, 2) if explicit else Fraction(stages)
+    sizes = enumerate(derivation.counts)
+    return sum(int(count * stages * factor**edges) for edges, count in sizes)
+
+
+def _refuse_more_terms(derivation: Derivation, terms: int, most: int) -> None:
+    if terms > most:
+        raise InputError(
+            f"the conditions have {'about ' * (most == MAX_COMPUTED)}{terms} terms",
+            where=derivation.family,
+            expected=f"at most {most}",
+            hint="lower --order or --stages",
+        )
 
 
 def polynomials(

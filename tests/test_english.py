@@ -1,8 +1,8 @@
 """The sources are in plain English: no phrase, no word and no name that was replaced comes back.
 
 Prose is: docstrings, comments and strings of both packages (messages and help are strings), the templates
-with their emitted text, README and CONTRIBUTING. Names are those of modules, templates, classes, functions,
-arguments and variables.
+with their emitted text, README, CONTRIBUTING and docs. Names are those of modules, templates, classes,
+functions, arguments and variables.
 """
 
 from __future__ import annotations
@@ -19,7 +19,11 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("orderconds", "codegen")
-PAGES = ("README.md", "CONTRIBUTING.md", "docs/promises.md")
+PAGES = (
+    "README.md",
+    "CONTRIBUTING.md",
+    *sorted(p.relative_to(ROOT).as_posix() for p in (ROOT / "docs").rglob("*.md")),
+)
 
 SHORTEN = "Shorten the critical path after each function call."
 PHRASES = {

@@ -53,6 +53,7 @@ EXCEPTIONS = {
     ("codegen/lab/default_methods.py", "REPORT_FIELDS"): "the methods of a report if the user names none",
     ("codegen/lab/default_methods.py", "REPORT_HAMILTONIANS"): "the same for Hamiltonian scenes in a report",
     ("codegen/lab/default_methods.py", "REPORT_ADAPTIVE"): "the adaptive methods of a report by default",
+    ("codegen/lab/default_methods.py", "README_METHODS"): "the methods of the pictures in the README",
     ("codegen/lab/peers/solve_ivp.py", ""): "SciPy's own names of its solvers",
 }
 """Path and variable of a table that may hold names, and why; '' is a table without variable."""

@@ -97,38 +97,17 @@ def _on_scene(
     stated: int | None,
     as_json: bool,
 ) -> list[Convergence | NotEmitted]:
-    from codegen.build import CompilerMissing
-    from codegen.certify import CertifiedOrder, certified_order
-    from codegen.lab.orders.convergence import NotEmitted, converge
-    from codegen.lab.reference import cached_reference
-    from codegen.lab.runner import check_target, runner
-    from codegen.lower import families_for
-    from codegen.method import parse
-    from codegen.printers import DEFAULT
-    from codegen.scene.classical_forms import PRINTED, find_form
-    from codegen.scenes import load
+    from codegen.lab.orders.scene_convergence import ConvergenceTest
 
-    prescribed = read_steps(steps)
-    problem = load(scene)
-    coordinates = find_form(problem, form) if form not in (None, PRINTED) else None
-    equations = problem if coordinates is None else coordinates.problem
-    chosen = [parse(name, families_for(equations)) for name in methods]
-    check_target(target or DEFAULT, digits)
+    test = ConvergenceTest.of(
+        scene, methods, target=target, form=form, steps=read_steps(steps), digits=digits, stated=stated
+    )
     with working("reference solution"):
-        exact = cached_reference(problem)
-    held = None if stated is None else CertifiedOrder(stated, "stated")
+        exact = test.reference()
     results: list[Convergence | NotEmitted] = []
-    for method in chosen:
+    for method in test.methods:
         with working(f"compiling {method.label}") as progress:
-            try:
-                order = held or certified_order(method, equations)
-                run = runner(equations, method, target or DEFAULT, digits, order)
-                progress(f"running {method.label}")
-                results.append(converge(run, order, exact, steps=prescribed, form=coordinates))
-            except CompilerMissing:  # no other method of a compiled target can run either
-                raise
-            except (InputError, ArithmeticError) as error:
-                results.append(NotEmitted(problem.name, method.label, target or DEFAULT, str(error)))
+            results.append(test.result(method, exact, progress))
         if not as_json and is_shown(results[-1].verdict == "holds"):
             show(results[-1], first=len(results) == 1)
     return results

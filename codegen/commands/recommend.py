@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     "--need",
     "needs",
     multiple=True,
-    help="manifold, symplectic, explicit, adaptive; several are separated by commas.",
+    help="manifold, symplectic, explicit, adaptive, fixed; several are separated by commas.",
 )
 @click.option("--stack", type=click.IntRange(1), help="The largest stack of a call, in bytes.")
 @click.option("--span", metavar="A:B", help="The interval of time; by default that of the scene.")
@@ -49,7 +49,8 @@ def command(
     The whole library is searched: every family that accepts the scene, with equal steps and with step-size
     control. The error is the distance from a reference solution at the end of the span. Needs: manifold (the
     state stays on the manifold up to rounding), symplectic (for long times; a method that loses a conserved
-    quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size control).
+    quantity in a long run is excluded), explicit (no equations are solved), adaptive (step-size control),
+    fixed (equal steps).
     The exit status is 1 if no method reaches the error.
 
     \b
@@ -57,7 +58,8 @@ def command(
         orderconds recommend free_rigid_body --error 1e-8
         orderconds recommend dipole --error 1e-4 --need symplectic
     """
-    from codegen.lab.efficiency.recommend import BUDGET, Request, recommend
+    from codegen.lab.efficiency.recommend import Request, recommend
+    from codegen.lab.efficiency.task import BUDGET
     from codegen.scenes import with_values
     from orderconds.errors import InputError
 
@@ -105,8 +107,10 @@ def control(asked: Request, place: Result) -> str:
     """Return the step or the tolerance of a run in words."""
     if place.tolerance is not None:
         return f"rtol = atol = {place.tolerance:.1e}"
-    first, last = asked.problem().span
-    return f"h = {float((last - first) / place.steps):.6g}" if place.steps else ""
+    from codegen.lab.efficiency.recommend import step_of
+
+    h = step_of(asked.task, place)
+    return "" if h is None else f"h = {h:.6g}"
 
 
 def searched(result: Recommendation) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 
@@ -41,7 +42,7 @@ def partials(node: Expr) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
     The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
-    raised for ``signed_stumpff1`` and the slopes.
+    raised for the slopes.
     """
     space, args = node.space, node.args
     match node.op:
@@ -92,6 +93,10 @@ def _derivatives(node: Expr) -> list[Expr]:
         # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
+        case name if name in ELEMENTARY:
+            return [ELEMENTARY[name].slope(x, node)]
+        case "signed_stumpff1":
+            return [space.call("signed_slope1", x)]
         case "quotient":
             # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
             # infinite there.

@@ -99,12 +99,14 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 2, 3 and z >= 0: by its series for z up to 1, else as (c_{k-1} - k c_k)/(2 z).
+    """Return c_k'(z) for k = 1, 2, 3 and z >= 0; for k = 1 also for z < 0.
+
+    The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
     >>> slope(2, 0.0) == -1 / 24, slope(3, 0.0) == -1 / 120
     (True, True)
     """
-    if z > 1:
+    if abs(z) > 1:
         # Both terms of the closed form tend to 1/(k-1)! as z tends to 0, so they would cancel for small z.
         return (stumpff(k - 1, z) - k * stumpff(k, z)) / (2 * z)
     total = 0.0
@@ -137,7 +139,7 @@ class FloatDomain:
         """Call the function of the math library, or :func:`stumpff`."""
         if "stumpff" in function:
             return stumpff(int(function[-1]), args[0])
-        if function.startswith("slope"):
+        if "slope" in function:
             return slope(int(function[-1]), args[0])
         if function == "quotient":
             return args[0] / args[1] if args[1] else 0.0
@@ -204,7 +206,7 @@ class PreciseDomain:
         """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
-        if function.startswith("slope"):
+        if "slope" in function:
             return self._slope(int(function[-1]), args[0])
         if "stumpff" not in function:
             return getattr(self.context, function)(*args)
@@ -225,8 +227,8 @@ class PreciseDomain:
         return total
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
-        """Return c_k'(z): by its series for z up to 1, else by c_{k-1} and c_k."""
-        if z > 1:
+        """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
+        if abs(z) > 1:
             return (self.call(f"stumpff{k - 1}", z) - k * self.call(f"stumpff{k}", z)) / (2 * z)
         total, j = self.context.mpf(0), 1
         term = -self.context.mpf(1) / math.factorial(k + 2)
@@ -281,11 +283,18 @@ class SeriesDomain:
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
-        starts = {"sin": (1, 2, z), "cos": (0, 2, self.ring.one), "exp": (0, 1, self.ring.one)}
+        one = self.ring.one
+        starts = {
+            "sin": (1, 2, z),
+            "cos": (0, 2, one),
+            "exp": (0, 1, one),
+            "sinh": (1, 2, z),
+            "cosh": (0, 2, one),
+        }
         # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
         if self.base.is_zero(z.coefficients[0]) is not True:
             raise ArithmeticError(f"{function} of a series with a constant term is not exact")
-        if function.startswith("slope"):
+        if "slope" in function:
             k = int(function[-1])
             # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
@@ -293,12 +302,28 @@ class SeriesDomain:
         if "stumpff" in function:
             k = int(function[-1])
             return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)
+        if function in ("tan", "tanh"):
+            sine, cosine = ("sin", "cos") if function == "tan" else ("sinh", "cosh")
+            return self.call(sine, z) / self.call(cosine, z)
+        if function in ("atan", "asin"):
+            return self._arc(function, z)
         if function not in starts:
             raise ArithmeticError(f"{function} has no exact series")
         k, step, first = starts[function]
-        # The signs alternate in _sum. This is right for sin and cos; for exp the argument -z removes the
-        # alternation.
-        return self._sum(k, step, first, z * z if step == 2 else -z)
+        # The signs alternate in _sum. This is right for sin and cos; for exp, sinh and cosh the opposite sign
+        # of the argument removes the alternation.
+        power = z * z if step == 2 else z
+        return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
+
+    def _arc(self, function: str, z: Scalar) -> Scalar:
+        """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
+        total, power = self.ring.zero, z
+        for j in range(self.order // 2 + 1):
+            factor = Fraction((-1) ** j) if function == "atan" else Fraction(math.comb(2 * j, j), 4**j)
+            factor /= 2 * j + 1
+            total = total + power * self.ring.rational(factor.numerator, factor.denominator)
+            power = power * z * z
+        return total
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return a/b, or 0 if b is zero; the valuation of a must be at least the valuation of b."""

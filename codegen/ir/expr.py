@@ -15,6 +15,7 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.number import Number
 
 if TYPE_CHECKING:
@@ -25,11 +26,7 @@ Payload: TypeAlias = Any
 exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
-    "sqrt",
-    "sin",
-    "cos",
-    "exp",
-    "log",
+    *MATHEMATICAL,
     # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
     "stumpff0",
     "stumpff1",
@@ -41,6 +38,8 @@ FUNCTIONS = (
     # derivatives of stumpff2 and stumpff3: c_2' = (2 c_4 - c_3)/2 and c_3' = (3 c_5 - c_4)/2
     "slope2",
     "slope3",
+    # derivative of signed_stumpff1: c_1' = (c_3 - c_2)/2 for z of either sign
+    "signed_slope1",
     # a/b, and 0 where b = 0, for removable singularities with the limit 0
     "quotient",
 )

@@ -10,14 +10,15 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
 
 if TYPE_CHECKING:
     import sympy
 
-CALLS = ("sin", "cos", "exp", "log")
-"""The functions that formulas may call."""
+CALLS = frozenset(MATHEMATICAL) - {"sqrt"}
+"""The functions that formulas may call; sympy writes roots as powers."""
 
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
@@ -73,7 +74,7 @@ class _Reader:
         if isinstance(e, sympy.Float):
             hint = "write Rational(1, 10) for 0.1"
             raise SceneError(f"the float {e}", where=self.where, expected="exact numbers", hint=hint)
-        allowed = "symbols, rationals, + - * /, integer and half-integer powers, sin, cos, exp, log"
+        allowed = "symbols, rationals, + - * /, integer and half-integer powers, " + ", ".join(sorted(CALLS))
         raise SceneError(f"{type(e).__name__} in {e}", where=self.where, expected=allowed)
 
     def _product(self, e: sympy.Mul) -> Expr:

@@ -11,12 +11,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import factorial
 
+from codegen.ir.elementary import ELEMENTARY, MATHEMATICAL
 from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
 
 STEP = "h"
 
-EXPANDED = frozenset({"sqrt", "sin", "cos", "exp", "log", *(f"stumpff{k}" for k in range(4))})
+EXPANDED = frozenset({*MATHEMATICAL, *(f"stumpff{k}" for k in range(4))})
 """The functions with a rule for their expansion."""
 
 Pair = tuple[Expr, Expr]
@@ -168,6 +169,9 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     elif function == "log":
         at, first = space.call("log", low), space.one / low
         second = -(first * first)
+    elif function in ELEMENTARY:
+        at, rule = space.call(function, low), ELEMENTARY[function]
+        first, second = rule.slope(low, at), rule.curvature(low, at)
     else:
         # sin'' = -sin and cos'' = -cos: the second derivative is minus the value.
         other = {"sin": "cos", "cos": "sin"}[function]

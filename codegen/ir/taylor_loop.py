@@ -14,6 +14,7 @@ from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
 from codegen.ir.taylor_recurrence import Recurrence
 from codegen.ir.taylor_series import (
+    Antiderivative,
     Circular,
     Convolution,
     Exponential,
@@ -204,6 +205,8 @@ class _Loop:
             case Circular(slope=slope, other=other, minus=minus):
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
+            case Antiderivative(slope=slope, rate=rate):
+                return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
                 rest = space.sym(INVERSE) * self.inner(slope, a)
                 return self.value(series.inverse) * (_known(self.known[id(a)]) - rest)
@@ -217,7 +220,7 @@ def _operands(series: Series) -> Sequence[Series]:
             return a, b
         case Power(a=a, slope=slope):
             return a, slope
-        case Exponential(slope=slope) | Circular(slope=slope):
+        case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
             return (slope,)
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
             return (a,)

@@ -12,9 +12,11 @@ from fractions import Fraction
 
 from codegen.errors import SceneError
 from codegen.ir.domain import Domain, Scalar
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.ir.taylor_series import (
+    Antiderivative,
     Circular,
     Coefficient,
     Convolution,
@@ -146,6 +148,11 @@ class _Builder:
             case _:
                 return self.function(node.payload, node.args[0], arg(0))
 
+    @property
+    def one(self) -> Series:
+        """The constant series 1."""
+        return Given(self.domain, self.domain.rational(1))
+
     def multiple(self, number: Number, a: Series) -> Series:
         """Return c a."""
         return a if number.is_one else Multiple(self.domain, number, a)
@@ -196,10 +203,29 @@ class _Builder:
                 sine.other, cosine.other = cosine, sine
                 self.shared["sin", argument.id, Fraction(1)] = sine
                 self.shared["cos", argument.id, Fraction(1)] = cosine
+            case "sinh" | "cosh":
+                pair = [Antiderivative(domain, n, a, slope) for n in ("sinh", "cosh")]
+                pair[0].rate, pair[1].rate = pair[1], pair[0]
+                for series in pair:
+                    self.shared[series.name, argument.id, Fraction(1)] = series
+            case "tan" | "tanh":
+                # tan' = 1 + tan^2 and tanh' = 1 - tanh^2
+                result = Antiderivative(domain, name, a, slope)
+                result.rate = Sum(domain, self.one, Square(domain, result), name == "tanh")
+                self.shared[key] = result
+            case "atan":
+                result = Antiderivative(domain, name, a, slope)
+                result.rate = Quotient(domain, self.one, Sum(domain, self.one, Square(domain, a), False))
+                self.shared[key] = result
+            case "asin" | "acos":
+                result = Antiderivative(domain, name, a, slope)
+                root = Power(domain, Sum(domain, self.one, Square(domain, a), True), Fraction(-1, 2))
+                result.rate = root if name == "asin" else Multiple(domain, Number.rational(-1), root)
+                self.shared[key] = result
             case _:
                 raise SceneError(
                     f"no recurrence for the Taylor coefficients of {name}",
-                    expected="+ - * /, constant powers, sqrt, sin, cos, exp, log",
+                    expected=f"+ - * /, constant powers, {', '.join(MATHEMATICAL)}",
                 )
         return self.shared[key]
 

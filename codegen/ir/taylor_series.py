@@ -223,6 +223,22 @@ class Logarithm(Series):
         return multiplied(_subtract(self.a.term(n), rest), self.inverse)
 
 
+class Antiderivative(Series):
+    """f(a) for a function f of the mathematical library, from f(a)' = r a'. The series r is ``rate``."""
+
+    rate: Series
+
+    def __init__(self, domain: Domain, name: str, a: Series, slope: Series) -> None:
+        super().__init__(domain)
+        self.name, self.a, self.slope = name, a, slope
+
+    def following(self, n: int) -> Coefficient:
+        """Return sum_{j>0} j a_j r_{n-j}/n."""
+        if n == 0:
+            return self.domain.call(self.name, self.a.term(0))
+        return _mean(self.domain, self.slope, self.rate, n)
+
+
 class Circular(Series):
     """sin(a) or cos(a), according to its name; ``other`` is the series of the cosine or sine of the same
     argument."""

@@ -12,6 +12,7 @@ from fractions import Fraction
 from math import factorial
 
 from codegen.ir.domain import ExprDomain
+from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import Expr, Space, evaluate, walk
 from codegen.ir.jacobian import jacobian
 
@@ -27,7 +28,9 @@ AT_ZERO = {
     **{f"stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
     **{f"signed_stumpff{k}": Fraction(1) for k in range(2)},
     **{f"slope{k}": Fraction(-1, factorial(k + 2)) for k in (2, 3)},
+    "signed_slope1": Fraction(-1, factorial(3)),
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
+    **{name: function.at_zero for name, function in ELEMENTARY.items()},
 }
 """Values of functions at zero; None for a pole."""
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from codegen.errors import MethodError
+from codegen.groups.capabilities import Coadjoint
 from codegen.ir.expr import Expr
 from codegen.ir.kernel import Expansion, Field, Kernel, Let
 from codegen.ir.program import Program
@@ -38,25 +38,16 @@ def looped_kernel(program: Program, problem: Problem, degree: int) -> Kernel | N
         return None
     fields = Frames(problem, program).fields()
     empty = Kernel(program.name, fields, (TIME, "h", *problem.runtime), (), ())
-    expansion = replace(_expansion(empty, problem.evolution, degree, loop), controlled=False)
+    expansion = replace(_expansion(empty, problem, degree, loop), controlled=False)
     return replace(empty, expansion=expansion)
 
 
 def with_step_control(kernel: Kernel, problem: Problem, degree: int) -> Kernel:
-    """Return a kernel with a run that chooses its steps from the coefficients.
-
-    :class:`codegen.errors.MethodError` for a state with momenta of the body.
-    """
-    if problem.body_group is not None:
-        raise MethodError(
-            "step control by Taylor coefficients in the body frame",
-            expected="the momentum in space",
-            hint="leave --frame body out",
-        )
+    """Return a kernel with a run that chooses its steps from the coefficients."""
     if kernel.expansion is not None:
         return replace(kernel, expansion=replace(kernel.expansion, controlled=True))
     assert problem.evolution is not None
-    return replace(kernel, expansion=_expansion(kernel, problem.evolution, degree, None))
+    return replace(kernel, expansion=_expansion(kernel, problem, degree, None))
 
 
 def _loop(inner: Evolution) -> OrderLoop:
@@ -66,9 +57,11 @@ def _loop(inner: Evolution) -> OrderLoop:
     return order_loop(terms, domain.space)
 
 
-def _expansion(kernel: Kernel, work: Evolution, degree: int, loop: OrderLoop | None) -> Expansion:
+def _expansion(kernel: Kernel, problem: Problem, degree: int, loop: OrderLoop | None) -> Expansion:
     """Return the expansion of a problem: a loop where one is given, else unrolled."""
-    enter, leave = _enter(kernel, work), _leave(kernel, work)
+    work, frame = problem.evolution, problem.body_group
+    assert work is not None
+    enter, leave = _enter(kernel, work, frame), _leave(kernel, work, frame)
     fields = (Field("start", work.inner.symbols, "coordinates of the polynomial"),)
     if loop is None:
         return Expansion(degree, _unrolled(kernel, fields, work, degree), enter, leave)
@@ -88,22 +81,22 @@ def _unrolled(kernel: Kernel, fields: Sequence[Field], work: Evolution, degree: 
     return _kernel(kernel, fields, ends, _names(kernel))
 
 
-def _enter(kernel: Kernel, work: Evolution) -> Kernel | None:
+def _enter(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel | None:
     domain = SharedArguments()
     state = tuple(s for f in kernel.state for s in f.symbols)
     given = tuple(map(domain.space.sym, state))
-    ends = work.enter(domain, given)
+    ends = work.enter(domain, given, frame)
     if ends == given:
         return None
     return _kernel(kernel, kernel.state, ends, _names(kernel))
 
 
-def _leave(kernel: Kernel, work: Evolution) -> Kernel | None:
+def _leave(kernel: Kernel, work: Evolution, frame: Coadjoint | None) -> Kernel | None:
     domain = SharedArguments()
     old = tuple(domain.space.sym(s) for f in kernel.state for s in f.symbols)
     names = tuple(f"{s}.moved" for s in work.inner.symbols)  # a dot: no name that a user gives
     new = tuple(map(domain.space.sym, names))
-    ends = work.leave(domain, new, old)
+    ends = work.leave(domain, new, old, frame)
     if ends == new:
         return None
     fields = (*kernel.state, Field("moved", names, "the coordinates after the step"))

@@ -13,8 +13,9 @@ from dataclasses import replace
 from codegen.certify import certified_order
 from codegen.errors import MethodError
 from codegen.lower import families_for
-from codegen.method import Method, parse
+from codegen.method import Method, method_of, parse
 from codegen.scene.problem import Problem
+from orderconds.tableau import Tableau
 
 FIELD_METHODS = ("rkmk(0):euler", "cg:cg3", "rkmk(2):rk4", "cf:cf4")
 HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_jump6")
@@ -37,17 +38,67 @@ REPORT_HAMILTONIANS = {
 
 REPORT_ADAPTIVE = ("ambient:dop853", "rkmk(3):dormand_prince5", "cf:cf43")
 """Default methods of the report with step-size control. On Hamiltonian scenes only the first method is used,
-because a figure has only ten colours."""
+because a figure has only eight colours for methods."""
+
+README_METHODS = {
+    "dipole": (
+        "vcg:midpoint",
+        "vcg:triple_jump",
+        "vcg:triple_jump6",
+        "vrkmk(0):gauss1",
+        "vrkmk(2):gauss2",
+        "vrkmk(4):gauss3",
+        "vcf:vcf4_s2",
+        "rkmk:rk4",
+        "splitting:blanes_moan_rkn4",
+        "ambient:dop853",
+    ),
+    "discoveries": (
+        "vcf:vcf_gauss2",
+        "vcf:vcf4_s3",
+        "vcf:vcf_gauss3",
+        "cf:cf5_s7",
+        "vcg:triple_jump",
+        "vcg:vcg4_s5_dirk",
+        "vcg:vcg4_s6",
+        "vrkmk(2):gauss2",
+        "rkmk(2):rk4",
+    ),
+    "discoveries_vcg": (
+        "vcg:triple_jump",
+        "vcg:vcg3_s3",
+        "vcg:vcg4_s3",
+        "vcg:vcg4_s4",
+        "vcg:vcg4_s5",
+        "vcg:vcg4_s5_dirk",
+        "vcg:vcg4_s6",
+        "vcg:vcg4_s6_dirk",
+        "vrkmk(2):gauss2",
+        "rkmk:rk4",
+    ),
+}
+"""For each work-precision diagram of the README, its methods. All diagrams are measured on the dipole; the
+methods of :data:`REPORT_ADAPTIVE` run with step-size control."""
+
+PICTURED = (
+    (*REPORT_FIELDS, *REPORT_ADAPTIVE),
+    (*REPORT_HAMILTONIANS, REPORT_ADAPTIVE[0]),
+    (*FIELD_METHODS, *REPORT_ADAPTIVE),
+    HAMILTONIAN_METHODS,
+    *README_METHODS.values(),
+)
+"""Lists of methods that occur in one picture. Their methods have fixed colours and markers."""
 
 
-def methods_for(scene: Problem, names: Sequence[str] = ()) -> tuple[Method, ...]:
+def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
     """Return the named methods; without names, the default methods for the scene.
 
-    An unknown name raises the errors of :func:`codegen.method.parse`.
+    Methods may also be given as tableaux. An unknown name raises the errors of
+    :func:`codegen.method.parse`.
     """
     defaults = HAMILTONIAN_METHODS if scene.is_hamiltonian else FIELD_METHODS
     families = families_for(scene)
-    return tuple(parse(name, families) for name in (names or defaults))
+    return tuple(method_of(name, families) for name in (names or defaults))
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:

@@ -10,6 +10,7 @@ import math
 
 from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.ir.values import Kind
@@ -17,7 +18,7 @@ from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
-FUNCTIONS = {name: getattr(math, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+FUNCTIONS = {name: getattr(math, name) for name in MATHEMATICAL}
 
 MANIFOLD = "manifold"
 """The key of the manifold equations in the dictionaries of conserved quantities."""
@@ -26,7 +27,10 @@ MANIFOLD = "manifold"
 def functions(scene: Problem) -> dict[str, Evaluate]:
     """Return each conserved quantity as a function (state, t) of floats."""
     kept = expressions(scene)
-    return {name: straight_line(scene, exprs).python(float, FUNCTIONS) for name, exprs in kept.items()}
+    return {
+        name: straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS)
+        for name, exprs in kept.items()
+    }
 
 
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:

@@ -52,6 +52,10 @@ class Measurement(ABC, Generic[R]):
     def section(self, result: R, subject: Subject) -> Section | None:
         """Return the body of the section, or None if there is nothing to show."""
 
+    def verdict(self, result: R, subject: Subject) -> str:
+        """Return one sentence that states the result; the section begins with this sentence."""
+        return ""
+
     def holds(self, result: R) -> bool:
         """Whether every check holds; the exit status of ``report`` is 1 otherwise."""
         return True

@@ -18,8 +18,8 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
-from codegen.cache_entry import cache_directory
-from orderconds.output_file import write_files
+from codegen.cache_entry import cache_directory, write_entries
+from orderconds.input_file import MAX_WRITTEN_BYTES, content_of
 
 T = TypeVar("T")
 
@@ -63,7 +63,7 @@ class MeasurementCache:
         if self.folder is None or not _secured(self.folder):
             return None
         try:
-            content = self._path(self.folder, key).read_bytes()
+            content = content_of(self._path(self.folder, key), limit=MAX_WRITTEN_BYTES, own=True)
             digest, body = content[:DIGEST], content[DIGEST:]
             if hashlib.sha256(body).digest() != digest:
                 return None
@@ -82,7 +82,7 @@ class MeasurementCache:
             self.folder.mkdir(mode=0o700, parents=True, exist_ok=True)
             if not _secured(self.folder):
                 return
-            write_files({self._path(self.folder, key): hashlib.sha256(body).digest() + body}, private=True)
+            write_entries({self._path(self.folder, key): hashlib.sha256(body).digest() + body})
         except OSError:
             return
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from codegen import scenes
+from codegen.artifact import write_text, writing
 from codegen.build import find_compiler
 from codegen.emitter import bare, quoted
 from codegen.lab.default_methods import REPORT_SCENES
@@ -19,6 +19,7 @@ from codegen.lab.registry import selected
 from codegen.lab.scene_results import SceneResults, measure_scene
 from codegen.lab.subject import EFFORTS, Subject, subject
 from orderconds.errors import InputError
+from orderconds.input_file import reason
 
 
 @dataclass(frozen=True)
@@ -84,14 +85,14 @@ def write_file(path: Path, text: str | None) -> Path:
     """Write a file atomically and return its path; if ``text`` is None, only test the folder for writing."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=path.parent, prefix=".report-") as temporary:
-            whole = Path(temporary) / path.name
-            whole.write_text(text or "", encoding="utf-8", newline="\n")
-            if text is not None:
-                os.replace(whole, path)
+        if text is None:
+            with tempfile.TemporaryFile(dir=path.parent):
+                return path
+        with writing(path.parent):
+            write_text(path, text)
     except OSError as error:
         raise InputError(
-            f"cannot write there: {error.strerror}",
+            f"cannot write there: {reason(error)}",
             where=str(path.parent),
             expected="a folder that can be written to",
         ) from None

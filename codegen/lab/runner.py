@@ -15,10 +15,11 @@ from codegen.artifact import Artifact
 from codegen.certify import CertifiedOrder
 from codegen.emitter import Compiled, Optimised, compile_method, emit_compiled
 from codegen.errors import MethodError
+from codegen.integrator import Integrator, Statistics, StepFailed
 from codegen.ir.domain import Domain, FloatDomain, NotConverged, PreciseDomain
 from codegen.ir.interpret import flatten, interpret
 from codegen.lab.number_types import Scalar, Vector
-from codegen.loader import Integrator, Statistics, StepFailed, load
+from codegen.loader import load
 from codegen.lower import problem_for
 from codegen.method import Method
 from codegen.scene.problem import Problem

@@ -40,6 +40,10 @@ class Measured:
         """Return the body of the section; None if there is nothing to show."""
         return None if self.failure else self.measurement.section(self.result, self.subject)
 
+    def verdict(self) -> str:
+        """Return one sentence that states the result; '' if there is none."""
+        return "" if self.failure else self.measurement.verdict(self.result, self.subject)
+
     def overview(self) -> Section | None:
         """Return the paragraph or table for the overview of all scenes; None if there is nothing to show."""
         return None if self.failure else self.measurement.overview(self.result, self.subject)

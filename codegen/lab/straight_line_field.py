@@ -7,7 +7,7 @@ type of numbers (floats, balls, arrays of another library) or as the body of a C
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from codegen.ir.domain import ExprDomain
@@ -61,16 +61,19 @@ def velocity(scene: Problem) -> StraightLine:
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots = scene.velocity(domain, state, domain.space.sym(TIME))
-    return straight_line(scene, roots)
+    return straight_line(scene.name, scene.symbols, roots)
 
 
-def straight_line(scene: Problem, roots: tuple[Expr, ...]) -> StraightLine:
-    """Return expressions in the symbols of the state and the time as straight-line code."""
+def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) -> StraightLine:
+    """Return expressions in the symbols of a state and the time as straight-line code.
+
+    ``name`` is that of the scene; ``symbols`` are y[0], y[1], ... in order.
+    """
     constants: list[Number] = []
     names: dict[int, str] = {}
     lines: list[tuple[str, str]] = []
     functions: set[str] = set()
-    places = {s: f"y[{i}]" for i, s in enumerate(scene.symbols)}
+    places = {s: f"y[{i}]" for i, s in enumerate(symbols)}
     for node in walk(roots):
         if node.op == "sym":
             names[node.id] = places.get(node.payload, str(node.payload))
@@ -83,7 +86,7 @@ def straight_line(scene: Problem, roots: tuple[Expr, ...]) -> StraightLine:
             if node.op == "call":
                 functions.add(node.payload)
     results = tuple(names[r.id] for r in roots)
-    return StraightLine(scene.name, tuple(constants), tuple(lines), results, tuple(sorted(functions)))
+    return StraightLine(name, tuple(constants), tuple(lines), results, tuple(sorted(functions)))
 
 
 def _multiplied(text: str) -> str:

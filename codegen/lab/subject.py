@@ -14,6 +14,7 @@ from codegen.emitter import Compiled, bare, compile_method, emit_compiled, quote
 from codegen.errors import SceneError
 from codegen.lab.default_methods import report_methods
 from codegen.lab.measurement_cache import MeasurementCache
+from codegen.lab.page.series_style import ADAPTIVE, Styles
 from codegen.lab.peers import GROUPS, find, installed
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
@@ -33,7 +34,7 @@ class Effort:
     ``budget`` is the CPU time in seconds that one run of the bench may take. ``steps`` is the number of steps
     of a long run. The flags add measurements. ``back``: each long run is also run backward to the start.
     ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the scene. ``endurance``: runs of
-    ten million steps.
+    ten million steps. ``search`` are the seconds of the search for the fastest methods of the library.
     """
 
     budget: float
@@ -43,11 +44,14 @@ class Effort:
     rounding: bool
     stiff: bool
     endurance: bool
+    search: float = 25.0
 
 
-QUICK = Effort(0.002, ("c-dop853",), 10_000, back=False, rounding=False, stiff=False, endurance=False)
+QUICK = Effort(
+    0.002, ("c-dop853",), 10_000, back=False, rounding=False, stiff=False, endurance=False, search=8.0
+)
 USUAL = Effort(0.05, ("c-dop853", "heyoka"), 100_000, back=True, rounding=True, stiff=True, endurance=False)
-FULL = Effort(0.5, ("all",), 1_000_000, back=True, rounding=True, stiff=True, endurance=True)
+FULL = Effort(0.5, ("all",), 1_000_000, back=True, rounding=True, stiff=True, endurance=True, search=100.0)
 EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 
@@ -96,6 +100,7 @@ class Subject:
 
     ``name`` is the scene as the user wrote it. ``adaptive`` are the methods that run with step-size control.
     ``results`` holds the results of measurements by name, so a measurement can use the result of another one.
+    ``named`` says that the user named the methods.
     """
 
     name: str
@@ -107,6 +112,7 @@ class Subject:
     cache: MeasurementCache = field(default_factory=lambda: MeasurementCache(None))
     progress: Progress = str
     results: dict[str, object] = field(default_factory=dict)
+    named: bool = False
 
     @cached_property
     def exact_or_reason(self) -> Reference | str:
@@ -123,6 +129,17 @@ class Subject:
         if isinstance(self.exact_or_reason, str):
             raise SceneError(self.exact_or_reason)
         return self.exact_or_reason
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The labels of all methods and peers of the page."""
+        controlled = (ADAPTIVE + m.label for m in self.adaptive)
+        return (*(m.label for m in self.methods), *controlled, *(peer.name for peer in find(self.peers)))
+
+    @cached_property
+    def styles(self) -> Styles:
+        """The colours and markers of all methods and peers of the page."""
+        return Styles(self.labels)
 
     @cached_property
     def compiled(self) -> MethodResults[CompiledMethod]:
@@ -190,4 +207,4 @@ def subject(
         chosen, controlled = report_methods(scene)
     others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))
     find(others)
-    return Subject(name, scene, chosen, controlled, others, effort)
+    return Subject(name, scene, chosen, controlled, others, effort, named=bool(methods or adaptive))

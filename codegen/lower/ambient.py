@@ -21,7 +21,9 @@ class Ambient(Lowering):
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state; it has no group."""
-        return ambient(scene)
+        if "ambient" not in scene.derived:
+            scene.derived["ambient"] = ambient(scene)
+        return scene.derived["ambient"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program."""

@@ -62,6 +62,15 @@ class Lowering(ABC):
     """Whether the methods integrate the coordinates of the state. Such methods accept every classical form of
     a scene (:mod:`codegen.scene.classical_forms`)."""
 
+    def keeps_manifold(self, scene: Problem) -> bool:
+        """Whether the states of a step stay on the manifold of the scene up to rounding.
+
+        A step by group elements stays on it. On an abelian group the coordinates are those of a vector space.
+        """
+        from orderconds.families import family_class
+
+        return family_class(self.family).keeps_manifold or scene.group.abelian
+
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
         return None

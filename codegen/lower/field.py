@@ -15,6 +15,8 @@ class FieldLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene as a field; the field of a Hamiltonian is the sum of the fields of its parts if
         that sum is shorter."""
-        # The field by parts is formed first, because its formulas contain q and mu, which as_field joins to
-        # one point.
-        return with_field_by_parts(scene).as_field()
+        if "field" not in scene.derived:
+            # The field by parts is formed first, because its formulas contain q and mu, which as_field joins
+            # to one point.
+            scene.derived["field"] = with_field_by_parts(scene).as_field()
+        return scene.derived["field"]

@@ -14,6 +14,7 @@ from codegen.lower.base import Lowering, Objection
 from codegen.method import Method
 from codegen.scene.ambient import ambient
 from codegen.scene.evolution import evolution
+from codegen.scene.orbit_projection import reaches_orbit
 from codegen.scene.problem import Problem
 
 LEAST = 2
@@ -34,6 +35,10 @@ class Taylor(Lowering):
     family = "taylor"
     in_coordinates = True
 
+    def keeps_manifold(self, scene: Problem) -> bool:
+        """Whether the projection at the end of a step reaches the manifold, or the manifold is open."""
+        return scene.group.abelian or reaches_orbit(scene)
+
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why a scene is not accepted: it has run-time inputs. None is returned for other
         scenes."""
@@ -47,7 +52,9 @@ class Taylor(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene in the coordinates of its state. Its ``evolution`` contains the coordinates of the
         polynomials."""
-        return replace(ambient(scene), evolution=evolution(scene))
+        if "taylor" not in scene.derived:
+            scene.derived["taylor"] = replace(ambient(scene), evolution=evolution(scene))
+        return scene.derived["taylor"]
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program: the polynomial, then the projection."""

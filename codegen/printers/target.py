@@ -8,8 +8,8 @@ from pkgutil import resolve_name
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 if TYPE_CHECKING:
+    from codegen.integrator import Integrator
     from codegen.ir.kernel import Kernel
-    from codegen.loader import Integrator
     from codegen.printers.interface import Interface
     from codegen.printers.recipe import Recipe
 

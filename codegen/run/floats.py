@@ -74,14 +74,17 @@ class EmittedFloats(FloatDomain):
             return math.cosh(r) if k == 0 else math.sinh(r) / r
         if function.startswith("stumpff"):
             return self.together([int(function[-1])], z)[0]
-        if function.startswith("slope"):
+        if "slope" in function:
             return self._slope(int(function[-1]), z)
         return super().call(function, *args)
 
     def _slope(self, k: int, z: float) -> float:
         # The quotient divides by z and cancels for small z; there the series is used.
-        if z > 1.0:
-            before, c = self.together([k - 1, k], z)
+        if abs(z) > 1.0:
+            if k == 1:
+                before, c = (self.call(f"signed_stumpff{i}", z) for i in range(2))
+            else:
+                before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
         # Horner's rule in the order of the snippet, so that every rounding is the same.

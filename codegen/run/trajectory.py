@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import walk
 from codegen.ir.kernel import Kernel
 from codegen.run.arithmetic import computed, outputs
@@ -41,7 +42,7 @@ from codegen.run.terms import (
     whole,
 )
 
-RAISING = frozenset({"sqrt", "log", "exp"})
+RAISING = frozenset({"sqrt", "log", "exp", *(f.name for f in ELEMENTARY.values() if f.raising)})
 """Functions that raise an exception in Python for some arguments."""
 
 REGISTERS = 6

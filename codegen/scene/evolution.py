@@ -14,7 +14,13 @@ from dataclasses import dataclass, replace
 
 from codegen.groups.actions import LeftMultiplication
 from codegen.groups.base import LieGroup
-from codegen.groups.capabilities import BodyFrame, CotangentBundle, DependentCoordinates, Projection
+from codegen.groups.capabilities import (
+    BodyFrame,
+    Coadjoint,
+    CotangentBundle,
+    DependentCoordinates,
+    Projection,
+)
 from codegen.groups.linear_algebra import S, Vector
 from codegen.groups.rn import Rn
 from codegen.ir.collect_constants import gathered
@@ -41,21 +47,35 @@ class Evolution:
     body: BodyFrame | None = None
     missing: tuple[int, ...] = ()
 
-    def enter(self, domain: Domain, y: Vector[S]) -> Vector[S]:
-        """Return the coordinates of a state."""
-        if self.body is not None:
+    def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
+        """Return the coordinates of a state.
+
+        If ``frame`` is given, the momentum of the state is that of the body, and ``frame`` is the group.
+        """
+        if self.body is not None and frame is None:
             q, mu = self._split(y)
             y = (*q, *self.body.Adt(domain, q, mu))
+        if self.body is None and frame is not None:
+            y = in_space(domain, frame, y)
         return tuple(x for i, x in enumerate(y) if i not in self.missing)
 
-    def leave(self, domain: Domain, moved: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return the state with given coordinates on the manifold that contains the state y."""
+    def leave(
+        self, domain: Domain, moved: Vector[S], y: Vector[S], frame: Coadjoint | None = None
+    ) -> Vector[S]:
+        """Return the state with given coordinates on the manifold that contains the state y.
+
+        If ``frame`` is given, the momentum of both states is that of the body, and ``frame`` is the group.
+        """
         z = self._completed(domain, moved)
         if self.body is None:
-            return self.outer.action.to_orbit(domain, self.outer.group, z, y)
+            start = y if frame is None else in_space(domain, frame, y)
+            z = self.outer.action.to_orbit(domain, self.outer.group, z, start)
+            return z if frame is None else in_body(domain, frame, z)
         (q, mu), (end, momentum) = self._split(y), self._split(z)
         projection = self.body.offers(Projection)
         end = end if projection is None else projection.project(domain, end)
+        if frame is not None:
+            return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
         # Only the change of the momentum is converted back: if q is not quite orthogonal, converting the
@@ -112,6 +132,18 @@ class Evolution:
         z = [zero if i in self.missing else next(own) for i in range(len(moved) + len(self.missing))]
         q = group.require(DependentCoordinates).complete(domain, tuple(z[: group.size]), self.missing)
         return (*q, *z[group.size :])
+
+
+def in_space(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
+    """Return a state with the momentum in space, given the state with the momentum of the body."""
+    q, momentum = tuple(y[: group.size]), tuple(y[group.size :])
+    return (*q, *group.Adtinv(domain, q, momentum))
+
+
+def in_body(domain: Domain, group: Coadjoint, y: Vector[S]) -> Vector[S]:
+    """Return a state with the momentum of the body, given the state with the momentum in space."""
+    q, mu = tuple(y[: group.size]), tuple(y[group.size :])
+    return (*q, *group.Adt(domain, q, mu))
 
 
 def evolution(scene: Problem) -> Evolution:

@@ -60,7 +60,8 @@ class Problem:
     with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code
     reads at run time. ``forced`` says that n is not a derivative of the Hamiltonian alone. If emitted code
     reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution`` contains the
-    coordinates in which a step of Taylor's method computes.
+    coordinates in which a step of Taylor's method computes. ``derived`` stores the problems that families
+    derive from this one, by the kind of the family, because a search lowers hundreds of methods.
     """
 
     name: str
@@ -85,6 +86,7 @@ class Problem:
     parts: Mapping[str, Expr] = field(default_factory=dict)
     flows: Mapping[str, Flow] = field(default_factory=dict)
     stated: Mapping[str, tuple[Expr, ...]] = field(default_factory=dict)
+    derived: dict[str, Problem] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     @property
     def symbols(self) -> tuple[str, ...]:

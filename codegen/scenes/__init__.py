@@ -60,7 +60,7 @@ def register(name: str, scene: Problem, about: str = "") -> Problem:
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
     if name in GALLERY or not name.isidentifier():
         raise SceneError(f"the name {name!r}", expected="an identifier that is not a scene of the gallery")
-    named = replace(scene, name=name)
+    named = _named(scene, name)
     _REGISTERED[name] = (named, about)
     return named
 
@@ -171,7 +171,12 @@ def _run(name: str, path: Path) -> Problem:
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
-    return replace(scene, name=path.stem)
+    return _named(scene, path.stem)
+
+
+def _named(scene: Problem, name: str) -> Problem:
+    """Return the scene with another name; a scene without a title gets the name as its title."""
+    return replace(scene, name=name, title=name if scene.title == scene.name else scene.title)
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:

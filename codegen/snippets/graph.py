@@ -13,11 +13,12 @@ from typing import Any
 
 import networkx as nx
 
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
-LIBRARY = ("cos", "cosh", "exp", "fabs", "isfinite", "log", "sin", "sinh", "sqrt")
+LIBRARY = ("fabs", "isfinite", *sorted(MATHEMATICAL))
 """Functions that both targets have in their mathematical library."""
 
 
@@ -48,6 +49,10 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     for k, hyperbolic in enumerate(("cosh", "sinh")):
         needs = (f"stumpff_{k}", "sqrt", hyperbolic)
         listed.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
+    values_of_both = ("signed_stumpff0", "signed_stumpff1")
+    listed.append(
+        Snippet("signed_slope1", "signed_slope", values_of_both, {"terms": stumpff.slopes(1, precision)})
+    )
     switch = [float(z) for z in stumpff.SWITCH]
     for k in range(4):
         first, *rest = stumpff.constants(k, None, precision)

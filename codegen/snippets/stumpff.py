@@ -117,7 +117,7 @@ def constants(k: int, last: Fraction | int | None = None, precision: Precision =
 
 
 def slopes(k: int, precision: Precision = DOUBLE) -> tuple[float, ...]:
-    """Return the Taylor coefficients of c_k' for arguments up to 1.
+    """Return the Taylor coefficients of c_k' for arguments from -1 to 1.
 
     >>> [1 / x for x in slopes(2)[:2]]
     [-24.0, 360.0]

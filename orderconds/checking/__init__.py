@@ -7,9 +7,10 @@ Certificates. ``exact``: every residual up to the order is zero in an exact ring
 equations for its decimals, and interval arithmetic proves that the equations have exactly one solution within
 one unit of the last digits. The method whose coefficients are this solution has the stated order
 (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain zero. The digits in the file
-support the order, but do not prove it. A ball too wide to decide (see
-:data:`orderconds.checking.residuals.RESOLUTION`) leaves the order ``undecided`` and its certificate ``none``;
-a ball that excludes zero proves that the condition fails.
+support the order, but do not prove it. ``double``: the same, where the coefficients are doubles
+(:mod:`orderconds.tableau.doubles`); no residual is larger than a few roundings of the coefficients can cause.
+A ball too wide to decide (see :data:`orderconds.checking.residuals.RESOLUTION`) leaves the order
+``undecided`` and its certificate ``none``; a ball that excludes zero proves that the condition fails.
 """
 
 from __future__ import annotations

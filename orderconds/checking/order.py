@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Context, Decimal
 from itertools import chain, islice
 
@@ -26,11 +26,14 @@ norm."""
 STOPPED = "stopped"
 """The verdict on an order that was not decided because of a limit."""
 
+DOUBLE = "double"
+"""The certificate of an order that coefficients in double precision support."""
+
 Tree = tuple[Key, Callable[[], OrderCondition]]
 """A family's own encoding of a tree, and a function that returns the condition of the tree."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FamilyOrder:
     """The order of one tableau in one family, and the claimed or required order.
 
@@ -51,10 +54,17 @@ class FamilyOrder:
     required: int | None = None
     limit: int | None = None
     stopped: int | None = None
+    largest: float | None = None
+    """The largest residual up to this order, if the coefficients are doubles."""
+
+    def __repr__(self) -> str:
+        return (
+            f"FamilyOrder({self.family}: order {self.order}, certificate {self.certificate}, {self.verdict})"
+        )
 
     @property
     def verdict(self) -> str:
-        """``holds``, ``fails`` or ``undecided``."""
+        """``holds``, ``fails``, ``undecided`` or, without a claim and a required order, ``unclaimed``."""
         if self.required is not None:
             sound = self.order >= self.required
             unknown = not self.decided or self.stopped is not None
@@ -63,7 +73,18 @@ class FamilyOrder:
             return "undecided"
         if self.stopped is not None and self.claimed is not None and self.claimed >= self.order:
             return "undecided"
-        return "holds" if self.claimed in (None, self.order) else "fails"
+        if self.claimed is None:
+            return "unclaimed"
+        return "holds" if self.claimed == self.order else "fails"
+
+    @property
+    def sentence(self) -> str:
+        """The order in words: ``order 4``, ``order at least 8``, ``order 4 to double precision ...``."""
+        text = f"order{' at least' if self.limit is not None or not self.decided else ''} {self.order}"
+        if self.certificate != DOUBLE:
+            return text
+        size = "" if self.largest is None else f" (largest residual {self.largest:.1e})"
+        return f"{text} to double precision{size}, not proved"
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of one family; the key ``limit`` is present only if the search ended without
@@ -81,6 +102,8 @@ class FamilyOrder:
             record["limit"] = self.limit
         if self.stopped is not None:
             record["stopped"] = self.stopped
+        if self.largest is not None:
+            record["largest_residual"] = self.largest
         return record
 
 
@@ -114,9 +137,9 @@ def family_order(
     method = _method(tableau, family)
     family.require(method, tableau.ring)
     spared = family.reductions(method, tableau.ring, proved or {})
-    return _Search(family, method, tableau.ring, spared, meter or Meter()).run(
-        claimed, required, bound, brief
-    )
+    search = _Search(family, method, tableau.ring, spared, meter or Meter(), [] if tableau.doubles else None)
+    computed = search.run(claimed, required, bound, brief)
+    return replace(computed, largest=max(search.sizes)) if search.sizes else computed
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
@@ -144,6 +167,8 @@ class _Search:
     ring: Ring
     spared: Reductions
     meter: Meter
+    sizes: list[float] | None
+    """The largest residual of each batch of conditions that hold, if the coefficients are doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -190,7 +215,7 @@ class _Search:
             batch = tuple(
                 condition() for key, condition in trees if not (known and self.spared.follows(n, key))
             )
-            judged, failing = judge(self.family, self.method, self.ring, batch, unlikely)
+            judged, failing = judge(self.family, self.method, self.ring, batch, unlikely, self.sizes)
             self.meter.count(len(batch))
             verdicts |= judged
             if failing or (not every and judged == {"zero"} and self.spared.rest_follows(n)):

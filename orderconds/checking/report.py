@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from orderconds.proof.certificate import Certificate
 
 
+UNCLAIMED = "unclaimed"
+"""The verdict on a tableau without a claimed or required order."""
+
+
 class EmbeddedOrder(Struct, frozen=True):
     """The claimed order of the embedded row (a second row of weights, used to estimate the error) in the
     family ``own``, and the computed orders of the row by family.
@@ -35,7 +39,7 @@ class EmbeddedOrder(Struct, frozen=True):
         return {"claimed": self.claimed, "orders": self.orders, "certificates": self.certificates}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report:
     """The result of ``check`` for one tableau; ``broken_claims`` are property claims that do not hold."""
 
@@ -50,20 +54,43 @@ class Report:
     proof: Certificate | None = None
     work: dict[str, Work] = field(default_factory=dict)
     embedded: EmbeddedOrder | None = None
+    properties_claimed: bool = False
+    hint: str = ""
+    """A suggestion for the author of the file."""
 
     @property
     def verdict(self) -> str:
-        """``fails`` if any claim fails, else ``undecided`` if any claim is undecided, else ``holds``."""
+        """``fails`` if any claim fails, else ``undecided`` if any claim is undecided, else ``holds`` if an
+        order is claimed or required, else ``unclaimed``."""
         verdicts = {family.verdict for family in self.orders}
         if self.broken_claims or "fails" in verdicts:
             return "fails"
-        return "undecided" if "undecided" in verdicts else "holds"
+        return next((v for v in ("undecided", "holds") if v in verdicts), UNCLAIMED)
+
+    @property
+    def conclusion(self) -> str:
+        """The verdict in words. Without a claim, it states the computed orders."""
+        if self.verdict != UNCLAIMED:
+            return self.verdict
+        several = len(self.orders) > 1
+        orders = (family.sentence + (f" ({family.family})" if several else "") for family in self.orders)
+        return f"{', '.join(orders)}; {'no order' if self.properties_claimed else 'nothing'} claimed"
+
+    def __repr__(self) -> str:
+        orders = ", ".join(f"{family.family} {family.order}" for family in self.orders)
+        claimed = self.verdict != UNCLAIMED
+        return f"Report({self.name}: {self.conclusion}{f'; {orders}' if claimed else ''})"
+
+    def _repr_html_(self) -> str:
+        from orderconds.checking.report_html import report_html
+
+        return report_html(self)
 
     def summary(self) -> str:
         """Return a short text with the claims that do not hold, each with its first failing condition."""
-        lines = [f"{self.name}: {self.verdict}" + (f"  ({self.file})" if self.file else "")]
+        lines = [f"{self.name}: {self.conclusion}" + (f"  ({self.file})" if self.file else "")]
         for family in self.orders:
-            if family.verdict != "holds":
+            if family.verdict not in ("holds", UNCLAIMED):
                 wanted = family.claimed if family.required is None else f"at least {family.required}"
                 lines.append(f"  {family.family}: order {family.order}, claimed {wanted}")
                 lines += [f"    {failure}" for failure in family.failing[:1]]
@@ -87,4 +114,6 @@ class Report:
             record["proof"] = self.proof.as_json()
         if self.undecided:
             record["undecided"] = self.undecided
+        if self.hint:
+            record["hint"] = self.hint
         return {**record, "broken_claims": list(self.broken_claims)} if self.broken_claims else record

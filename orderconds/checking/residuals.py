@@ -106,8 +106,11 @@ def judge(
     ring: Ring,
     conditions: Sequence[OrderCondition],
     balls_first: bool = False,
+    sizes: list[float] | None = None,
 ) -> tuple[set[str], tuple[Failure, ...]]:
     """Return the set of verdicts on the conditions, and the conditions that fail.
+
+    If ``sizes`` is a list and no condition fails, the largest residual is appended to it.
 
     Verdicts are ``zero``, ``fails``, ``supported`` (the residual is a narrow ball around zero) and
     ``undecided`` (it is a wide ball around zero). ``balls_first`` is faster if most conditions fail; it does
@@ -132,6 +135,8 @@ def judge(
         for condition, residual, verdict in zip(conditions, residuals, judged, strict=True)
         if verdict == "fails"
     )
+    if sizes is not None and residuals and not failing and isinstance(ring, Balls):
+        sizes.append(max(abs(ring.nearest_float(x)) for x in residuals))
     return set(judged), failing
 
 

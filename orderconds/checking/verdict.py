@@ -10,16 +10,21 @@ from typing import TYPE_CHECKING
 
 from orderconds import families
 from orderconds.checking.limits import Limits, Meter
-from orderconds.checking.order import FamilyOrder, family_order, first_failing
+from orderconds.checking.order import DOUBLE, FamilyOrder, family_order, first_failing
 from orderconds.checking.report import EmbeddedOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
 from orderconds.tableau import Tableau, find
 from orderconds.tableau.properties import properties, undecided
+from orderconds.tableau.tolerance import with_tolerance
 
 if TYPE_CHECKING:
     from orderconds.proof.certificate import Certificate
     from orderconds.proof.implications import Fact
+
+
+NOT_PROVED = ("decimal", DOUBLE)
+"""The certificates of orders that digits support and do not prove."""
 
 
 def check(
@@ -30,28 +35,31 @@ def check(
     complete: bool = False,
     certified: bool = False,
     limits: Limits | None = None,
+    tolerance: float | None = None,
 ) -> Report:
     """Find the exact order of ``tableau`` (or of a file, or of a library name) in each family that it claims.
 
     With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, whether or not the file claims it.
     With ``order`` the order must be at least this number, and claims are ignored. With ``complete`` the check
-    fails unless the file claims an order in each claimable family. With ``certified`` it fails if only
-    rounded decimals support an order. A tableau without claims is checked in the family of its format.
-    ``limits`` bound the work; if a limit is reached, the order in the report is a lower bound.
+    fails unless the file claims an order in each claimable family. With ``certified`` it fails if only digits
+    support an order. A tableau without claims is checked in the family of its format, and its verdict is
+    ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in the report is a lower bound.
+    ``tolerance`` is the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
 
-    Raises :class:`~orderconds.errors.UnknownName` for an unknown family,
-    :class:`~orderconds.errors.ZeroWeight` if the formulas of a family divide by a weight b_i = 0,
-    :class:`~orderconds.errors.TableauError` for a file that cannot be read, and
-    :class:`~orderconds.errors.InputError` for a family that does not accept the format of the tableau.
+    Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
+    formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
 
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
     ('holds', [('rk', 4, 'exact')])
+    >>> check("rk4", order=3).verdict, check("rk4", family="rkmk(3)").conclusion
+    ('holds', 'order 4; nothing claimed')
     >>> print(check("kutta3", family="rkmk(0)").orders[0].order)
     2
     """
     if not isinstance(tableau, Tableau):
         tableau = read(tableau)
+    given, tableau = tableau, with_tolerance(tableau, tolerance)
     wanted = list(_wanted(tableau, family))
     proof, broken = _proof(tableau)
     enclosed = proof.tableau if proof else tableau
@@ -61,12 +69,10 @@ def check(
     if family is None:
         broken += _broken_claims(tableau, computed, embedded)
     if complete:
-        from orderconds.checking.claimable import unclaimed
-
-        broken += _missing_claims(enclosed, unclaimed(tableau))
-    orders = _orders(enclosed, wanted, facts, order, Meter(limits or Limits()))
+        broken += _missing_claims(enclosed, tableau)
+    orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     if certified:
-        broken += [f"{f.family}: certificate decimal" for f in orders if f.certificate == "decimal"]
+        broken += [f"{f.family}: certificate {f.certificate}" for f in orders if f.certificate in NOT_PROVED]
     return Report(
         name=tableau.name,
         file=tableau.path,
@@ -78,7 +84,34 @@ def check(
         proof=proof,
         work={f.label(): cost for f, _ in wanted if (cost := f.work(tableau)) is not None},
         embedded=embedded,
+        properties_claimed=bool(tableau.claims.properties),
+        hint=_hint(given, orders),
     )
+
+
+def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
+    """Return the orders with the certificate ``double`` instead of ``decimal`` for a tableau of doubles."""
+    if not tableau.doubles:
+        return orders
+    return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
+
+
+def _of_doubles(certificate: str) -> str:
+    """Return the certificate of an order, given the certificate that balls around doubles yield."""
+    return DOUBLE if certificate == "decimal" else certificate
+
+
+def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
+    """Return the sentence that names closed forms of doubles, or an empty text."""
+    if not tableau.doubles or any(family.verdict == "fails" for family in orders):
+        return ""
+    from orderconds.checking.exact_forms import exact_forms
+
+    forms = exact_forms(tableau)
+    if forms is None:
+        return ""
+    name, text = max(forms.texts.items(), key=lambda form: ("sqrt" in form[1], -len(form[1])))
+    return f"exact coefficients are recognised, such as {name} = {text}; orderconds refine FILE writes them"
 
 
 def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | None:
@@ -100,6 +133,8 @@ def _embedded(tableau: Tableau, wanted: Sequence[Family]) -> EmbeddedOrder | Non
         computed[label] = family_order(lower, family, claimed, None, bound, _proved(known), brief=True)
     orders = {label: family.order for label, family in computed.items()}
     certificates = {label: family.certificate for label, family in computed.items()}
+    if tableau.doubles:
+        certificates = {label: _of_doubles(name) for label, name in certificates.items()}
     return EmbeddedOrder(claimed, orders, certificates, own, computed[own].failing)
 
 
@@ -262,9 +297,9 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
     return replace(computed, certificate="ball") if implied(facts, family, computed.order) else computed
 
 
-def read(given: str | PathLike[str]) -> Tableau:
+def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     """Read a file of any format that :mod:`orderconds.exchange` reads, or the tableau of this name in the
-    library.
+    library. A Python module is parsed; with ``execute`` it is run.
 
     >>> read("rk4").name
     'rk4'
@@ -273,7 +308,7 @@ def read(given: str | PathLike[str]) -> Tableau:
     if path.suffix and path.suffix != ".toml":
         from orderconds.exchange import load_foreign
 
-        if (foreign := load_foreign(path)) is not None:
+        if (foreign := load_foreign(path, execute=execute)) is not None:
             return foreign
     bare = path.name == str(given) and path.suffix != ".toml"
     return Tableau.load(find(path.name) if bare and not path.exists() else path)
@@ -296,11 +331,22 @@ def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int 
 def _claimed(tableau: Tableau, label: str) -> Family:
     """Return the family of a claim. If there is no family of this name, raise an InputError with the key in
     the file."""
+    where = f"{tableau.path or tableau.name}: claims.{label.partition('(')[0]}"
     try:
-        return families.get(label)
+        family = families.get(label)
     except InputError as problem:
-        problem.where = f"{tableau.path or tableau.name}: claims.{label.partition('(')[0]}"
+        problem.where = where
         raise
+    if tableau.family not in family.formats and family.read(tableau) is None:
+        from orderconds.checking.claimable import claimable_families
+
+        readers = ", ".join(member.label() for member in claimable_families(tableau))
+        raise InputError(
+            f"a claim in family {label}, which does not read tableaux of format {tableau.family}",
+            where=where,
+            expected=f"a family that reads them, such as {readers}",
+        )
+    return family
 
 
 def _broken_claims(
@@ -318,10 +364,13 @@ def _broken_claims(
         yield f"the embedded row has order {order} ({embedded.own}), claimed {embedded.claimed}{reason}"
 
 
-def _missing_claims(tableau: Tableau, unclaimed: Sequence[Family]) -> Iterator[str]:
-    """Yield a message for each family without a claim, with the order that it could claim."""
-    for family in unclaimed:
-        computed = family_order(tableau, family)
+def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
+    """Yield a message for each family without a claim, with the order that it could claim. ``enclosed`` has
+    the proved coefficients of the tableau."""
+    from orderconds.checking.claimable import unclaimed
+
+    for family in unclaimed(tableau):
+        computed = family_order(enclosed, family)
         least = " at least" if computed.limit is not None or not computed.decided else ""
         order = f"order{least} {computed.order}"
         yield f"no order is claimed in family {family.label()}, in which the method has {order}"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import click
 from msgspec import Struct
+from msgspec.structs import replace
 
 from orderconds.checking.limits import MAX_CONDITIONS, Limits
 from orderconds.commands import screen
@@ -30,6 +31,9 @@ if TYPE_CHECKING:
 SHOWN = 5
 """If a claim fails, the text output lists at most this many failing conditions. If no claim fails, it lists
 one. The JSON output lists all failing conditions."""
+
+UNCLAIMED = "unclaimed"
+HOW_TO_CLAIM = 'add order = 4 (TOML, Python), "order": 4 (JSON), order,4 (CSV) or order=4 (numpy.savez)'
 
 WIDTH = 200
 """The maximal length of a formula or residual in the text output. The JSON output contains the full text."""
@@ -59,6 +63,20 @@ WIDTH = 200
     "file DIR/DECIMAL.",
 )
 @click.option(
+    "--require-claims", is_flag=True, help="Exit with 1 if a tableau claims no order that is checked."
+)
+@click.option("--skip-others", is_flag=True, help="Skip named files that hold no tableau, as in a directory.")
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(0, 2**40),
+    metavar="UNITS",
+    help="The uncertainty of coefficients that are binary floats, in units of rounding (2^-53 of the number, "
+    "or of 1 if the number is smaller). Default: 8. With 0 the floats are exact numbers.",
+)
+@click.option(
+    "--execute", is_flag=True, help="Run Python files to obtain their arrays. Otherwise they are parsed."
+)
+@click.option(
     "--max-conditions",
     type=click.IntRange(1),
     help="Evaluate at most this many conditions of one order. Default: 50000.",
@@ -78,55 +96,74 @@ def command(
     order: int | None,
     complete: bool,
     certified: bool,
+    require_claims: bool,
+    skip_others: bool,
+    tolerance: float | None,
+    execute: bool,
     max_conditions: int | None,
     max_seconds: float | None,
     max_memory: int | None,
     as_json: bool,
 ) -> int:
-    """Find the exact order and the properties of each tableau: a file, every file below a directory, or a
-    name from the library. A claimed order must equal the computed order. If a limit ends the search, the
-    computed order is a lower bound.
+    """Find the exact order and the properties of each tableau: a file (TOML, JSON, CSV, NPZ, Python, LaTeX or
+    C), every such file below a directory, or a name from the library. A claimed order must equal the computed
+    order. A file claims an order with `order = 4`, or with `rk = 4` among its claims. If a limit ends the
+    search, the computed order is a lower bound.
 
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
 
     \b
     Examples:
         orderconds check cf4
-        orderconds check tableaux --certified
+        orderconds check tableaux --require-claims
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     from orderconds.families import get
 
     if family is not None:
         get(family)  # report an unknown family once, not for each file
-    excused = _excused(tableaux)
-    limits = Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory)
-    paths = list(_files(tableaux))
-    detailed = len(tableaux) == 1 and not os.path.isdir(tableaux[0])
-    jobs = [
-        _Job(
-            path=path,
-            family=family,
-            order=order,
-            complete=complete,
-            certified=certified and Path(path).stem not in excused,
-            limits=limits,
-            as_json=as_json,
-            detailed=detailed,
-            one_of_many=len(paths) > 1,
-        )
-        for path in paths
-    ]
+    job = _Job(
+        path="",
+        family=family,
+        order=order,
+        complete=complete,
+        certified=certified,
+        limits=Limits(max_conditions or MAX_CONDITIONS, max_seconds, max_memory),
+        tolerance=tolerance,
+        execute=execute,
+        as_json=as_json,
+        detailed=len(tableaux) == 1 and not os.path.isdir(tableaux[0]),
+    )
+    jobs = _jobs(tableaux, job, skip_others)
     outcomes = list(_outcomes(jobs, as_json))
     verdicts = [outcome.verdict for outcome in outcomes]
-    held = all(verdict == "holds" for verdict in verdicts)
+    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
+    held = all(verdict in accepted for verdict in verdicts)
     if as_json:
         import json
 
         screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
     elif len(outcomes) > 1 and screen.is_shown(held):
         _print_summary(verdicts)
+    if require_claims and UNCLAIMED in verdicts:
+        count = verdicts.count(UNCLAIMED)
+        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
     return 2 if None in verdicts else 0 if held else 1
+
+
+def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool) -> list[_Job]:
+    """Return a job for each tableau, with the options of ``job``."""
+    excused = _excused(arguments)
+    paths = list(_files(arguments, skip_others))
+    return [
+        replace(
+            job,
+            path=path,
+            certified=job.certified and Path(path).stem not in excused,
+            one_of_many=len(paths) > 1,
+        )
+        for path in paths
+    ]
 
 
 def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
@@ -165,9 +202,11 @@ class _Job(Struct, frozen=True):
     complete: bool
     certified: bool
     limits: Limits
+    tolerance: float | None
+    execute: bool
     as_json: bool
     detailed: bool
-    one_of_many: bool
+    one_of_many: bool = False
 
 
 class _Outcome(Struct, frozen=True):
@@ -179,16 +218,17 @@ class _Outcome(Struct, frozen=True):
 
 def _checked(job: _Job) -> _Outcome:
     """Check one tableau. Report an unreadable file and continue with the others."""
-    from orderconds.checking import check
+    from orderconds.checking import check, read
 
     try:
         report = check(
-            job.path,
+            read(job.path, execute=job.execute),
             family=job.family,
             order=job.order,
             complete=job.complete,
             certified=job.certified,
             limits=job.limits,
+            tolerance=job.tolerance,
         )
     except InputError as error:
         message = str(error)
@@ -218,30 +258,43 @@ def _excused(arguments: Sequence[str]) -> set[str]:
     return names
 
 
-def _files(arguments: Sequence[str]) -> Iterator[str]:
+def _files(arguments: Sequence[str], skip_others: bool) -> Iterator[str]:
     """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
-    Other TOML files below a directory, such as ``pyproject.toml``, are skipped.
+    The skipped files are named on stderr, with the reason.
     """
-    from orderconds.tableau.file import meant_as_tableau
-
     for argument in arguments:
         if not argument.strip():
             raise TableauError(
                 f"the argument {argument!r} is empty", expected="a file, a folder or a tableau's name"
             )
-        if not os.path.isdir(argument):
+        if not os.path.isdir(argument) and not skip_others:
             yield argument
             continue
-        paths = sorted(str(path) for path in Path(argument).rglob("*.toml") if meant_as_tableau(path))
-        if not paths:
-            raise TableauError("no tableau below this directory", where=argument, expected="files *.toml")
-        yield from paths
+        from orderconds.exchange.folder import SUFFIXES, reason_to_skip, scan
+
+        if not os.path.isdir(argument):
+            if reason := reason_to_skip(argument):
+                click.echo(f"skipped {argument}: {reason}", err=True)
+            else:
+                yield argument
+            continue
+        below = scan(argument)
+        for path, reason in below.skipped:
+            click.echo(f"skipped {path}: {reason}", err=True)
+        if below.others:
+            names = list(dict.fromkeys(below.others))
+            shown = ", ".join(names[:SHOWN]) + (", ..." if len(names) > SHOWN else "")
+            click.echo(f"skipped {len(below.others)} other files and hidden folders: {shown}", err=True)
+        if not below.tableaux:
+            kinds = ", ".join(f"*{suffix}" for suffix in SUFFIXES)
+            raise TableauError("no tableau below this directory", where=argument, expected=f"files {kinds}")
+        yield from below.tableaux
 
 
 def _print_report(report: Report, *, detailed: bool) -> None:
     """Print one tableau: its orders as a table, then failing conditions, then its properties."""
-    heading = f"{report.name}: {report.verdict}"
+    heading = f"{report.name}: {report.conclusion}"
     click.secho(heading + (f"  ({report.file})" if report.file else ""), bold=True)
     screen.print_table(
         ("family", "claimed", "order", "verdict", "certificate", "error norm"),
@@ -249,10 +302,14 @@ def _print_report(report: Report, *, detailed: bool) -> None:
         indent=2,
     )
     for family in report.orders:
-        if detailed or family.verdict != "holds":
+        if family.certificate == "double" and report.verdict != UNCLAIMED:
+            click.echo(f"  {family.family}: {family.sentence}")
+        if detailed or family.verdict not in ("holds", UNCLAIMED):
             _print_failing(family)
     for broken in report.broken_claims:
         click.echo(f"  claim fails: {broken}")
+    if report.hint:
+        click.echo(f"  hint: {report.hint}")
     if report.embedded is not None:
         click.echo(f"  embedded row: order {_embedded(report.embedded)}")
     if report.proof is not None:
@@ -329,7 +386,7 @@ def _print_failing(family: FamilyOrder) -> None:
         return
     text = "1 condition" if count == 1 else f"{count} conditions"
     click.echo(f"  {family.family}: {text} of order {n} not met")
-    shown = 1 if family.verdict == "holds" else SHOWN
+    shown = 1 if family.verdict in ("holds", UNCLAIMED) else SHOWN
     for failure in family.failing[:shown]:
         decimal = "" if failure.decimal == failure.residual else f" = {failure.decimal}"
         formula = failure.condition.expression
@@ -343,7 +400,9 @@ def _print_failing(family: FamilyOrder) -> None:
 
 def _print_summary(verdicts: Sequence[str | None]) -> None:
     counts = [
-        f"{n} {verdict}" for verdict in ("holds", "fails", "undecided") if (n := verdicts.count(verdict))
+        f"{n} {verdict}"
+        for verdict in ("holds", "fails", "undecided", UNCLAIMED)
+        if (n := verdicts.count(verdict))
     ]
     counts += [f"{n} not read"] if (n := verdicts.count(None)) else []
     click.echo(f"{len(verdicts)} tableaux: {', '.join(counts)}")

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import io
+from contextlib import redirect_stdout
 from typing import TYPE_CHECKING
 
 import click
 
 from orderconds.commands import screen
 from orderconds.commands.names import completing, family_names
+from orderconds.commands.place import FILE, put
 
 if TYPE_CHECKING:
     from orderconds.derivation import Derivation
@@ -32,6 +35,7 @@ FORMATS = ("text", "latex", "sympy", "json")
     help="Print the conditions of all trees, and how dependent conditions follow from independent ones.",
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
+@click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
 def command(
     family: str,
@@ -41,15 +45,19 @@ def command(
     form: str | None,
     every: bool,
     explain: bool,
+    output: str | None,
     as_json: bool,
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order.
+
+    The format latex has numbered equations with their trees and labels for a two-column article, and defines
+    all symbols.
 
     \b
     Examples:
         orderconds derive vcg --order 3
         orderconds derive rk --order 4 --stages 4 --explicit
-        orderconds derive cf --order 4 --format latex
+        orderconds derive cf --order 4 --format latex -o conditions.tex
     """
     from orderconds import families
     from orderconds.derivation import derive
@@ -61,22 +69,31 @@ def command(
         raise click.UsageError(f"--json and --format {form} select two output formats; leave one out")
     refuse_too_many_trees(families.get(family), order)
     with screen.working(f"deriving {family} to order {order}"):
-        derivation = derive(family, order, every=every)
-        if stages is not None:
-            from orderconds.stage_expansion import expand_stages
+        derivation = derive(family, order, stages, explicit=explicit, every=every)
+    chosen = "json" if as_json else form or "text"
+    if output is None:
+        _print(derivation, chosen, explain)
+        return 0
+    with redirect_stdout(io.StringIO()) as printed:
+        _print(derivation, chosen, explain)
+    put(output, printed.getvalue().encode())
+    return 0
 
-            derivation = expand_stages(derivation, stages, explicit=explicit)
-    match "json" if as_json else form:
+
+def _print(derivation: Derivation, form: str, explain: bool) -> None:
+    """Print a derivation in one of the :data:`FORMATS`."""
+    match form:
         case "json":
             _print_json(derivation, explain)
         case "latex":
-            _print_latex(derivation, explain)
+            from orderconds.typeset.article import article
+
+            click.echo(article(derivation.family, derivation.by_order, explain=explain))
         case "sympy":
             for condition in derivation.conditions:
                 click.echo(condition.sympy())
         case _:
             _print_text(derivation, explain)
-    return 0
 
 
 def _print_text(derivation: Derivation, explain: bool) -> None:
@@ -119,20 +136,3 @@ def _print_json(derivation: Derivation, explain: bool) -> None:
 
         record["conditions"] = [{**c.as_json(), "names": named_by(c)} for c in derivation.conditions]
     screen.print_json(record)
-
-
-def _print_latex(derivation: Derivation, explain: bool) -> None:
-    r"""Print one ``align*`` environment (package amsmath), with trees and relations as comments."""
-    from orderconds.explain.kinds import named_by
-    from orderconds.formula.equations import aligned
-    from orderconds.formula.notation import latex_fraction
-
-    rows = []
-    for condition in derivation.conditions:
-        comment = f"order {condition.order}, {condition.tree}"
-        if explain:
-            comment += f"\nnames {named_by(condition)}"
-        if condition.relation is not None:
-            comment += f"\nequals {condition.relation}"
-        rows.append((comment, condition.latex, latex_fraction(condition.rhs)))
-    click.echo(aligned(rows))

@@ -27,14 +27,22 @@ def completing(names: Callable[[], Iterable[str]], *, files: bool = False) -> Co
 
 
 def family_names() -> list[str]:
-    """Return the names of all families."""
+    """Return the names of all families.
+
+    >>> "cf" in family_names()
+    True
+    """
     from orderconds import families
 
     return sorted(families.names())
 
 
 def tableau_names() -> list[str]:
-    """Return the names of the tableaux of the library."""
+    """Return the names of the tableaux of the library.
+
+    >>> "cf4" in tableau_names()
+    True
+    """
     from orderconds.tableau.library import available
 
     return sorted(available())

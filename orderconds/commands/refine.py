@@ -1,4 +1,4 @@
-"""``orderconds refine``: more digits for the rounded decimals of a tableau, and their proof."""
+"""``orderconds refine``: exact coefficients for doubles; more digits for rounded decimals and their proof."""
 
 from __future__ import annotations
 
@@ -6,9 +6,12 @@ import click
 
 from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
+from orderconds.tableau import Tableau, dumps
+
+UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give a method of this order"
 
 
-@click.command(name="refine", short_help="Compute more digits of a tableau's decimals and prove them.")
+@click.command(name="refine", short_help="Replace a tableau's decimals by proved digits or exact numbers.")
 @click.argument("file", metavar="FILE")
 @click.option(
     "--digits", type=click.IntRange(10, 1000), default=60, show_default=True, help="Decimal places to write."
@@ -16,23 +19,35 @@ from orderconds.commands.place import FILE, put
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print digits, fixed decimals and proof as JSON.")
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
-    """Solve the equations that the [proof] table of FILE names. Newton's method starts at the rounded
+    """Make the coefficients of FILE exact or more precise.
+
+    If FILE has a [proof] table, solve the equations that it names. Newton's method starts at the rounded
     decimals ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were
     kept fixed (pins), and a record of the old digits.
 
-    Exits with 0 if interval arithmetic proves the new digits, 1 if not, 2 for a file that cannot be read.
+    If FILE has none, and its coefficients are binary floats or rounded decimals, recognise fractions and
+    numbers p + q sqrt(d), and prove that the exact method has the same order. The suffix of the output file
+    determines its format; stdout is TOML.
+
+    Exits with 0 if the new coefficients are proved, 1 if not, 2 for a file that cannot be read.
 
     \b
     Examples:
         orderconds refine mine.toml --digits 100 -o mine.toml
+        orderconds refine mine.npz -o exact.toml
     """
+    from orderconds.checking import read
+
+    tableau = read(file)
+    rounded = tableau.file is not None and tableau.file.symbolic.decimals()
+    if tableau.proof is None and (rounded or not file.endswith(".toml")):
+        return _exact(tableau, output, as_json)
     from orderconds.proof.certificate import certify
     from orderconds.proof.krawczyk import NotProved
     from orderconds.proof.refine import refine
-    from orderconds.tableau import Tableau
     from orderconds.tableau.file import text_of
 
-    text = text_of(file)
+    text = text_of(file) if file.endswith(".toml") else dumps(tableau)
     try:
         with screen.working(f"refining {file}"):
             refined = refine(text, file, digits)
@@ -48,4 +63,28 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
         screen.print_json({"decimals": refined.decimals, "proof": proof.as_json()})
     elif output is None:
         click.echo(refined.text.encode(), nl=False)  # the output file is UTF-8 even if the terminal is not
+    return 0
+
+
+def _exact(tableau: Tableau, output: str | None, as_json: bool) -> int:
+    """Write the tableau with exact coefficients; return 1 if they are not recognised."""
+    from orderconds.checking.exact_forms import exact_forms
+    from orderconds.exchange import export, format_of
+
+    with screen.working(f"refining {tableau.path}"):
+        forms = exact_forms(tableau)
+    if forms is None:
+        exact = tableau.file is not None and not tableau.file.symbolic.decimals()
+        reason = "all coefficients are exact already" if exact else UNKNOWN
+        click.echo(f"orderconds: {tableau.path}: {reason}", err=True)
+        if as_json:
+            screen.print_json({"exact": {}, "proof": None, "reason": reason})
+        return 1
+    content = export(forms.data, "toml" if output is None else format_of(output))
+    if output is not None:
+        put(output, content)
+    if as_json:
+        screen.print_json({"exact": forms.texts, "proof": None})
+    elif output is None:
+        click.echo(content, nl=False)
     return 0

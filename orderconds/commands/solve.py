@@ -74,7 +74,7 @@ if TYPE_CHECKING:
 @click.option(
     "--starts",
     type=click.IntRange(1, 10**7),
-    help="The number of random starts.  [default: 4096, with --minimise 1024]",
+    help="The number of random starts for each structure.  [default: 4096, or 1024 if --minimise is given]",
 )
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
 @click.option(
@@ -150,7 +150,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
             raise InputError(
                 "no such folder", where=f"{option} {given}", expected="a file in a folder that exists"
             )
-    if output and path and Path(output).absolute().resolve() == Path(path).absolute().resolve():
+    # Path.resolve raises a RuntimeError for a link to itself.
+    if output and path and os.path.realpath(output) == os.path.realpath(path):
         raise InputError(
             "this is also the file of --output", where=f"--checkpoint {path}", expected="a different file"
         )

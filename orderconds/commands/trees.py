@@ -9,13 +9,9 @@ import click
 
 from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
-from orderconds.errors import InputError
 
 if TYPE_CHECKING:
     from orderconds.explain.kinds import Kind
-
-MAX_TREES = 100_000
-"""The command lists at most this many members; their number grows exponentially with the order."""
 
 
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
@@ -53,9 +49,9 @@ def command(
     graded       Lyndon words of letters 1, 2, ... of weight 1, 2, ...  composition, magnus
     letters      Lyndon words of letters A and B               splitting
 
-    In drawings the root is at the top. A directed edge leads from a derivative in q to one in p (or mu); a
-    diamond (L) is a coadjoint action on mu. A note such as (>*>) after a vertex shows its word of
-    derivatives: > is a branch, * the edge to the parent.
+    In text drawings the root is in the first line; in pictures (--svg) it is at the bottom. A directed edge
+    leads from a derivative in q to one in p (or mu); a diamond (L) is a coadjoint action on mu. A note such
+    as (>*>) after a vertex shows its word of derivatives: > is a branch, * the edge to the parent.
 
     \b
     Examples:
@@ -63,14 +59,15 @@ def command(
         orderconds trees ordered --order 12 --count
     """
     from orderconds.explain import kinds
+    from orderconds.explain.enumeration import trees
 
     chosen = kinds.get(kind)
     if count and (draw or (explain and svg is None)):
         raise click.UsageError("--count prints only a number; leave --draw and --explain out")
     if not count or svg is not None:
-        _refuse_too_many(kind, chosen, order)
+        members = trees(kind, order)  # raises an InputError if there are too many
     if svg is not None:
-        _write_svg(chosen, order, svg, explain)
+        put(svg, members.svg(explain=explain).encode())
     if as_json:
         screen.print_json(_record(kind, chosen, order, count, draw, explain, plain))
     elif count:
@@ -79,18 +76,6 @@ def command(
         for line in _listed(chosen, order, draw, explain, plain):
             click.echo(line)
     return 0
-
-
-def _refuse_too_many(name: str, kind: Kind, order: int) -> None:
-    """Raise an InputError if there are more than :data:`MAX_TREES` members."""
-    members = kind.count(order)
-    if members > MAX_TREES:
-        raise InputError(
-            f"there are {members} trees or words of order {order}",
-            where=f"trees {name}",
-            expected=f"at most {MAX_TREES}",
-            hint="lower --order, or give --count to print only their number",
-        )
 
 
 def _record(
@@ -127,13 +112,3 @@ def _listed(kind: Kind, order: int, draw: bool, explain: bool, plain: bool) -> I
             yield from (f"    {line}" for line in lines.draw(kind.diagram(member), style))
         if draw or explain:
             yield ""
-
-
-def _write_svg(kind: Kind, order: int, path: str, explain: bool) -> None:
-    from orderconds.explain.svg import sheet
-
-    entries = [
-        (kind.diagram(member), [kind.text(member), *([kind.names(member)] if explain else [])])
-        for member in kind.members(order)
-    ]
-    put(path, sheet(entries).encode())

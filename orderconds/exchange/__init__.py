@@ -4,8 +4,9 @@ Every format is translated to and from the keys of a tableau file
 (:func:`orderconds.tableau.record.from_data`). An imported tableau therefore obeys the grammar of tableau
 files, and its text is never executed as code. Importing an exported method gives exactly the same method;
 rounded decimals keep all their digits. TOML and JSON keep every key of a file; the other formats omit the
-proof (:func:`left_out`). A decimal from another program counts as rounded (``~``) if it has 12 significant
-digits or more, else as exact.
+proof (:func:`left_out`). A decimal from another program counts as exact if it has fewer than 12 significant
+digits, as a double if it has the digits of one, else as rounded (``~``). The floats of a NumPy archive are
+doubles.
 """
 
 from __future__ import annotations
@@ -73,37 +74,54 @@ def read_data(content: bytes, of: str, where: str, name: str = "imported") -> Da
     {'name': 'euler', 'family': 'rk', 'A': [['0']], 'b': ['1'], 'c': ['0']}
     """
     data = _module(of).read(content, where)
-    if of == "toml":
-        return data
+    return data if of == "toml" else _completed(data, where, name)
+
+
+def _completed(data: Data, where: str, name: str) -> Data:
+    """Return the keys of a file with a name and, if there are embedded weights, with their order."""
     data = {"name": name, **data}
     embedded = data.get("embedded")
-    if of != "json" and embedded and "order" not in embedded:
+    if isinstance(embedded, dict) and "b" in embedded and "order" not in embedded:
         embedded["order"] = 1
-        embedded["order"] = _computed_order(from_data(data, where))
+        lower = from_data(data, where).lower()
+        embedded["order"] = max(1, order_on_vector_spaces(lower)) if lower else 1
     return data
 
 
-def _computed_order(tableau: Tableau) -> int:
-    """Return the order of the embedded weights on vector spaces, at least 1 as files require."""
+def order_on_vector_spaces(tableau: Tableau) -> int:
+    """Return the order of a method on vector spaces.
+
+    >>> order_on_vector_spaces(Tableau.load("cg4"))
+    4
+    """
     from orderconds.checking import family_order
     from orderconds.families import get
 
-    lower = tableau.lower()
-    return max(1, family_order(lower, get("rk")).order) if lower else 1
+    return family_order(tableau, get("rk")).order
 
 
-def load_foreign(path: str | Path) -> Tableau | None:
+PYTHON = "sympy"
+"""The format of Python modules."""
+
+
+def load_foreign(path: str | Path, *, execute: bool = False) -> Tableau | None:
     """Return the tableau of a file whose suffix names a format other than TOML, None for other suffixes.
 
-    The tableau is named after the file if it has no name of its own.
+    The tableau is named after the file if it has no name of its own. A Python module is executed only with
+    ``execute``.
 
     >>> load_foreign("rk4.toml") is None
     True
     """
-    of = _format_of(str(path))
+    of = find_format(str(path))
     if of in (None, "toml"):
         return None
-    data = read_data(bytes_of(path), of, str(path), name_of(path))
+    if execute and of == PYTHON:
+        from orderconds.exchange.python_module import execute as run
+
+        data = _completed(run(path), str(path), name_of(path))
+    else:
+        data = read_data(bytes_of(path), of, str(path), name_of(path))
     return from_data(data, str(path), str(path))
 
 
@@ -131,7 +149,7 @@ def format_of(path: str) -> str:
     >>> format_of("rk4.h")
     'c'
     """
-    if (name := _format_of(path)) is not None:
+    if (name := find_format(path)) is not None:
         return name
     raise InputError(
         f"a file with an unknown suffix: {path}",
@@ -140,7 +158,12 @@ def format_of(path: str) -> str:
     )
 
 
-def _format_of(path: str) -> str | None:
+def find_format(path: str) -> str | None:
+    """Return the format that a file's suffix names, or None.
+
+    >>> find_format("rk4.npz"), find_format("rk4.txt")
+    ('numpy', None)
+    """
     for name, (_, suffix) in FORMATS.items():
         if path.endswith(suffix) or (name == "c" and path.endswith(".h")):
             return name

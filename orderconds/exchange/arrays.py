@@ -15,9 +15,10 @@ import re
 from collections.abc import Sequence
 
 from orderconds.errors import TableauError
+from orderconds.exchange.claim_text import claims_from, json_table
 from orderconds.exchange.unevaluated import CoefficientTooLong, with_names_inlined
 from orderconds.ring import Balls
-from orderconds.tableau import Tableau
+from orderconds.tableau import Tableau, doubles
 from orderconds.tableau.file_format import Data, Format
 from orderconds.tableau.formats import FORMATS, array_format
 from orderconds.tableau.record import from_data
@@ -30,7 +31,7 @@ Arrays = Data
 TABLES = ("numbers", "claims")
 """Tables of a tableau file that are stored as JSON text. The table ``numbers`` is stored only if coefficients
 refer to its names."""
-TEXTS = ("name", "family", "source", "bibtex", "base", "embedded_order", *TABLES)
+TEXTS = ("name", "family", "source", "bibtex", "base", "order", "embedded_order", *TABLES)
 ROWS = ("b", "b_hat", "gamma", "alpha", "beta", "embedded_b", "count", "start", "c")
 MATRICES = ("A", "A_hat", "exponentials")
 ROUNDED = 12
@@ -59,7 +60,7 @@ def to_arrays(data: Data, target: str) -> Arrays:
         except CoefficientTooLong:
             if "low_storage" in data:
                 raise
-    entries: Arrays = {key: data[key] for key in TEXTS if data.get(key)}
+    entries: Arrays = {key: str(data[key]) for key in TEXTS if data.get(key)}
     entries |= {key: json.dumps(data[key]) for key in TABLES if data.get(key)}
     if kind.as_products:
         return {**entries, **_products(data)}
@@ -120,7 +121,13 @@ def from_arrays(entries: Arrays, where: str) -> Data:
             raise TableauError(
                 f"the array {name!r}", where=where, expected=f"one of {', '.join(sorted(known))}"
             )
-    tables = {key: json_table(entries[key], f"{where}: {key}") for key in TABLES if key in entries}
+    tables: Data = {}
+    if "numbers" in entries:
+        tables["numbers"] = json_table(entries["numbers"], f"{where}: numbers")
+    if "claims" in entries:
+        tables["claims"] = claims_from(entries["claims"], f"{where}: claims")
+    if "order" in entries:
+        tables["order"] = _integer(entries["order"], f"{where}: order")
     family = entries.get("family") or array_format(entries)
     kind = FORMATS.get(family, Format)
     data = {key: entries[key] for key in ("name", "source", "bibtex", "base") if key in entries} | {
@@ -157,21 +164,6 @@ def _has_depth(value: object, depth: int) -> bool:
     return isinstance(value, list) and all(_has_depth(x, depth - 1) for x in value)
 
 
-def json_table(text: str, where: str) -> Data:
-    """Return one of the :data:`TABLES` from its JSON.
-
-    >>> json_table('{"rk": 4}', "claims")
-    {'rk': 4}
-    """
-    try:
-        parsed = json.loads(text)
-    except (ValueError, RecursionError):
-        parsed = None
-    if not isinstance(parsed, dict):
-        raise TableauError(f"{text[:60]!r}", where=where, expected="an object in JSON")
-    return parsed
-
-
 def _stages(entries: Arrays, where: str) -> Data:
     missing = [key for key in ("count", "start", "exponentials") if key not in entries]
     if missing:
@@ -194,6 +186,20 @@ def _stages(entries: Arrays, where: str) -> Data:
         lower = products.pop() | {"order": _integer(entries["embedded_order"], where)}
         return {"stage": products[:-1], "update": products[-1], "embedded": lower}
     return {"stage": products[:-1], "update": products[-1]}
+
+
+def with_family(data: Data) -> Data:
+    """Return the keys of a file with a family. A file without one has the family of its arrays, ``rk`` for A
+    and b.
+
+    >>> with_family({"A": [[]], "b": ["1"]})["family"]
+    'rk'
+    """
+    distinctive = {kind.distinctive_key for kind in FORMATS.values() if kind.in_arrays}
+    if "family" in data or not any(key in data for key in distinctive | {"b", "alpha"}):
+        return data
+    family = array_format(data)
+    return {"family": family, **FORMATS[family].defaults(data), **data}
 
 
 def butcher(stages: Sequence[Row], weights: Sequence[Row]) -> Arrays:
@@ -225,10 +231,12 @@ def _integer(text: str, where: str) -> int:
 
 def coefficient(text: str) -> str:
     """Return a number from another program's file as a coefficient without exponent. A long decimal counts as
-    rounded.
+    a double if it has the digits of one, else as a rounded decimal.
 
     >>> [coefficient(x) for x in ("5.0e-1", "0.3333333333333333", "1.0/6.0", "-2.5f", "1/3 - sqrt(3)/6")]
-    ['0.50', '0.3333333333333333~', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']
+    ['0.50', '0.3333333333333333d', '1.0/6.0', '-2.5', '1/3 - sqrt(3)/6']
+    >>> coefficient("0.333333333333"), coefficient("3.333333333333333148e-01")
+    ('0.333333333333~', '0.3333333333333333d')
     """
     number = text.strip()
     parts = re.fullmatch(r"([+-]?)(\d*)\.?(\d*)(?:[eE]([+-]?\d{1,3}))?[fFlL]?", number, re.ASCII)
@@ -243,4 +251,6 @@ def coefficient(text: str) -> str:
         whole, part = whole + part[:exponent], part[exponent:]
     digits = (whole + part).lstrip("0")
     decimal = f"{'-' if sign == '-' else ''}{whole}" + (f".{part}" if part else "")
+    if part and doubles.is_printed(decimal):
+        return doubles.double_text(float(decimal))
     return decimal + "~" if part and len(digits) >= ROUNDED else decimal

@@ -3,6 +3,9 @@
 A plain Butcher tableau can be read as well. Each of its lines contains c_i and a row of A. A line that begins
 with an empty cell contains b; a second such line contains the embedded weights. Blank cells elsewhere are
 zeros.
+
+Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. An embedded row has a line
+``embedded_order,3``; without it the order of the row is computed.
 """
 
 from __future__ import annotations
@@ -50,13 +53,16 @@ def read(content: bytes, where: str) -> Data:
         ]
     except (csv.Error, UnicodeDecodeError) as problem:
         raise TableauError(str(problem), where=where, expected="CSV") from None
-    known = {*TEXTS, *ROWS, *MATRICES}
-    if rows and not any(row[0].strip() in known for row in rows):
-        return _plain(rows, where)
     entries: Arrays = {}
+    if rows and not any(row[0].strip() in (*ROWS, *MATRICES) for row in rows):
+        plain = [row for row in rows if row[0].strip() not in TEXTS]
+        entries = _plain(plain, where) if plain else {}
+        rows = [row for row in rows if row[0].strip() in TEXTS]
     for name, *cells in ([cell.strip() for cell in row] for row in rows):
         if name in TEXTS:
-            entries[name] = cells[0] if cells else ""
+            if name in entries:
+                raise TableauError(f"{name} twice", where=where, expected="it once")
+            entries[name] = ",".join(filter(None, cells)) if name == "claims" else cells[0] if cells else ""
         elif name in MATRICES:
             entries.setdefault(name, []).append([coefficient(x) for x in cells])
         elif name in entries:
@@ -66,7 +72,7 @@ def read(content: bytes, where: str) -> Data:
     return from_arrays(entries, where)
 
 
-def _plain(rows: list[list[str]], where: str) -> Data:
+def _plain(rows: list[list[str]], where: str) -> Arrays:
     """Return the arrays of a plain Butcher tableau: lines of c and A, then b."""
     stages = [[coefficient(x) for x in row] for row in rows if row[0].strip()]
     weights = [[coefficient(x) for x in row[1:]] for row in rows if not row[0].strip()]
@@ -76,4 +82,4 @@ def _plain(rows: list[list[str]], where: str) -> Data:
             where=where,
             expected="lines c, a_1, ..., a_s, then one or two that begin with an empty cell: b, embedded b",
         )
-    return from_arrays(butcher(stages, weights), where)
+    return butcher(stages, weights)

@@ -1,10 +1,17 @@
-"""JSON: the keys and values of a tableau file, one to one."""
+"""JSON: the keys and values of a tableau file, one to one.
+
+A number with a decimal point is a coefficient of another program
+(:func:`orderconds.exchange.arrays.coefficient`): ``0.5`` is exactly 1/2, ``0.3333333333333333`` a double. A
+file without a family has the family of its arrays, and claims may be a text, ``"rk=4"``.
+"""
 
 from __future__ import annotations
 
 import json
 
 from orderconds.errors import TableauError
+from orderconds.exchange.arrays import coefficient, with_family
+from orderconds.exchange.claim_text import claims_from
 from orderconds.tableau.file_format import Data
 
 
@@ -18,20 +25,28 @@ def write(data: Data) -> bytes:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the object; its numbers must be strings or integers, as in a tableau file.
+    """Return the object, with a family and with texts for numbers that are not integers.
 
-    >>> read(b'{"name": "m"}', "m.json")
-    {'name': 'm'}
+    >>> read(b'{"A": [[0.5]], "b": [0.3333333333333333], "order": 1}', "m.json")
+    {'family': 'rk', 'A': [['0.5']], 'b': ['0.3333333333333333d'], 'order': 1}
     """
     try:
-        data = json.loads(content, object_pairs_hook=_unique)
+        data = json.loads(
+            content, object_pairs_hook=_unique, parse_float=coefficient, parse_constant=_refused
+        )
     except (ValueError, RecursionError) as problem:
         raise TableauError(str(problem) or "nested too deep", where=where, expected="JSON") from None
     if not isinstance(data, dict):
         raise TableauError(
             f"a JSON {type(data).__name__}", where=where, expected="an object with name, family, ..."
         )
-    return data
+    if isinstance(data.get("claims"), str):
+        data["claims"] = claims_from(data["claims"], f"{where}: claims")
+    return with_family(data)
+
+
+def _refused(name: str) -> object:
+    raise ValueError(f"the number {name}")
 
 
 def _unique(pairs: list[tuple[str, object]]) -> Data:

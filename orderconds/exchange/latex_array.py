@@ -21,9 +21,10 @@ from orderconds.exchange.arrays import (
     to_arrays,
 )
 from orderconds.exchange.comments import escaped, unescaped
-from orderconds.exchange.notation import from_latex, to_latex
+from orderconds.exchange.notation import from_latex
 from orderconds.ring import Ball, Balls, Element
 from orderconds.tableau import Tableau
+from orderconds.tableau.coefficient_latex import to_latex
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.record import from_data
 

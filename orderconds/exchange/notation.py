@@ -1,4 +1,5 @@
-"""Coefficients of tableau files in two other notations: Python with SymPy's names, and LaTeX."""
+"""Coefficients of tableau files in two other notations: Python with SymPy's names, and LaTeX, which
+:mod:`orderconds.tableau.coefficient_latex` writes."""
 
 from __future__ import annotations
 
@@ -6,7 +7,9 @@ import re
 from fractions import Fraction
 
 from orderconds.errors import TableauError
-from orderconds.tableau.grammar import Chain, Constant, Expression, Name, Power, parse
+from orderconds.tableau.coefficient_latex import decimal, with_fractions
+from orderconds.tableau.doubles import printed
+from orderconds.tableau.grammar import Constant, Expression, Name, Power, parse
 
 
 def to_python(text: str) -> str:
@@ -15,25 +18,7 @@ def to_python(text: str) -> str:
     >>> to_python("1/4 - sqrt(3)/6"), to_python("2^(1/3)"), to_python("-0.5")
     ('Rational(1, 4) - sqrt(3)/6', 'Integer(2)**Rational(1, 3)', 'Rational(-1, 2)')
     """
-    return _python(_rational(parse(text)), 0)
-
-
-def _rational(x: Expression) -> Expression:
-    """Join quotients of integers into one constant, so that they print as one number."""
-    if isinstance(x, Chain):
-        operands = tuple(map(_rational, x.operands))
-        first = operands[0]
-        if x.operators == ("-",) and first == Constant(Fraction(0)):
-            number = operands[1]
-            return Constant(-number.value) if isinstance(number, Constant) and not number.unit else x
-        if x.operators[0] == "/" and isinstance(first, Constant) and isinstance(operands[1], Constant):
-            divisor = operands[1]
-            if not first.unit and not divisor.unit and divisor.value:
-                quotient = Constant(first.value / divisor.value)
-                rest = Chain(x.operators[1:], (quotient, *operands[2:]))
-                return rest if rest.operators else quotient
-        return Chain(x.operators, operands)
-    return Power(_rational(x.base), x.exponent) if isinstance(x, Power) else x
+    return _python(with_fractions(parse(text)), 0)
 
 
 def _number(x: Fraction) -> str:
@@ -43,9 +28,11 @@ def _number(x: Fraction) -> str:
 def _python(x: Expression, tight: int) -> str:
     """Return x as Python source; ``tight`` is 1 inside a product, 2 in a divisor or a base."""
     if isinstance(x, Constant):
+        if x.is_double:
+            return printed(x.value)
         if x.unit:
             places = len(str(x.unit.denominator)) - 1
-            return f"Float('{_decimal(x.value, places)}')"
+            return f"Float('{decimal(x.value, places)}')"
         return f"({_number(x.value)})" if x.value < 0 and tight else _number(x.value)
     if isinstance(x, Name):
         return x.name
@@ -68,11 +55,6 @@ def _python(x: Expression, tight: int) -> str:
     return f"({text})" if level < tight else text
 
 
-def _decimal(x: Fraction, places: int) -> str:
-    figures = str(int(x * 10**places)).rjust(places + 1, "0")
-    return f"{figures[:-places]}.{figures[-places:]}" if places else figures
-
-
 def from_python(text: str) -> str:
     """Translate SymPy source, or the text that SymPy prints, into a coefficient; nothing is executed.
 
@@ -84,53 +66,6 @@ def from_python(text: str) -> str:
     text = re.sub(r"Float\(\s*'([\d.]+)'(?:\s*,\s*(?:precision=)?\d+)?\s*\)", r"\1~", text)
     text = text.replace("**", "^")
     return re.sub(r"\^\(\((-?\d+(?:/\d+)?)\)\)", r"^(\1)", text)
-
-
-def to_latex(text: str) -> str:
-    r"""Return a coefficient in LaTeX.
-
-    >>> print(to_latex("1/4 - sqrt(3)/6"), to_latex("2^(1/3)"), to_latex("-1/2"), to_latex("0.5773~"))
-    \frac{1}{4} - \frac{\sqrt{3}}{6} \sqrt[3]{2} -\frac{1}{2} 0.5773\ldots
-    """
-    return _latex(_rational(parse(text)), 0)
-
-
-def _latex(x: Expression, tight: int) -> str:
-    if isinstance(x, Constant):
-        if x.unit:
-            return _decimal(x.value, len(str(x.unit.denominator)) - 1) + r"\ldots"
-        size = abs(x.value)
-        text = str(size) if size.denominator == 1 else rf"\frac{{{size.numerator}}}{{{size.denominator}}}"
-        return text if x.value >= 0 else rf"(-{text})" if tight else f"-{text}"
-    if isinstance(x, Name):
-        return x.name
-    if isinstance(x, Power):
-        base, n = _latex(x.base, 0), x.exponent.denominator
-        if x.exponent.numerator == 1 and n > 1:
-            return rf"\sqrt{{{base}}}" if n == 2 else rf"\sqrt[{n}]{{{base}}}"
-        tall = base if isinstance(x.base, Constant) and x.base.value.denominator == 1 else rf"({base})"
-        return rf"{tall}^{{{x.exponent}}}"
-    if x.operators == ("-",) and x.operands[0] == Constant(Fraction(0)):
-        text, level = f"-{_latex(x.operands[1], 1)}", 0
-    elif x.operators[0] in "+-":
-        level, text = 0, _latex(x.operands[0], 0)
-        for operator, operand in zip(x.operators, x.operands[1:], strict=True):
-            text += f" {operator} {_latex(operand, 1)}"
-    else:
-        level, text = 1, _latex(x.operands[0], 1)
-        for operator, operand in zip(x.operators, x.operands[1:], strict=True):
-            text = (
-                rf"{text} \cdot {_latex(operand, 2 if _ends_in_a_factor(operand) else 1)}"
-                if operator == "*"
-                else rf"\frac{{{text}}}{{{_latex(operand, 0)}}}"
-            )
-    return f"({text})" if level < tight else text
-
-
-def _ends_in_a_factor(x: Expression) -> bool:
-    """Whether x is printed as a product and not as one fraction. The factors are not regrouped into one
-    fraction, because this would change the value if it is a ball."""
-    return isinstance(x, Chain) and x.operators[-1] == "*"
 
 
 def from_latex(text: str, where: str = "") -> str:

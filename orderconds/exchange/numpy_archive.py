@@ -1,6 +1,7 @@
 """NumPy: an ``.npz`` archive with float64 arrays (``A``) and with their exact entries as text (``A_exact``).
 
-If an archive has no exact text for an array, its floats are read as decimals with all their digits.
+If an archive has no exact text for an array, its floats are doubles (:mod:`orderconds.tableau.doubles`).
+Arrays of Python objects are refused and never unpickled. ``order=4`` or ``claims="rk=4"`` states claims.
 """
 
 from __future__ import annotations
@@ -14,12 +15,18 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 from orderconds.errors import TableauError
-from orderconds.exchange.arrays import TEXTS, Arrays, coefficient, from_arrays, json_table, to_arrays
+from orderconds.exchange.arrays import TEXTS, Arrays, from_arrays, to_arrays
+from orderconds.exchange.claim_text import json_table
 from orderconds.exchange.nested import Cells
+from orderconds.tableau.doubles import double_text
 from orderconds.tableau.file_format import Data
 from orderconds.tableau.record import from_data
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+
     from orderconds.ring.protocol import RealRing
 
 EXACT = "_exact"
@@ -40,6 +47,7 @@ UNREADABLE = (
 )
 """The errors of zip files and array headers that are damaged, encrypted or of an unknown version."""
 INTEGERS = ("count", "start")
+EXPECTED = "an array of numbers (float64 or integers) with 1 or 2 axes"
 
 Floats: TypeAlias = "float | list[Floats]"
 """A number, or nested lists of numbers."""
@@ -116,7 +124,7 @@ def read(content: bytes, where: str) -> Data:
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
             _require_small(archive.zip, where)
-            members = {name: archive[name] for name in archive.files}
+            members = {name: _member(archive, name, where) for name in archive.files}
     except UNREADABLE as problem:
         raise TableauError(str(problem) or "no archive", where=where, expected="an .npz archive") from None
     entries: Arrays = {}
@@ -132,14 +140,9 @@ def read(content: bytes, where: str) -> Data:
             entries[name] = str(value)
             continue
         exact = members.get(name + EXACT)
-        if value.dtype.kind not in "fiu" or value.ndim not in (1, 2):
-            raise TableauError(
-                f"the array {name} of type {value.dtype} with {value.ndim} axes",
-                where=where,
-                expected="an array of numbers with 1 or 2 axes",
-            )
+        _require_numbers(name, value.dtype.kind, value.dtype.itemsize, value.ndim, where)
         if exact is None or name in INTEGERS:
-            entries[name] = _coefficients(value.tolist())
+            entries[name] = _coefficients(value.tolist(), f"{where}: {name}")
             continue
         entries[name] = exact.tolist()
         if not np.array_equal(np.array(floats(entries[name], str(members.get("numbers", "{}")))), value):
@@ -152,6 +155,38 @@ def read(content: bytes, where: str) -> Data:
     return from_arrays(entries, where)
 
 
+def _member(archive: Mapping[str, np.ndarray], name: str, where: str) -> np.ndarray:
+    """Return one array; raise an error for an array of Python objects, which only ``pickle`` can read."""
+    try:
+        return archive[name]
+    except ValueError as problem:
+        if "allow_pickle" not in str(problem):
+            raise
+        raise TableauError(
+            f"the array {name} contains Python objects, which are not unpickled",
+            where=where,
+            expected=EXPECTED,
+            hint="fill ragged rows with zeros, and save with numpy.savez(FILE, A=A, b=b)",
+        ) from None
+
+
+def _require_numbers(name: str, kind: str, size: int, axes: int, where: str) -> None:
+    """Raise an error unless an array of this type consists of rows of integers or doubles."""
+    if axes not in (1, 2) and kind in "fiu":
+        raise TableauError(f"the array {name} with {axes} axes", where=where, expected=EXPECTED)
+    if kind == "c":
+        raise TableauError(f"the array {name} of complex numbers", where=where, expected=EXPECTED)
+    if kind == "f" and size != 8:
+        raise TableauError(
+            f"the array {name} of floats with {8 * size} bits",
+            where=where,
+            expected=EXPECTED,
+            hint="convert the original coefficients to float64; digits that are lost do not come back",
+        )
+    if kind not in "fiu":
+        raise TableauError(f"the array {name} of type {kind!r}", where=where, expected=EXPECTED)
+
+
 def _require_small(archive: zipfile.ZipFile, where: str) -> None:
     size = sum(member.file_size for member in archive.infolist())
     if size > LARGEST:
@@ -160,5 +195,7 @@ def _require_small(archive: zipfile.ZipFile, where: str) -> None:
         )
 
 
-def _coefficients(value: Floats) -> Cells:
-    return [_coefficients(x) for x in value] if isinstance(value, list) else coefficient(repr(value))
+def _coefficients(value: Floats, where: str) -> Cells:
+    if isinstance(value, list):
+        return [_coefficients(x, where) for x in value]
+    return double_text(value, where) if isinstance(value, float) else str(value)

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from orderconds.errors import TableauError
 from orderconds.exchange.arrays import (
     MATRICES,
     ROWS,
@@ -17,11 +16,11 @@ from orderconds.exchange.arrays import (
     Arrays,
     coefficient,
     from_arrays,
-    json_table,
     to_arrays,
 )
-from orderconds.exchange.comments import escaped, unescaped
-from orderconds.exchange.nested import Cells, nested
+from orderconds.exchange.claim_text import json_table
+from orderconds.exchange.comments import escaped
+from orderconds.exchange.nested import Cells
 from orderconds.exchange.notation import from_python, to_python
 from orderconds.ring.roots import place_of_root
 from orderconds.tableau import Tableau
@@ -33,9 +32,6 @@ if TYPE_CHECKING:
     from sympy import Expr, Matrix
 
 IMPORT = "from sympy import CRootOf, Float, Integer, Matrix, Poly, Rational, Symbol, sqrt"
-_TEXT = re.compile(r"# (\w{1,64}): (.*)")
-_ASSIGNED = re.compile(r"^(\w{1,64})[ \t]{0,20}=[ \t]{0,20}(?:\w{1,64}\()?(?=\[)", re.MULTILINE)
-_BRACKET = re.compile(r"[\[\]]")
 _NAME = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
@@ -87,60 +83,15 @@ def _root(coefficients: list[str], place: int) -> str:
 
 
 def read(content: bytes, where: str) -> Data:
-    """Return the keys of a tableau file from Python source, which is not executed.
+    """Return the keys of a tableau file from Python source, which is not executed
+    (:mod:`orderconds.exchange.python_source`).
 
     >>> read(b"A = Matrix([[Rational(1, 2)]])\\nb = [1]", "m.py")["A"]
-    [['(1/2)']]
+    [['1/2']]
     """
-    try:
-        text = content.decode()
-    except UnicodeDecodeError:
-        raise TableauError("bytes that are not UTF-8", where=where, expected="Python source") from None
-    entries = _header(text)
-    for name, value in _assigned(re.sub(r"#.*", "", text), where):
-        if name in ROWS + MATRICES:
-            if name in entries:
-                raise TableauError(f"two arrays {name}", where=where, expected="one")
-            cells = _cells(nested(value, "[", "]", f"{where}: {name}"))
-            entries[name] = cells[0] if name in ROWS and cells and isinstance(cells[0], list) else cells
-    if not entries.keys() - set(TEXTS):
-        raise TableauError(
-            "no matrices", where=where, expected="assignments such as  A = Matrix([[0, 0], [1, 0]])"
-        )
-    return from_arrays(entries, where)
+    from orderconds.exchange import python_source
 
-
-def _header(text: str) -> Arrays:
-    """Return the texts in the comments before the first statement."""
-    entries: Arrays = {}
-    for line in text.split("\n"):
-        if line.strip() and not line.startswith("#"):
-            break
-        if (match := _TEXT.fullmatch(line.rstrip("\r"))) and match[1] in TEXTS:
-            entries.setdefault(match[1], unescaped(match[2]))
-    return entries
-
-
-def _assigned(text: str, where: str) -> Iterator[tuple[str, str]]:
-    """Yield each name to which a list is assigned, with the text of the list."""
-    end = 0
-    for start in _ASSIGNED.finditer(text):
-        if start.start() < end:
-            raise TableauError(
-                f"an assignment to {start[1]} within a list", where=where, expected="rows of numbers"
-            )
-        end = _closing(text, start.end(), where)
-        yield start[1], text[start.end() : end]
-
-
-def _closing(text: str, start: int, where: str) -> int:
-    """Return the position in the text after the bracket that closes the bracket at ``start``."""
-    depth = 0
-    for bracket in _BRACKET.finditer(text, start):
-        depth += 1 if bracket[0] == "[" else -1
-        if depth == 0:
-            return bracket.end()
-    raise TableauError("a list that is not closed", where=where, expected="rows of numbers")
+    return python_source.read(content, where)
 
 
 def _with_python_names(data: Data) -> Data:

@@ -6,6 +6,7 @@ the colour of the surrounding text (``currentColor``).
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -18,6 +19,10 @@ RADIUS = 3.5
 MARGIN = 10.0
 SIZE = 11.0
 """The font size of captions in px; a letter of the monospaced font is 0.6 times as wide."""
+
+TEXT_FONT = 'font-family="monospace"'
+FORMULA_FONT = 'font-family="serif" font-style="italic" letter-spacing="0.8"'
+RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
@@ -70,7 +75,8 @@ def lay_out(vertex: Vertex) -> Layout:
 def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
     r"""Return an SVG document with all diagrams in rows, each above the lines of its caption.
 
-    The roots of a row are on one line. ``width`` is the width of the sheet in px.
+    The first line of a caption is monospaced, the other lines are in the font of formulas. The roots of a row
+    are on one line. ``width`` is the width of the sheet in px.
 
     >>> from orderconds.explain.diagram import plain
     >>> document = sheet([(plain(b"\0\1\1"), ["[..]"])])
@@ -127,7 +133,10 @@ class _Block:
             at += (right - left + 1) * STEP
         for line, text in enumerate(self.caption, start=1):
             baseline = ground + 1.4 * SIZE * line - 0.4 * SIZE
-            yield _text(x + self.width / 2, baseline, text, SIZE, "middle")
+            # The first line is the text of a tree; the others are mathematics.
+            font = TEXT_FONT if line == 1 else FORMULA_FONT
+            shown = text if line == 1 else _formula(text)
+            yield _text(x + self.width / 2, baseline, shown, SIZE, "middle", font)
 
 
 def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
@@ -141,6 +150,12 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
         before, letters = tree.vertex.legs
         place = "›" * before + "*" + "›" * (letters - before)
         yield _text(x + 1.6 * RADIUS, y + RADIUS, place, 0.8 * SIZE, "start")
+
+
+def _formula(text: str) -> str:
+    """Return an elementary differential with primes and raised exponents."""
+    raised = re.sub(r"\^(\(\d+\)|\d+)", lambda match: match[1].translate(RAISED), text)
+    return raised.replace("'", "′")
 
 
 def _vertex(vertex: Vertex, x: float, y: float) -> str:
@@ -184,8 +199,8 @@ def _head(
     return f" M{_pair(barbs[0])} L{_pair(tip)} L{_pair(barbs[1])}"
 
 
-def _text(x: float, y: float, text: str, size: float, anchor: str) -> str:
-    font = f'font-family="monospace" font-size="{_number(size)}" text-anchor="{anchor}"'
+def _text(x: float, y: float, text: str, size: float, anchor: str, family: str = TEXT_FONT) -> str:
+    font = f'{family} font-size="{_number(size)}" text-anchor="{anchor}"'
     place = f'x="{_number(x)}" y="{_number(y)}"'
     return f'<text {place} {font} fill="currentColor" stroke="none">{escape(text)}</text>'
 

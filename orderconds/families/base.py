@@ -76,6 +76,16 @@ class Family(ABC):
     """The kinds of trees that ``orderconds trees --explain`` shows together with the conditions of this
     family."""
 
+    symbols: ClassVar[Mapping[str, str]] = {
+        "a": r"$a_{ij}$ are the coefficients of the stages",
+        "b": r"$b_i$ are the weights",
+        "c": r"$c_i = \sum_j a_{ij}$ are the abscissae",
+        "ahat": r"$\hat{a}_{ij}$ are the coefficients of the stages of the second part",
+        "bhat": r"$\hat{b}_i$ are the weights of the second part",
+        "chat": r"$\hat{c}_i = \sum_j \hat{a}_{ij}$",
+    }
+    """The definition, in LaTeX, of each coefficient that occurs in printed conditions, by its name."""
+
     # Other families
     implies: ClassVar[Mapping[str, str]] = {}
     """The families in which a method has at least the order that it has in this family, with reasons. The

@@ -35,6 +35,16 @@ Exponentials = tuple[tuple[Element, ...], ...]
 Table = Sequence[Element] | Sequence[Sequence[Element]] | Sequence[Sequence[Sequence[Element]]]
 
 
+EXPONENTIAL_SYMBOLS = {
+    "alpha": r"$\alpha_{iIj}$ is the coefficient of $k_j$ in exponential $I$ of stage $i$",
+    "beta": r"$\beta_{Ij}$ is the coefficient of $k_j$ in exponential $I$ of the update",
+    "a": r"$a_{ij} = \sum_I \alpha_{iIj}$",
+    "b": r"$b_j = \sum_I \beta_{Ij}$",
+    "c": r"$c_i = \sum_j a_{ij}$ are the abscissae",
+}
+"""The definition, in LaTeX, of each coefficient of methods with several exponentials."""
+
+
 @register
 class CommutatorFreeFamily(OrderedForestFamily):
     """Commutator-free methods. A Runge-Kutta tableau is interpreted with one k_j in each exponential.
@@ -52,6 +62,7 @@ class CommutatorFreeFamily(OrderedForestFamily):
         "combinations of stage values."
     )
     formats = ("cf", "rk")
+    symbols = EXPONENTIAL_SYMBOLS
     implies: ClassVar[Mapping[str, str]] = {"rk": "a vector space is a Lie group under addition"}
     default_series = True
     unknowns = "cf"

@@ -16,7 +16,7 @@ from orderconds.errors import InputError
 from orderconds.families.base import expect
 from orderconds.families.composition import composition_formula
 from orderconds.families.exponents import exponent_values
-from orderconds.families.magnus import random_product
+from orderconds.families.magnus import MagnusFamily, random_product
 from orderconds.families.registry import register
 from orderconds.families.word_family import WordFamily
 from orderconds.formula import Formula, coefficient, fresh, index_sum, product
@@ -49,6 +49,7 @@ class CommutatorFreeMagnusFamily(WordFamily):
         "Commutator-free Magnus methods: exp(sum_i beta_mi A_i) ... exp(sum_i beta_1i A_i), A_i = h A(c_i h)."
     )
     formats = ("magnus",)
+    symbols = MagnusFamily.symbols
     implies: ClassVar[Mapping[str, str]] = {
         "magnus": "a product of exponentials is also the exponential of its logarithm"
     }

@@ -48,6 +48,11 @@ class CompositionFamily(WordFamily):
     name = "composition"
     description = "Compositions of a method Phi and its adjoint Phi*, or of symmetric methods."
     formats = ("composition",)
+    symbols: ClassVar[Mapping[str, str]] = {
+        "alpha": r"$\alpha_i$ are the step sizes of the method, as fractions of $h$",
+        "beta": r"$\beta_i$ are the step sizes of the adjoint method, as fractions of $h$",
+        "gamma": r"$\gamma_i$ are the step sizes of the symmetric method, as fractions of $h$",
+    }
     illustrates: ClassVar[tuple[str, ...]] = ("graded",)
     implies: ClassVar[Mapping[str, str]] = {
         **dict.fromkeys(

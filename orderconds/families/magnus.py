@@ -50,6 +50,15 @@ class MagnusFamily(WordFamily):
         "Magnus methods for Y' = A(t) Y: one exponential of a Lie element Omega in the A_i = h A(c_i h)."
     )
     formats = ("magnus",)
+    symbols: ClassVar[Mapping[str, str]] = {
+        "omega": r"$\omega_{i\dots j}$ is the coefficient in $\Omega$ of the product of values of $A$ in "
+        r"which $A_i = h A(c_i h)$ acts first",
+        "c": r"$c_i$ are the nodes",
+        "b": r"$b_i$ are the coefficients of $A_i = h A(c_i h)$ in the first exponent",
+        "phi": r"$\phi_{i\dots j}$ is the coefficient in the second exponent of the product in which "
+        r"$A_i$ acts first",
+        "beta": r"$\beta_{Ii}$ is the coefficient of $A_i = h A(c_i h)$ in exponential $I$",
+    }
     implies: ClassVar[Mapping[str, str]] = dict.fromkeys(
         ("cf_magnus", "fer"),
         "a product of exponentials is the exponential of its logarithm, and so a Magnus method of the same "

@@ -60,6 +60,7 @@ class NystroemFamily(Family):
         "Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q) with T quadratic in p, so [V,[V,[V,T]]] = 0."
     )
     formats = ("splitting",)
+    symbols = SplittingFamily.symbols
     unknowns = "splitting"
 
     def require(self, method: Method, ring: Ring) -> None:

@@ -52,6 +52,11 @@ class SplittingFamily(WordFamily):
         "indexed by words over A, B, ..."
     )
     formats = ("splitting",)
+    symbols: ClassVar[Mapping[str, str]] = {
+        "a": r"$a_i$ are the step sizes of the flows of the first part, as fractions of $h$",
+        "b": r"$b_i$ are the step sizes of the flows of the second part, as fractions of $h$",
+        "c": r"$c_i = a_1 + \dots + a_i$",
+    }
     trees = "letters"
     illustrates = ("letters",)
     implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting in two parts"}

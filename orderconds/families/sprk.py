@@ -48,6 +48,10 @@ class SymplecticPartitionedFamily(Family):
     name = "sprk"
     description = "Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i."
     formats = ("rk",)
+    symbols: ClassVar[Mapping[str, str]] = {
+        **Family.symbols,
+        "ahat": r"$\hat{a}_{ij} = b_j - b_j a_{ji}/b_i$ are the coefficients of the momenta",
+    }
     trees = "directed"
     illustrates = ("directed",)
     needs_nonzero_weights = True

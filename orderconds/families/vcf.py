@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 from orderconds.families.action_family import ActionFamily
 from orderconds.families.action_formula import ActionFormula, CommutatorFreeFormula
 from orderconds.families.base import all_nonzero, require_nonzero_weights
-from orderconds.families.cf import exponentials
+from orderconds.families.cf import EXPONENTIAL_SYMBOLS, exponentials
 from orderconds.families.registry import register
 from orderconds.ring.protocol import Ring
 from orderconds.series.action import ActionSeries, CommutatorFreeSeries, crouch_grossman_rows
@@ -47,6 +47,7 @@ class VariationalCommutatorFree(ActionFamily):
     name = "vcf"
     description = "Variational commutator-free methods: several stage velocities in one exponential."
     formats = ("cf", "rk")
+    symbols = EXPONENTIAL_SYMBOLS
     implies: ClassVar[Mapping[str, str]] = {
         "cf": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field on G"
     }

@@ -1,39 +1,62 @@
-r"""Equations in LaTeX: one ``align*`` environment. Long left-hand sides are broken between terms."""
+r"""Equations in LaTeX for a paper: numbered, with a column of trees, and narrow enough for two columns.
+
+Long left-hand sides are broken between terms.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Sequence
+from dataclasses import dataclass
 
-LINE = 60
-"""The largest width of a line in characters; it is about the text width of an article."""
+LINE = 32
+"""The largest width of a left-hand side in characters. With a tree, a right-hand side and a number, a line is
+about as wide as a column of a two-column article."""
 
 _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
 
-def aligned(equations: Iterable[tuple[str, str, str]]) -> str:
-    r"""Return an ``align*`` environment (package amsmath) of equations, each given as (comment, left-hand
-    side, right-hand side).
+@dataclass(frozen=True)
+class Equation:
+    """An equation: both sides in LaTeX, a LaTeX picture for the first column, a label, and comments."""
+
+    left: str
+    right: str
+    picture: str = ""
+    label: str = ""
+    comment: str = ""
+
+
+def numbered(equations: Sequence[Equation]) -> str:
+    r"""Return an ``alignat`` environment, or an ``align`` environment (package amsmath).
 
     The signs of equality are aligned. If a left-hand side is broken into several lines, all lines are aligned
-    at the left margin and not at the signs.
+    at the left margin and not at the signs. The column of pictures is left out if no equation has one.
 
-    >>> print(aligned([("order 1", r"\sum_{i} b_{i}", "1")]))
-    \begin{align*}
+    >>> print(numbered([Equation(r"\sum_{i} b_{i}", "1", label="rk:1:1", comment="order 1")]))
+    \begin{alignat}{1}
       % order 1
-      \sum_{i} b_{i} &= 1
-    \end{align*}
+      \sum_{i} b_{i} &= 1 \label{rk:1:1}
+    \end{alignat}
     """
-    rows = [(comment, broken(left), right) for comment, left, right in equations]
-    flush = any(len(lines) > 1 for _, lines, _ in rows)
+    rows = [broken(equation.left) for equation in equations]
+    flush = any(len(lines) > 1 for lines in rows)
+    pictures = any(equation.picture for equation in equations)
     written = []
-    for number, (comment, lines, right) in enumerate(rows, start=1):
-        end = r" \\" if number < len(rows) else ""
+    for number, (equation, lines) in enumerate(zip(equations, rows, strict=True), start=1):
+        written += [f"  % {line}" for line in equation.comment.splitlines()]
+        end = (rf" \label{{{equation.label}}}" if equation.label else "") + r" \\" * (number < len(rows))
+        first = equation.picture
+        column = r"&\quad " if pictures else "& "
+        if not flush:
+            start = rf"{first} &\quad& " if pictures else ""
+            written.append(f"  {start}{lines[0]} &= {equation.right}{end}")
+            continue
         *above, last = [(r"\quad " if k else "") + line for k, line in enumerate(lines)]
-        written += [f"  % {line}" for line in comment.splitlines()]
-        written += [rf"  & {line} \\" for line in above]
-        written.append(f"  & {last} = {right}{end}" if flush else f"  {last} &= {right}{end}")
-    return "\n".join([r"\begin{align*}", *written, r"\end{align*}"])
+        shown = [*(rf"{line} \notag \\" for line in above), f"{last} = {equation.right}{end}"]
+        written += [f"  {first if k == 0 else ''} {column}{line}" for k, line in enumerate(shown)]
+    name, columns = ("align", "") if flush else ("alignat", f"{{{1 + pictures}}}")
+    return "\n".join([rf"\begin{{{name}}}{columns}", *written, rf"\end{{{name}}}"])
 
 
 def broken(latex: str, line: int = LINE) -> list[str]:

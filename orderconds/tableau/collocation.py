@@ -200,8 +200,8 @@ LEAST_WITH_ROW = 3
 """The least number of stages with an embedded row."""
 
 
-def construct(kind: str, s: int) -> Tableau:
-    """Return the method of this kind with s stages, its coefficients in the field of its nodes.
+def construct(kind: str, stages: int) -> Tableau:
+    """Return the method of this kind with this number of stages, its coefficients in the field of its nodes.
 
     Raises :class:`UnknownName` for another kind and :class:`InputError` for too few stages, or for nodes
     whose field has a degree above :data:`orderconds.ring.tower.MAX_DEGREE`.
@@ -212,21 +212,21 @@ def construct(kind: str, s: int) -> Tableau:
     if kind not in KINDS:
         raise UnknownName(f"unknown kind {kind!r}", expected=f"one of {', '.join(KINDS)}")
     rule = KINDS[kind]
-    if s < rule.least:
-        raise InputError(f"{kind} with {s} stages", expected=f"at least {rule.least} stages")
+    if stages < rule.least:
+        raise InputError(f"{kind} with {stages} stages", expected=f"at least {rule.least} stages")
     try:
-        nodes = Nodes(s, rule.left, rule.right)
+        nodes = Nodes(stages, rule.left, rule.right)
     except DegreeError as problem:
         raise InputError(
-            f"{kind} with {s} stages: {problem}", expected="nodes in a field of degree at most 24"
+            f"{kind} with {stages} stages: {problem}", expected="nodes in a field of degree at most 24"
         ) from None
     ring, lift = nodes.tower.ring()
     A = tuple(tuple(lift(x) for x in row) for row in rule.matrix(nodes))
     method = RungeKutta(A, tuple(lift(x) for x in nodes.b))
-    if rule.left_out is None or s < LEAST_WITH_ROW:
-        return Tableau(f"{kind}{s}", "rk", ring, method)
-    row = tuple(lift(x) for x in nodes.without(rule.left_out(s)))
-    return Tableau(f"{kind}{s}", "rk", ring, method, embedded=Embedded(row, s - 1))
+    if rule.left_out is None or stages < LEAST_WITH_ROW:
+        return Tableau(f"{kind}{stages}", "rk", ring, method)
+    row = tuple(lift(x) for x in nodes.without(rule.left_out(stages)))
+    return Tableau(f"{kind}{stages}", "rk", ring, method, embedded=Embedded(row, stages - 1))
 
 
 def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:

@@ -17,7 +17,7 @@ from orderconds.errors import InputError, TableauError
 from orderconds.input_file import read_bytes
 from orderconds.ring.protocol import Ring
 from orderconds.tableau.claims import Claims, OrderClaim
-from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate
+from orderconds.tableau.evaluate import Definition, NamedRoot, evaluate, rounded_and_exact
 from orderconds.tableau.file_format import Claim, CutoffClaim, Data, Format, Number, ProofEntry, RootEntry
 from orderconds.tableau.formats import (
     FORMATS,
@@ -64,6 +64,8 @@ class File(Struct, frozen=True):
     claims: Claims
     symbolic: SymbolicCoefficients
     proof: Proof | None
+    doubles: bool = False
+    """Whether a coefficient was given as a binary floating-point number."""
 
 
 def text_of(path: str | Path) -> str:
@@ -151,7 +153,10 @@ def read(data: Mapping[str, object], where: str) -> File:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
     source = SymbolicCoefficients(expressions, numbers, where, entry.build)
-    return File(data, entry, ring, method, embedded, _claims(entry, where), source, _proof(entry, source))
+    claims, proof = _claims(entry, where), _proof(entry, source)
+    constants = (c for x in (*expressions.values(), *numbers.values()) for c in rounded_and_exact(x))
+    doubles = any(c.is_double for c in constants)
+    return File(data, entry, ring, method, embedded, claims, source, proof, doubles)
 
 
 def _converted(data: Mapping[str, object], where: str) -> Format:
@@ -200,7 +205,7 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
         problem = f"a value of type {wrong[2]}"
         if wrong[2] == "numpy.ndarray":
             problem = "NumPy arrays are not accepted here"
-            hint = "pass nested lists of texts or integers, or load a .npz file"
+            hint = "build the tableau with Tableau.rk(A, b), which accepts arrays"
         return TableauError(problem, where=place, expected=wrong[1], hint=hint)
     return TableauError(summary[:1].lower() + summary[1:], where=place)
 
@@ -326,7 +331,7 @@ def _proof(entry: Format, symbolic: SymbolicCoefficients) -> Proof | None:
 
 
 def _claims(entry: Format, where: str) -> Claims:
-    orders: list[OrderClaim] = []
+    orders = [] if entry.order is None else [OrderClaim(entry.family, None, entry.order)]
     properties: dict[str, bool] = {}
     for key, value in _each(entry.claims, Claim, CutoffClaim, "claims", where).items():
         if isinstance(value, bool):

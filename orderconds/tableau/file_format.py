@@ -57,7 +57,10 @@ Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The keys that every format has; ``numbers`` maps to :data:`Number`, ``claims`` to :data:`Claim`."""
+    """The keys that every format has; ``numbers`` maps to :data:`Number`, ``claims`` to :data:`Claim`.
+
+    ``order`` is a claim as well: the order in the family that has the name of the format.
+    """
 
     name: str
     family: str
@@ -65,6 +68,7 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     bibtex: str = ""
     numbers: dict[str, Any] = {}
     claims: dict[str, Any] = {}
+    order: Annotated[int, Meta(ge=1)] | None = None
     proof: ProofEntry | None = None
 
     in_arrays: ClassVar[bool] = False

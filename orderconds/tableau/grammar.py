@@ -6,9 +6,10 @@
     product = signed (("*" | "/") signed)*
     signed  = ("+" | "-") signed | power
     power   = atom ["^" (["-"] integer | "(" sum ")")]
-    atom    = integer | decimal | decimal "~" | name | "sqrt" "(" sum ")" | "(" sum ")"
+    atom    = integer | decimal | decimal "~" | decimal "d" | name | "sqrt" "(" sum ")" | "(" sum ")"
 
-``0.5`` is exactly 1/2; ``0.81772~`` is a ball of one unit in its last digit. An exponent is a fraction of
+``0.5`` is exactly 1/2; ``0.81772~`` is a ball of one unit in its last digit; ``0.3333333333333333d`` is a
+double, a ball of a few units of rounding (:mod:`orderconds.tableau.doubles`). An exponent is a fraction of
 integers; ``a^b^c`` is refused, because programs disagree about its meaning. This module bounds the length of
 the text, the nesting and the exponents. The module :mod:`orderconds.tableau.evaluate` bounds the size of
 intermediate values.
@@ -18,11 +19,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
+from decimal import Decimal
 from fractions import Fraction
+from math import inf
 
 from msgspec import Struct
 
 from orderconds.errors import TableauError
+from orderconds.tableau import doubles
 
 MAX_TEXT = 2000
 MAX_DEPTH = 40
@@ -41,6 +45,13 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     value: Fraction
     unit: Fraction = Fraction(0)
+
+    @property
+    def is_double(self) -> bool:
+        """Whether the number was given as a double. The unit of a rounded decimal is a power of ten; the unit
+        of a double is not."""
+        p, q = self.unit.as_integer_ratio()
+        return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 
 
 class Name(Struct, frozen=True, cache_hash=True):
@@ -140,6 +151,8 @@ def _parts(x: Expression, least: int) -> Iterator[str]:
 
 def _constant(x: Constant) -> str:
     """Return the text of a constant: a decimal if its expansion is finite, else a fraction."""
+    if x.is_double:
+        return f"{'-' if x.value < 0 else ''}{Decimal(repr(abs(float(x.value)))):f}d"
     unit = x.unit or next(
         (Fraction(1, 10**n) for n in range(MAX_TEXT) if 10**n % x.value.denominator == 0), None
     )
@@ -274,6 +287,8 @@ class _Parser:
         kind, content, _ = self.tokens[self.position]
         if kind in ("integer", "decimal"):
             self.position += 1
+            if self.followed_by_d():
+                return self.double(content)
             value = Fraction(content)
             if self.accept("~") is None:
                 return Constant(value)
@@ -286,6 +301,21 @@ class _Parser:
             self.require(")")
             return result
         raise self.unexpected()
+
+    def followed_by_d(self) -> bool:
+        """Skip the suffix ``d`` directly after the last token, and return whether there is one."""
+        (_, content, at), (kind, suffix, after) = self.tokens[self.position - 1 : self.position + 1]
+        follows = kind == "name" and suffix == "d" and after == at + len(content)
+        self.position += follows
+        return follows
+
+    def double(self, content: str) -> Constant:
+        """Return the double nearest to a decimal, with its uncertainty."""
+        x = float(content)
+        if x == inf:
+            raise self.error(f"{content[:20]} ... in {self.shown()}", "a number in the range of doubles")
+        value = Fraction(x)
+        return Constant(value, doubles.radius(value)) if value else Constant(value)
 
     def root(self) -> Expression:
         self.require("(")

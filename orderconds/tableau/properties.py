@@ -61,7 +61,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
     """
     balls = isinstance(tableau.ring, Balls)
     slow = "not computed: the exact computation of signs would take more than a second"
-    reason = "rounded decimals" if balls else slow
+    rounded = "doubles" if tableau.doubles else "rounded decimals"
+    reason = rounded if balls else slow
     return {name: reason for name, verdict in computed.items() if verdict is None}
 
 

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
+from importlib import import_module
+from os import PathLike
 from pathlib import Path
+from types import ModuleType
 
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
+from orderconds.tableau.butcher import tableau_html, tableau_latex
 from orderconds.tableau.claims import Claims
+from orderconds.tableau.construction import Claimed, commutator_free, named, runge_kutta
 from orderconds.tableau.file import File, parsed, read, text_of
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.library import find
 from orderconds.tableau.methods import (
     CommutatorFree,
     Composition,
@@ -17,15 +25,25 @@ from orderconds.tableau.methods import (
     EmbeddedUpdate,
     LowerOrder,
     PartitionedRungeKutta,
+    Row,
     RungeKutta,
 )
 from orderconds.tableau.products import AdjointComposition, Method
+from orderconds.tableau.real_number import Value, value_of
 from orderconds.tableau.unknowns import Proof
+from orderconds.tableau.write import as_data
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Tableau:
-    """A named method over ``ring``; ``family`` is the format of its file: ``rk``, ``prk``, ``cf``, ..."""
+    """A named method over ``ring``; ``family`` is the format of its file: ``rk``, ``prk``, ``cf``, ...
+
+    :meth:`rk` and :meth:`cf` build a tableau from numbers, :meth:`load` reads a file or the library.
+
+    >>> heun = Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"], name="heun")
+    >>> heun, heun.c, heun.orders["rk"]
+    (Tableau('heun', rk, 2 stages), (Fraction(0, 1), Fraction(1, 1)), 2)
+    """
 
     name: str
     family: str
@@ -41,17 +59,145 @@ class Tableau:
     file: File | None = field(default=None, compare=False, repr=False)
     """The file from which the tableau was read; None if the coefficients differ from the coefficients of the
     file."""
+    doubles: bool = False
+    """Whether coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
 
     @staticmethod
-    def load(path: str | Path) -> Tableau:
-        """Read a tableau file. Raises :class:`orderconds.errors.TableauError`, whose message names the file
-        and the key."""
-        return load(path)
+    def rk(
+        A: object,
+        b: object,
+        bhat: object = None,
+        *,
+        c: object = None,
+        claims: Claimed = None,
+        name: str = "tableau",
+        source: str = "",
+    ) -> Tableau:
+        """Return the Runge-Kutta method with the coefficients A, of s rows, and the s weights b.
+
+        Numbers are integers, fractions, texts such as ``"1/4 - sqrt(3)/6"``, numbers of SymPy, or floats;
+        A and b are lists, arrays of NumPy or matrices of SymPy. Floats stay doubles, except floats with small
+        denominators such as 0.5. ``bhat`` are s embedded weights; their order is computed. ``c`` must equal
+        the row sums of A. ``claims`` is the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``.
+
+        Raises :class:`~orderconds.errors.TableauError` with the wrong entry.
+
+        >>> Tableau.rk([[], [0.5]], [0, 1]).b
+        (Fraction(0, 1), Fraction(1, 1))
+        >>> Tableau.rk([[0, 0], ["half", 0]], [0, 1])
+        Traceback (most recent call last):
+        orderconds.errors.TableauError: tableau: A[2][1]: the name 'half'; expected a number, or a name \
+defined under numbers (none)
+        """
+        data = named(runge_kutta(A, b, c, bhat), name, source, claims)
+        return _with_embedded_order(data, name)
+
+    @staticmethod
+    def cf(
+        stages: object,
+        update: object,
+        *,
+        starts: Mapping[int, int] | None = None,
+        embedded: object = None,
+        claims: Claimed = None,
+        name: str = "tableau",
+        source: str = "",
+    ) -> Tableau:
+        """Return the commutator-free method with these stages and this update.
+
+        ``stages`` has one list of exponentials for each stage, and ``update`` is such a list; the first
+        exponential acts first. An exponential is a row of coefficients, one for each stage; zeros at its end
+        may be left out. ``starts`` maps a stage to the earlier stage from which it starts, both counted from
+        1; the other stages start from y0. ``embedded`` is a second update. Numbers are as in :meth:`rk`.
+
+        >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
+        >>> euler_midpoint.orders["cf"]
+        2
+        """
+        data = named(commutator_free(stages, update, starts, embedded), name, source, claims)
+        return _with_embedded_order(data, name)
+
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Tableau:
+        """Read a tableau of the library by its name, or a file of any format.
+
+        Raises :class:`orderconds.errors.TableauError`, whose message names the file and the key, and
+        :class:`orderconds.errors.UnknownName` for a name that is not in the library.
+
+        >>> Tableau.load("gauss2").A[0]
+        (Fraction(1, 4), 1/4 - sqrt(3)/6)
+        """
+        given = Path(path)
+        if given.suffix and given.suffix != ".toml":
+            read_foreign: Callable[[Path], Tableau | None] = _above("exchange").load_foreign
+            if (foreign := read_foreign(given)) is not None:
+                return foreign
+        bare = given.name == str(path) and given.suffix != ".toml"
+        return load(find(given.name) if bare and not given.exists() else given)
 
     @staticmethod
     def loads(text: str, where: str = "<text>") -> Tableau:
         """Read a tableau from TOML text; ``where`` names it in messages."""
         return loads(text, where)
+
+    @property
+    def s(self) -> int:
+        """The number of stages; TableauError for a splitting or a Magnus method."""
+        return len(self.abelian().b)
+
+    @property
+    def A(self) -> tuple[tuple[Value, ...], ...]:
+        """The rows of A. Entries are fractions, floats if they were given as floats, or else
+        :class:`~orderconds.tableau.real_number.RealNumber`. For a commutator-free method, the sums of the
+        exponentials."""
+        return tuple(self._values(x) for x in self.abelian().A)
+
+    @property
+    def b(self) -> tuple[Value, ...]:
+        """The weights, as in :attr:`A`."""
+        return self._values(self.abelian().b)
+
+    @property
+    def c(self) -> tuple[Value, ...]:
+        """The row sums of A, as in :attr:`A`."""
+        return self._values(self.abelian().c)
+
+    @property
+    def bhat(self) -> tuple[Value, ...] | None:
+        """The embedded weights, as in :attr:`A`; None without an embedded row."""
+        lower = self.lower()
+        return None if lower is None else lower.b
+
+    def _values(self, row: Row) -> tuple[Value, ...]:
+        return tuple(value_of(x, self.ring, self.doubles) for x in row)
+
+    @cached_property
+    def orders(self) -> dict[str, int]:
+        """The computed order in each family in which the tableau is a method, by label: ``{"rk": 4, ...}``.
+
+        :func:`orderconds.check` also returns certificates and failing conditions.
+        """
+        orders_of: Callable[[Tableau], dict[str, int]] = _above("checking.computed_orders").orders_of
+        return orders_of(self)
+
+    def __repr__(self) -> str:
+        return f"Tableau({self.name!r}, {self.family}{self._stages()})"
+
+    def _stages(self) -> str:
+        if not isinstance(self.method, RungeKutta | PartitionedRungeKutta | CommutatorFree):
+            return ""
+        return f", {self.s} stage" + "s" * (self.s != 1)
+
+    def _repr_latex_(self) -> str:
+        return f"$\\displaystyle {tableau_latex(self)}$"
+
+    def _repr_html_(self) -> str:
+        return tableau_html(self)
+
+    def __reduce__(self) -> tuple[Callable[..., Tableau], tuple[object, ...]]:
+        # Objects of python-flint cannot be pickled, so a pickle contains the texts of the coefficients.
+        where = self.path or self.name
+        return from_data, (as_data(self), where, self.path)
 
     def over(self, ring: Ring, convert: Callable[[Element], Element] | None = None) -> Tableau:
         """Return the same method with coefficients in another ring.
@@ -159,7 +305,25 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
         path=path,
         proof=file.proof,
         file=file,
+        doubles=file.doubles,
     )
+
+
+def _with_embedded_order(data: Data, name: str) -> Tableau:
+    """Return the tableau of the keys; the order of an embedded row is computed on vector spaces."""
+    tableau = from_data(data, name)
+    lower = tableau.lower()
+    if lower is None:
+        return tableau
+    order_on_vector_spaces: Callable[[Tableau], int] = _above("exchange").order_on_vector_spaces
+    data["embedded"]["order"] = max(1, order_on_vector_spaces(lower))
+    return from_data(data, name)
+
+
+def _above(module: str) -> ModuleType:
+    """Return a module of a layer above this one. The class is the face of the whole package for users in
+    Python, so a few of its methods call functions of higher layers."""
+    return import_module(f"orderconds.{module}")
 
 
 def _composed(method: Method, ring: Ring) -> Method | None:

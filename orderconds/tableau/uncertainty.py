@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from flint import fmpq
 
 from orderconds.ring.balls import Ball, Balls
 from orderconds.ring.decimals import endpoints, rational_decimal
+from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
+
+WIDER = fmpq(17, 8)
+"""The largest width of the ball of a double, in units of its radius: a ball may be rounded."""
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:
     """Return the largest radius of those coefficients that are less accurate than a format of ``bits`` bits.
 
     A coefficient counts if its ball is wider than one rounding to ``bits`` bits. The result is a decimal of
-    two digits, or an empty text if all coefficients are exact or narrow enough.
+    two digits, or an empty text if all coefficients are exact or narrow enough. A double counts as narrow
+    enough, because code contains it without rounding.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)
@@ -29,9 +36,17 @@ def uncertainty(tableau: Tableau, bits: int) -> str:
     def visit(x: Ball) -> Ball:
         nonlocal widest
         low, high = endpoints(x.value)
-        if high - low > abs(low + high) / 2**bits:
+        narrow = abs(low + high) / 2**bits
+        if tableau.doubles:
+            middle = (low + high) / 2
+            narrow = max(narrow, WIDER * _rational(radius(Fraction(int(middle.p), int(middle.q)))))
+        if high - low > narrow:
             widest = max(widest, (high - low) / 2)
         return x
 
     tableau.method.map(visit)
     return rational_decimal(widest, 2) if widest else ""
+
+
+def _rational(x: Fraction) -> fmpq:
+    return fmpq(x.numerator, x.denominator)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from copy import deepcopy
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from orderconds.ring.protocol import Element
 from orderconds.tableau.brackets import Combination, spell
@@ -21,8 +21,10 @@ from orderconds.tableau.methods import (
     Stage,
 )
 from orderconds.tableau.products import AdjointComposition, Magnus, Splitting
-from orderconds.tableau.record import Tableau
 from orderconds.tableau.toml_text import toml_text
+
+if TYPE_CHECKING:
+    from orderconds.tableau.record import Tableau
 
 Spell = Callable[[Element], str]
 
@@ -56,7 +58,8 @@ def as_data(tableau: Tableau) -> Data:
         if getattr(tableau, key) != data.get(key, ""):
             data[key] = getattr(tableau, key)
     if file.claims != tableau.claims:
-        data.pop("claims", None)
+        for key in ("claims", "order"):
+            data.pop(key, None)
         data |= _claims(tableau.claims)
     return data
 

@@ -11,12 +11,13 @@ from codegen.build import Compiler
 from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError
+from codegen.integrator import Statistics, Status, StepFailed
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.lab.distance import distance
 from codegen.lab.orders.local_error import exact_flow, valuation
 from codegen.lab.reference import cached_reference
-from codegen.loader import Statistics, Status, StepFailed, load
+from codegen.loader import load
 from codegen.lower import lower, problem_for
 from codegen.method import Method, with_estimate
 from codegen.passes import optimise

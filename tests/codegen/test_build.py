@@ -135,7 +135,19 @@ def link_elsewhere(path):
     path.symlink_to("elsewhere")
 
 
-@pytest.mark.parametrize("ruin", [truncate, change_a_bit, replace_by_text, lose_the_digest, link_elsewhere])
+def replace_by_a_folder(path):
+    path.unlink()
+    (path / "within").mkdir(parents=True)
+
+
+def replace_the_digest_by_a_folder(path):
+    replace_by_a_folder(path.with_name(path.name + ".sha256"))
+
+
+RUINS = [truncate, change_a_bit, replace_by_text, lose_the_digest, link_elsewhere, replace_by_a_folder]
+
+
+@pytest.mark.parametrize("ruin", [*RUINS, replace_the_digest_by_a_folder])
 def test_a_bad_entry_is_built_again(monkeypatch, tmp_path, ruin):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     path = build(SOURCE)

@@ -9,9 +9,10 @@ import pytest
 
 from codegen.emitter import bare, default_prefix, emit, emit_compiled, prefix_of
 from codegen.errors import MethodError, SceneError
+from codegen.integrator import Statistics
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
-from codegen.loader import Statistics, load
+from codegen.loader import load
 from codegen.lower import families_for, lowering, problem_for
 from codegen.lower.flow_words import FlowLowering
 from codegen.regenerate import entries

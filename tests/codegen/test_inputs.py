@@ -13,9 +13,10 @@ from codegen.build import Compiler
 from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import MethodError, SceneError
 from codegen.groups import SO3, Rotation
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import FloatDomain
 from codegen.lab.orders.local_error import local_error, valuation
-from codegen.loader import Status, StepFailed, load
+from codegen.loader import load
 from codegen.lower import lower, lowering, problem_for
 from codegen.method import Method
 from codegen.passes import optimise

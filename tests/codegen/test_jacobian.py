@@ -12,11 +12,12 @@ import pytest
 from codegen.build import Compiler
 from codegen.emitter import compile_method, emit_compiled
 from codegen.errors import SceneError
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import FloatDomain
 from codegen.ir.expr import Space, evaluate
 from codegen.ir.tangent import tangents
 from codegen.kernel.variations import Variations
-from codegen.loader import Status, StepFailed, load
+from codegen.loader import load
 from codegen.lower import problem_for
 from codegen.scene import FieldScene
 from tests import compilations
@@ -40,6 +41,7 @@ CASES = [
     ("fast_heavy_top", "splitting:strang"),
     ("free_rigid_body_s3", "rkmk:rk4"),
     ("free_rigid_body_product", "cf:cf4"),
+    ("duffing_sl2", "cg:cg3"),
 ]
 LONG = (("driven_spin", "cg:cg3"), ("dipole", "vrkmk(2):gauss2"), ("dipole", "ambient:rk4"))
 """Cases like others of :data:`CASES`, for the slow run."""

@@ -10,12 +10,14 @@ from functools import cache
 import pytest
 from sympy import Matrix, Rational, exp, sin, sqrt, symbols
 
+import codegen.groups
 import codegen.kernel.taylor_expansion
 from codegen import scenes
 from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit_compiled, start_of
 from codegen.errors import MethodError
 from codegen.groups import LeftMultiplication, Rn
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.precision import DOUBLE
@@ -23,7 +25,7 @@ from codegen.lab.distance import distance
 from codegen.lab.orders.exact_order import exact_local_error
 from codegen.lab.reference import cached_reference
 from codegen.lab.stability.linear_stability import region
-from codegen.loader import Status, StepFailed, load
+from codegen.loader import load
 from codegen.lower import families_for, lowering, problem_for
 from codegen.method import parse
 from codegen.printers import names as target_names
@@ -276,3 +278,38 @@ def test_the_symbols_of_a_scene_may_be_those_of_the_code():
         end = load(emit_compiled(made, target)).adaptive([1.0, 0.0], 0.0, 1.0, rtol=1e-12, atol=1e-12)
         assert end.state[0] == pytest.approx(math.cos(1.0), abs=1e-11)
     assert Fraction(1) == made.scene.span[1]
+
+
+@pytest.mark.parametrize(
+    ("scene", "kept"),
+    [
+        ("free_rigid_body", True),
+        ("free_rigid_body_s3", True),
+        ("heavy_top", True),
+        ("duffing_sl2", True),
+        ("unprojected", False),
+    ],
+)
+def test_the_manifold_is_claimed_only_where_a_step_is_projected_onto_it(scene, kept, monkeypatch):
+    """An SO(3) whose action projects nothing loses the claim; the orbit of SL(2) in the plane is open."""
+    if scene == "unprojected":
+        monkeypatch.setattr(codegen.groups.Linear, "to_orbit", lambda self, d, group, y, start: y)
+        scene = "free_rigid_body"
+    assert lowering("taylor").keeps_manifold(scenes.load(scene)) is kept
+
+
+@pytest.mark.parametrize("scene", ["heavy_top", "dipole"])
+def test_adaptive_runs_in_the_body_frame_agree_with_those_in_space(scene):
+    problem = scenes.load(scene)
+    group = problem.group
+    start = tuple(map(float, problem.initial(FloatDomain(0.0))))
+    first, last = map(float, problem.span)
+    ends = {}
+    for frame in ("space", "body"):
+        module = emit_compiled(compile_method(problem, "taylor(12)", frame=frame, adaptive=True), "c")
+        q, mu = start[: group.size], start[group.size :]
+        state = start if frame == "space" else (*q, *group.Adt(FloatDomain(0.0), q, mu))
+        ends[frame] = tuple(load(module).adaptive(list(state), first, last, rtol=1e-12, atol=1e-12).state)
+    q, momentum = ends["body"][: group.size], ends["body"][group.size :]
+    body = (*q, *group.Adtinv(FloatDomain(0.0), q, momentum))
+    assert max(abs(a - b) for a, b in zip(body, ends["space"], strict=True)) < 1e-9

@@ -114,7 +114,7 @@ PLACES = (
 )
 PLACES += ("pipe.toml", "loop.toml", "empty.toml/out", os.devnull, "/dev/full", "n" * 300, "out\n", "é\u202e")
 
-OFTEN = {"output": 0.6, "as_json": 0.3, "explain": 0.3, "explicit": 0.1, "targets": 0.4}
+OFTEN = {"execute": 0.05, "output": 0.6, "as_json": 0.3, "explain": 0.3, "explicit": 0.1, "targets": 0.4}
 """How often an option that is not required is drawn."""
 
 TARGETS = ("c", "python", "interpreter")

@@ -27,10 +27,12 @@ from tests.fuzz.fork_server import ERR, MEGABYTES, OUT, Ending, run, running
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="forks")
 
-MEASURING = {"bench", "converge", "longrun", "report", "solve", "stability"}
+MEASURING = {"bench", "converge", "longrun", "recommend", "report", "solve", "stability"}
 EXPANDING = {"derive"}
 AS_LONG_AS_ASKED = MEASURING | EXPANDING
-"""Commands that work as long as their options ask, as --order or --steps; they end when interrupted."""
+"""Commands that work as long as their options ask; they end when interrupted.
+
+Such options are --order, --steps and --budget, which is 50 s by default."""
 
 
 @pytest.fixture(scope="module")

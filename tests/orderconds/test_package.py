@@ -20,10 +20,26 @@ def test_importing_the_package_imports_only_what_loads_its_names() -> None:
     assert run(code) == "['orderconds', 'orderconds.lazy']"
 
 
-@pytest.mark.parametrize("name", ["check", "derive"])
-def test_a_function_is_found_and_no_module_has_its_name(name: str) -> None:
+FUNCTIONS = [name for name in orderconds.__all__ if name.islower()]
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_a_function_of_the_interface_is_found_whatever_was_imported_before(name: str) -> None:
     assert run(f"import orderconds; print(type(orderconds.{name}).__name__)") == "function"
-    assert importlib.util.find_spec(f"orderconds.{name}") is None
+    if importlib.util.find_spec(f"orderconds.{name}") is not None:
+        code = f"import orderconds.{name} as module; from orderconds import {name}; print(callable({name}))"
+        assert run(code) == "True"
+
+
+def test_packages_with_the_names_of_functions_can_be_imported() -> None:
+    code = "import orderconds; from orderconds.trees import rooted; from orderconds.solve import spec; "
+    assert run(code + "print(rooted.__name__, orderconds.trees.__name__)") == "orderconds.trees.rooted trees"
+
+
+@pytest.mark.parametrize("package", ["orderconds", "codegen"])
+def test_importing_a_package_imports_no_library(package: str) -> None:
+    heavy = ("sympy", "numpy", "scipy", "matplotlib", "networkx", "flint", "msgspec", "click")
+    assert run(f"import sys, {package}; print(sorted(set({heavy}) & set(sys.modules)))") == "[]"
 
 
 def test_public_names_are_listed_loaded_or_not() -> None:

@@ -96,7 +96,7 @@ def test_a_tableau_without_claims_is_skipped_with_its_order(folder: Path, run: R
     (folder / "silent.toml").write_text(EULER.partition("[claims]")[0], encoding="utf-8")
     status, output = run(folder, "--orderconds", "-rs")
     assert status == 0
-    assert "the file claims no order; computed orders: rk 1" in output
+    assert "order 1; nothing claimed" in output
 
 
 def test_other_files_are_left_alone_unless_named(folder: Path, run: Run) -> None:

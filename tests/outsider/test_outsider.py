@@ -1,4 +1,4 @@
-"""A scene that nobody planned for, written from the README, goes through every command."""
+"""A scene that nobody planned for, written from the documentation, goes through every command."""
 
 from __future__ import annotations
 

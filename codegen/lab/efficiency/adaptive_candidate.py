@@ -10,11 +10,11 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from codegen.integrator import Arrival, Statistics, StepFailed
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
 from codegen.lab.efficiency.work_precision import MOST_STEPS, Row
 from codegen.lab.runner import RunFailed
 from codegen.lab.timing import samples
-from codegen.loader import Arrival, Statistics, StepFailed
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
 """Tolerances, from loose to tight. The first tolerance is looser than for peers, because error estimates of

@@ -20,7 +20,9 @@ from codegen.lab.efficiency.peer_candidate import PeerCandidate
 from codegen.lab.efficiency.ranking import Place, by_form, frontier, in_form, places
 from codegen.lab.efficiency.work_precision import Candidate, Refused, Row, measure_rows
 from codegen.lab.measurement_cache import MeasurementCache
-from codegen.lab.page.figures import Curve, efficiency_figure, standalone
+from codegen.lab.page.figures import Curve, efficiency_figure
+from codegen.lab.page.series_style import Styles
+from codegen.lab.page.svg import standalone
 from codegen.lab.peers import Peer, find
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
@@ -29,9 +31,10 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
+from orderconds.tableau import Tableau
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """The rows of each candidate, the fastest candidate for each accuracy, and the files written."""
 
@@ -39,6 +42,15 @@ class Result:
     entries: dict[str, tuple[Row, ...]]
     places: tuple[Place, ...]
     paths: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        best = (
+            f", fastest at error 1e-{self.places[-1].decade}: {self.places[-1].winner}" if self.places else ""
+        )
+        return f"<bench of {self.scene.name}: {len(self.rows)} runs{best}>"
+
+    def _repr_svg_(self) -> str:
+        return picture(self)
 
     @property
     def rows(self) -> tuple[Row, ...]:
@@ -93,14 +105,14 @@ class Bench:
 
 
 def bench(
-    scene: str,
-    methods: Sequence[str],
+    scene: Problem | str,
+    methods: Sequence[Method | Tableau | str],
     targets: Sequence[str],
     peers: Sequence[str],
     budget: float,
     output: str | None,
     progress: Progress,
-    adaptive: Sequence[str] = (),
+    adaptive: Sequence[Method | Tableau | str] = (),
     forms: Sequence[str] = (),
 ) -> Bench:
     """Return a bench of methods and peers on a scene.
@@ -114,7 +126,7 @@ def bench(
     for target in targets:
         if target not in names():
             raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(names())}")
-    problem = scenes.load(scene)
+    problem = scenes.load(scene) if isinstance(scene, str) else scene
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
     for method in controlled:
@@ -214,7 +226,7 @@ def table(rows: Sequence[Row]) -> str:
     return stream.getvalue()
 
 
-def curves(result: Result) -> list[Curve]:
+def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return error against CPU time of every candidate with at least one successful run.
 
     A candidate that was measured on several forms of the equations has one curve, of the fastest runs.
@@ -223,7 +235,7 @@ def curves(result: Result) -> list[Curve]:
     for label, rows in result.entries.items():
         points = [(r.seconds, r.error) for r in frontier(rows) if r.error and r.seconds]
         if points:
-            drawn.append(Curve(label, tuple(points), peer=rows[0].target == "peer"))
+            drawn.append(Curve(label, tuple(points), styles.of(label)))
     return drawn
 
 
@@ -231,4 +243,6 @@ def picture(result: Result) -> str:
     """Return the work-precision diagram as an SVG document."""
     title = f"Error against CPU time, {result.scene.title}"
     label = f"error at t = {float(result.scene.span[1]):g}"
-    return standalone(efficiency_figure(f"bench-{result.scene.name}", curves(result), label), title)
+    return standalone(
+        efficiency_figure(f"bench-{result.scene.name}", title, curves(result, Styles(result.entries)), label)
+    )

@@ -10,6 +10,7 @@ from fractions import Fraction
 
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, compile_method
+from codegen.integrator import Statistics
 from codegen.ir.operations import Operation
 from codegen.ir.program import Assign
 from codegen.lab.efficiency.equations import Equations
@@ -24,7 +25,6 @@ from codegen.lab.efficiency.work_precision import (
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
 from codegen.lab.timing import cost, samples
-from codegen.loader import Statistics
 from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target

@@ -13,12 +13,13 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from codegen.ir.domain import ExprDomain, FloatDomain
+from codegen.ir.domain import FloatDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.program import Assign, Program, Solve
-from codegen.ir.values import Kind, Var
+from codegen.ir.values import Var
 from codegen.lab.efficiency.equations import Equations
+from codegen.lab.efficiency.numeric_program import NumericPrograms, symbolic
 from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.reference import Reference
 from codegen.lab.runner import split_state
@@ -121,20 +122,22 @@ class Bar:
 
     ``least`` are the least errors within these seconds of the methods of the next higher orders, by family
     and by whether they are explicit; the family '' is the least of all families.
-    ``steps`` is the number of steps of the first interpreted run.
+    ``steps`` is the number of steps of the first interpreted run. If ``explicit`` is true, methods that solve
+    equations are excluded.
     """
 
     error: float
     seconds: float = math.inf
     least: tuple[tuple[str, bool, float], ...] = ()
     steps: int = FEW_STEPS
+    explicit: bool = False
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
         """Whether a method whose step takes at least ``step_seconds`` cannot reach the bar.
 
         If the methods of the next higher orders are far from the error, lower orders are even farther.
         """
-        if step_seconds > self.seconds:
+        if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
         known = {(name, kind): error for name, kind, error in self.least}
         return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
@@ -155,23 +158,29 @@ class Predictor:
     equations: Equations
     exact: Reference
     costs: dict[str, tuple[float, tuple[int, ...]]] = field(default_factory=dict)
+    numeric: NumericPrograms = field(default_factory=NumericPrograms)
 
-    def predict(self, method: Method, order: int, bar: Bar) -> Prediction:
+    def predict(self, method: Method, order: int, *bars: Bar) -> Prediction:
         """Return the prediction for a method of an order; InputError if it does not suit the scene.
 
-        If the method cannot reach the bar, no step is interpreted and the error is infinite.
+        If the method cannot reach any bar, no step is interpreted and the error is infinite.
         """
         scene = self.equations.problem
         problem = problem_for(scene, method)
         program = lower_composed(scene, method) or lower(scene, method)
         for each in plain_passes(problem):
             program = each.run(program)
-        outside, sweep = self.cost(program, problem)
+        widths = widths_of_inputs(program, problem)
+        outside, sweep = self.cost(program, problem, widths)
         explicit = not any(isinstance(s, Solve) for s in program.body)
         step = 1e-9 * (outside + USUAL_SWEEPS * sweep)
-        if bar.too_high(method.family, explicit, step):
+        bars = tuple(bar for bar in bars if not bar.too_high(method.family, explicit, step))
+        if not bars:
             return Prediction(method.label, order, method.family, explicit, outside, sweep)
-        steps, error, sweeps = self._reached(program, problem, bar.steps, bar.most(step))
+        numeric = self.numeric.of(program, problem, widths)
+        steps, error, sweeps = self._reached(
+            numeric, problem, min(bar.steps for bar in bars), max(bar.most(step) for bar in bars)
+        )
         return Prediction(method.label, order, method.family, explicit, outside, sweep, sweeps, steps, error)
 
     def _reached(
@@ -193,12 +202,11 @@ class Predictor:
             steps *= 2
         return best
 
-    def cost(self, program: Program, problem: Problem) -> tuple[float, float]:
-        """Return the nanoseconds of a step outside of blocks, and of one sweep of all blocks."""
-        widths: dict[Var, int] = {}
-        fields = {block.name: len(block.symbols) for block in problem.state}
-        for var in program.inputs:
-            widths[var] = fields.get(var.name, 1)
+    def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
+        """Return the nanoseconds of a step outside of blocks, and of one sweep of all blocks.
+
+        ``widths`` contains the widths of the inputs; those of all other variables are added.
+        """
         outside = sweep = 0.0
         for statement in program.body:
             if isinstance(statement, Assign):
@@ -212,28 +220,21 @@ class Predictor:
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
         """Return the nanoseconds of one assignment; record the widths of its targets."""
-        shape = [(a.kind.value, widths[a]) for a in assign.args]
+        shape = tuple((a.kind.value, widths[a]) for a in assign.args)
         # Problems of one scene differ by the group in which the state is represented.
         key = f"{problem.group.name} {len(problem.roots)} {assign.operation!r} {shape}"
         if key not in self.costs:
-            self.costs[key] = _counted(assign, problem, shape)
+            known = symbolic(assign, problem, shape)
+            self.costs[key] = amounts(known.expressions).cost(WEIGHTS), known.widths
         cost, results = self.costs[key]
         widths.update(zip(assign.targets, results, strict=True))
         return cost
 
 
-def _counted(
-    assign: Assign, problem: Problem, shape: Sequence[tuple[str, int]]
-) -> tuple[float, tuple[int, ...]]:
-    """Return the nanoseconds of an operation on symbols, and the widths of its results."""
-    domain = ExprDomain(problem.roots[0].space)
-    values: list[object] = []
-    for k, (kind, width) in enumerate(shape):
-        symbols = tuple(domain.space.sym(f"{k}.{i}") for i in range(width))
-        values.append(symbols[0] if kind == Kind.REAL else symbols)
-    results = assign.operation.evaluate(problem, domain, tuple(values))
-    flat = [flatten(v.kind, x) for v, x in zip(assign.targets, results, strict=True)]
-    return amounts([x for part in flat for x in part]).cost(WEIGHTS), tuple(map(len, flat))
+def widths_of_inputs(program: Program, problem: Problem) -> dict[Var, int]:
+    """Return the numbers of components of the inputs of a program."""
+    fields = {block.name: len(block.symbols) for block in problem.state}
+    return {var: fields.get(var.name, 1) for var in program.inputs}
 
 
 def amounts(roots: Sequence[Expr]) -> Amounts:

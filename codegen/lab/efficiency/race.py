@@ -14,15 +14,16 @@ from dataclasses import dataclass, field, replace
 from codegen.artifact import Artifact
 from codegen.certify import certified_order
 from codegen.emitter import Compiled, emit_compiled
+from codegen.integrator import Integrator
 from codegen.ir.domain import FloatDomain
 from codegen.lab.efficiency.candidates import Recipe
 from codegen.lab.efficiency.equations import Equations
-from codegen.lab.efficiency.requirements import Features, features
+from codegen.lab.efficiency.features import Features, features
 from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
 from codegen.lab.timing import samples
-from codegen.loader import Integrator, load
+from codegen.loader import load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
@@ -172,19 +173,19 @@ class Racer:
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Return the first control from which two runs reach the error, and whether there is one."""
-        control = 1.0
+        control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
             start = time.process_time()
-            if self.error(control) <= error and self.error(self._finer(control)) <= 2 * error:
+            seen.append(self.error(self._finer(control)))
+            if seen[-2] <= error and seen[-1] <= 2 * error:
                 return control, True
-            if time.process_time() - start > longest or self._at_rounding(error):
+            if time.process_time() - start > longest or self._at_rounding(seen):
                 break
             control = self._finer(control)
         return control, False
 
-    def _at_rounding(self, error: float) -> bool:
+    def _at_rounding(self, values: list[float]) -> bool:
         """Whether the last three refinements did not reduce an error that is near rounding."""
-        values = list(self.errors.values())
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
 

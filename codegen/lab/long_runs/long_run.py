@@ -13,6 +13,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
 
 from codegen.emitter import Compiled
+from codegen.integrator import StepFailed
 from codegen.lab.distance import distance
 from codegen.lab.long_runs.drift import FEWEST, LEVEL, Drift, fit
 from codegen.lab.long_runs.rounding_growth import (
@@ -25,7 +26,6 @@ from codegen.lab.long_runs.symplecticity import largest_defect
 from codegen.lab.long_runs.trajectory import Trajectory, record
 from codegen.lab.orders.step_sizes import rounding as rounding_bound
 from codegen.lab.runner import Emitted
-from codegen.loader import StepFailed
 
 ROUNDING_STEPS = 20_000
 """The growth of rounding errors is measured from several starts over at most this number of steps."""

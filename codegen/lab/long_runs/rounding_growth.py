@@ -19,7 +19,9 @@ from dataclasses import dataclass
 
 from codegen.emitter import Compiled, emit_compiled
 from codegen.errors import MethodError
+from codegen.integrator import Integrator, StepFailed
 from codegen.ir.domain import NotConverged, PreciseDomain
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.long_runs.compensated import compensated
@@ -29,7 +31,7 @@ from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import DIGITS, precise_step, solved_step
 from codegen.lab.straight_line_field import straight_line
-from codegen.loader import Integrator, StepFailed, load
+from codegen.loader import load
 from codegen.lower import problem_for
 from codegen.printers import DEFAULT
 
@@ -193,9 +195,10 @@ def _quantities(
     compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
 ) -> dict[str, Evaluate]:
     """Return expressions as functions of numbers with 60 digits."""
-    functions = {name: getattr(domain.context, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+    functions = {name: getattr(domain.context, name) for name in MATHEMATICAL}
+    scene = compiled.scene
     return {
-        name: straight_line(compiled.scene, exprs).python(domain.number, functions)
+        name: straight_line(scene.name, scene.symbols, exprs).python(domain.number, functions)
         for name, exprs in kept.items()
     }
 

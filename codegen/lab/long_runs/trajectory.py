@@ -13,11 +13,12 @@ from typing import TypeAlias
 
 import numpy
 
+from codegen.integrator import Integrator, StepFailed
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import straight_line
-from codegen.loader import Integrator, StepFailed
 from codegen.scene.problem import Problem
 
 SAMPLES = 1000
@@ -30,7 +31,7 @@ CHUNK = 100_000
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
 """A function of two arrays: states, with one coordinate in each row, and times. It returns rows of values."""
 
-FUNCTIONS = {name: getattr(numpy, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+FUNCTIONS = {name: getattr(numpy, name) for name in MATHEMATICAL}
 
 
 @dataclass
@@ -150,7 +151,7 @@ def array_functions(
         return evaluate
 
     return {
-        name: vectorised(straight_line(scene, exprs).python(float, FUNCTIONS))
+        name: vectorised(straight_line(scene.name, scene.symbols, exprs).python(float, FUNCTIONS))
         for name, exprs in (kept or expressions(scene)).items()
     }
 

@@ -2,38 +2,83 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
-from codegen.lab.efficiency.requirements import DECADES, Features, advise, features
-from codegen.lab.efficiency.requirements import Advice as Recommendation
+from codegen.lab.efficiency.features import Features, features
+from codegen.lab.efficiency.race import Result
+from codegen.lab.efficiency.ranking import fastest_form, in_form
+from codegen.lab.efficiency.recommend import step_of
+from codegen.lab.efficiency.requirements import DECADES, REQUIREMENTS
+from codegen.lab.efficiency.search import Search
+from codegen.lab.efficiency.task import Task
+from codegen.lab.efficiency.work_precision import Row
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.measurements.cost import Cost
-from codegen.lab.page.formatting import decade, duration
+from codegen.lab.page.formatting import decade, duration, enumeration
 from codegen.lab.subject import Subject
 
 BODY = '{% include "sections/advice.html.j2" %}'
-OVERVIEW = '{% import "parts.html.j2" as parts %}{{ parts.advice(advice) }}'
+OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
+
+SAFETY = 1.5
+"""The safety factor of predictions: smaller than for a single goal, because the goals share the budget."""
+
+
+@dataclass(frozen=True)
+class Advised:
+    """The fastest method for one error: its name, its step or tolerance, its steps, its CPU seconds.
+
+    ``command`` emits the integrator; it is empty for a peer.
+    """
+
+    error: float
+    method: str
+    seconds: float
+    h: float | None = None
+    tolerance: float | None = None
+    steps: int | None = None
+    command: str = ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A requirement with the fastest method for each of :data:`DECADES`, None if no method reaches an
+    error."""
+
+    need: str
+    meaning: str
+    best: tuple[Advised | None, ...]
+
+
+@dataclass(frozen=True)
+class Searched:
+    """The lines of a search, and whether the budget was sufficient."""
+
+    lines: tuple[Line, ...]
+    complete: bool
 
 
 @dataclass(frozen=True)
 class Recommendations:
-    """The fastest method for each requirement, and the properties of all methods."""
+    """The fastest method for each requirement, and the properties of the methods on the page."""
 
-    advice: tuple[Recommendation, ...]
+    advice: tuple[Line, ...]
     features: tuple[Features, ...]
+    complete: bool
 
 
 class Advice(Measurement[Recommendations]):
-    """The fastest method for each requirement, computed from the rows of the cost measurement."""
+    """The fastest method of the library for each requirement and error."""
 
     name = "advice"
     title = "Which method"
-    about = "the fastest method for each requirement and accuracy"
+    about = "the fastest method of the library for each requirement and accuracy"
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Rank the rows of the cost measurement."""
+        """Search the library, or the methods that the user named."""
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
         known += [
@@ -41,36 +86,115 @@ class Advice(Measurement[Recommendations]):
             for c in cost.candidates
             if isinstance(c, EmittedCandidate) and c.method.adaptive and c.equations and c.equations.printed
         ]
-        return Recommendations(advise(cost.result.entries, known), tuple(known))
+        methods = [(m.label, m.adaptive) for m in (*subject.methods, *subject.adaptive)]
+        refused = {failure.method for failure in subject.compiled.failures}
+        named = tuple(m for m in methods if m[0] not in refused) if subject.named else ()
+        task = Task(subject.name, budget=subject.effort.search, methods=named)
+        key = ("advice", subject.scene.name, subject.exact.digits(), task.budget, task.methods)
+        search = Searched((), complete=True)
+        if named or not subject.named:
+            search = subject.cache.get(key, Searched, lambda: searched(task, subject))
+        return Recommendations((*search.lines, *peers(cost.result.entries)), tuple(known), search.complete)
 
     def as_json(self, result: Recommendations) -> object:
-        """Return the best method and its CPU time for each requirement and accuracy."""
-        return [
-            {"need": a.need, "best": [b and {"method": b[0], "seconds": b[1]} for b in a.best]}
-            for a in result.advice
+        """Return the best method for each requirement and error, with its step, time and command."""
+        return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
+
+    def verdict(self, result: Recommendations, subject: Subject) -> str:
+        """Return the fastest method without requirements at the largest and the smallest error reached."""
+        own = result.advice[0].best if result.advice else ()
+        choices = [
+            f"at an error of {decade(k)}, {best.method.partition(' (')[0]} ({duration(best.seconds)})"
+            for k, best in zip(DECADES, own, strict=False)
+            if best
         ]
+        if not choices:
+            return ""
+        return f"The fastest emitted method: {enumeration(choices[:: max(1, len(choices) - 1)])}."
 
     def section(self, result: Recommendations, subject: Subject) -> Section:
         """Return the table of recommendations and the table of properties."""
-        return Section(BODY, {"advice": table(result), "features": result.features})
+        return Section(BODY, {"advice": table(result, subject), "features": result.features})
 
     def overview(self, result: Recommendations, subject: Subject) -> Section:
         """Return the table of recommendations."""
-        return Section(OVERVIEW, {"advice": table(result)})
+        return Section(OVERVIEW, {"advice": table(result, subject)})
 
 
-def table(result: Recommendations) -> dict[str, object]:
-    """Return the recommendations as a table; ``unmet`` lists the requirements that no method satisfies."""
+def searched(task: Task, subject: Subject) -> Searched:
+    """Return the fastest methods for all requirements and errors."""
+    goals = {(r.name, k): r.goal(k) for r in REQUIREMENTS for k in DECADES}
+    search = Search(task, tuple(dict.fromkeys(goals.values())), subject.progress, SAFETY)
+    search.run()
+    subject.progress(f"{subject.scene.name}: timing the fastest methods")
+    for goal in search.goals:
+        search.time_again(goal)
+    lines = []
+    for requirement in REQUIREMENTS:
+        places = [search.leaders(goals[requirement.name, k])[0] for k in DECADES]
+        best = tuple(advised(task, k, p[0]) if p else None for k, p in zip(DECADES, places, strict=True))
+        lines.append(Line(requirement.name, requirement.meaning, best))
+    return Searched(tuple(lines), search.complete)
+
+
+def advised(task: Task, k: int, place: Result) -> Advised:
+    """Return a result for the error 10^-k as advice."""
+    recipe = place.entry.recipe
+    return Advised(
+        10.0**-k,
+        recipe.label,
+        place.seconds,
+        step_of(task, place),
+        place.tolerance,
+        place.steps,
+        recipe.command(task.scene),
+    )
+
+
+def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
+    """Return the fastest peers, interpolated between measured runs; () if no peer was measured."""
+    others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
+    if not others:
+        return ()
+    best: list[Advised | None] = []
+    for k in DECADES:
+        times = [(fastest_form(rows, 10.0**-k), label) for label, rows in others.items()]
+        reached = sorted((f[0], in_form(label, f[1])) for f, label in times if f is not None)
+        best.append(Advised(10.0**-k, reached[0][1], reached[0][0]) if reached else None)
+    return (Line("a peer, for comparison", "other software on the same equations", tuple(best)),)
+
+
+def table(result: Recommendations, subject: Subject) -> dict[str, object]:
+    """Return the recommendations as a table with a column for each requirement that some method satisfies.
+
+    ``unmet`` lists the other requirements.
+    """
+    met = [a for a in result.advice if any(a.best)]
+    rows = [
+        {"error": decade(k), "cells": [cell(a.best[i]) for a in met]}
+        for i, k in enumerate(DECADES)
+        if any(a.best[i] for a in met)
+    ]
     return {
-        "errors": [decade(k) for k in DECADES],
-        "rows": [
-            {
-                "need": a.need,
-                "meaning": a.meaning,
-                "best": [None if b is None else {"label": b[0], "time": duration(b[1])} for b in a.best],
-            }
-            for a in result.advice
-            if any(a.best)
-        ],
+        "needs": [{"name": a.need, "meaning": a.meaning} for a in met],
+        "rows": rows,
         "unmet": [a.need for a in result.advice if not any(a.best)],
+        "named": subject.named,
+        "complete": result.complete,
+    }
+
+
+def cell(best: Advised | None) -> dict[str, str] | None:
+    """Return the texts of a cell; None if no method reaches the error."""
+    if best is None:
+        return None
+    control = "" if best.h is None else f"h = {best.h:.4g}"
+    if best.tolerance is not None:
+        control = f"tolerance {best.tolerance:.1e}"
+    steps = "" if best.steps is None else f"{best.steps} step{'s' * (best.steps != 1)}"
+    return {
+        "label": best.method,
+        "time": duration(best.seconds),
+        "control": ", ".join(x for x in (control, steps) if x),
+        "command": best.command,
     }

@@ -68,6 +68,14 @@ class Conditions(Measurement[ConditionTables]):
             },
         }
 
+    def verdict(self, result: ConditionTables, subject: Subject) -> str:
+        """Return the number of methods that violate a condition of the order after their own."""
+        if not result.methods:
+            return ""
+        exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
+        count = f"{exact} of {total}" if exact < total or total == 1 else f"All {total}"
+        return f"{count} methods violate conditions of the next order, so their computed order is exact."
+
     def section(self, result: ConditionTables, subject: Subject) -> Section | None:
         """Return a table for each family, and the violated conditions."""
         if not result.methods:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-
-from markupsafe import Markup
 
 from codegen.lab.efficiency.bench import Bench, Result, curves, emitted_forms, peer_forms, table
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
@@ -14,7 +12,7 @@ from codegen.lab.efficiency.ranking import in_form, prevailing_form
 from codegen.lab.efficiency.work_precision import Candidate, Refused, Row
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.page.figures import efficiency_figure
-from codegen.lab.page.formatting import Picture, decade, duration
+from codegen.lab.page.formatting import Picture, decade, duration, enumeration
 from codegen.lab.peers import find
 from codegen.lab.subject import Subject
 from codegen.lower import lowering
@@ -68,6 +66,20 @@ class Cost(Measurement[CostResult]):
         """Return the rows."""
         return [row.as_json() for row in result.result.rows]
 
+    def verdict(self, result: CostResult, subject: Subject) -> str:
+        """Return the methods that are the fastest at some accuracy, each with its accuracies."""
+        places = result.result.places
+        if not places:
+            return ""
+        winners: dict[str, list[int]] = {}
+        for place in places:
+            winners.setdefault(place.winner.partition(" (")[0], []).append(place.decade)
+        first, last = decade(places[0].decade), decade(places[-1].decade)
+        if len(winners) == 1:
+            return f"At every error from {first} to {last}, the fastest is {next(iter(winners))}."
+        choices = [f"{label} at {_decades(ks)}" for label, ks in winners.items()]
+        return f"The fastest is {enumeration(choices)}."
+
     def section(self, result: CostResult, subject: Subject) -> Section:
         """Return the work-precision diagram and its tables."""
         return Section('{% include "sections/cost.html.j2" %}', data(result.result, subject))
@@ -80,11 +92,15 @@ class Cost(Measurement[CostResult]):
 def data(result: Result, subject: Subject) -> dict[str, object]:
     """Return the variables of the template."""
     name, last = result.scene.name, float(result.scene.span[1])
-    picture = efficiency_figure(f"{name} efficiency", curves(result), f"error at t = {last:g}")
+    title = f"Error against CPU time, {result.scene.title}"
+    picture = efficiency_figure(
+        f"{name} efficiency", title, curves(result, subject.styles), f"error at t = {last:g}"
+    )
     return {
         "picture": Picture(
-            Markup(picture),
-            "Error against the CPU time of the whole run (least of several measurements). Dashed: peers.",
+            picture,
+            "Error against the CPU time of the whole run (least of several measurements). Dashed, with open "
+            "markers: peers. Dash-dotted: step-size control. Dotted: slopes of order p with equal steps.",
             subject.bench_command(),
         ),
         "places": [
@@ -104,6 +120,21 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
             if rows and all(r.failure for r in rows)
         ],
     }
+
+
+def _decades(numbers: Sequence[int]) -> str:
+    """Return the errors 10^-k as a list of intervals.
+
+    >>> _decades([2, 4, 5, 6])
+    '10⁻² and 10⁻⁴ to 10⁻⁶'
+    """
+    runs: list[list[int]] = []
+    for k in numbers:
+        if runs and k == runs[-1][-1] + 1:
+            runs[-1].append(k)
+        else:
+            runs.append([k])
+    return enumeration([decade(r[0]) if len(r) == 1 else f"{decade(r[0])} to {decade(r[-1])}" for r in runs])
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:

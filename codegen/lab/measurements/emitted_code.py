@@ -24,6 +24,18 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         keys = ("module", "operations", "left_out", "command")
         return [{"method": m.label, **{k: m.artifact.manifest[k] for k in keys}} for m in result]
 
+    def verdict(self, result: tuple[CompiledMethod, ...], subject: Subject) -> str:
+        """Return the methods with the fewest and with the most lines of emitted code."""
+        lengths = sorted((sum(text.count("\n") for _, text in m.files), m.label) for m in result)
+        if not lengths:
+            return ""
+        (least, shortest), (most, longest) = lengths[0], lengths[-1]
+        if len(lengths) == 1:
+            return f"The emitted code of {shortest} has {least} lines."
+        return (
+            f"{shortest} has the shortest emitted code ({least} lines), {longest} the longest ({most} lines)."
+        )
+
     def section(self, result: tuple[CompiledMethod, ...], subject: Subject) -> Section | None:
         """Return one entry for each method."""
         if not result:

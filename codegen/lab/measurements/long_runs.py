@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from markupsafe import Markup
-
 from codegen.lab.invariants import MANIFOLD
 from codegen.lab.long_runs.drift import CONFIDENCE
 from codegen.lab.long_runs.long_run import LongRun, long_run
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.page.figures import Curve, growth_figure
-from codegen.lab.page.formatting import Picture, scientific
+from codegen.lab.page.formatting import Picture, enumeration, scientific
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
 LEAST = 1e-17
@@ -58,12 +56,24 @@ class LongRuns(Measurement[Result]):
         for failure in result.failures:
             yield f"{subject.scene.name} {failure.method}: no long run: {failure.reason}"
 
+    def verdict(self, result: Result, subject: Subject) -> str:
+        """Return the laws of the first quantity on the page, each with its methods."""
+        for name in _shown(result.measured):
+            laws: dict[str, list[str]] = {}
+            for run in result.measured:
+                for kept in run.kept:
+                    if kept.name == name:
+                        laws.setdefault(kept.drift.law, []).append(run.method)
+            listed = "; ".join(f"{law}: {enumeration(methods)}" for law, methods in laws.items())
+            return f"Deviation of the {name} over {_count(subject.effort.steps)} steps: {listed}."
+        return ""
+
     def section(self, result: Result, subject: Subject) -> Section:
         """Return growth diagrams and tables."""
         runs, effort = result.measured, subject.effort
         values = {
-            "pictures": _pictures(runs, subject.report_command("long")),
-            "steps": f"{effort.steps:,}".replace(",", "\u00a0"),
+            "pictures": _pictures(runs, subject),
+            "steps": _count(effort.steps),
             "h": f"{float((subject.scene.span[1] - subject.scene.span[0]) / 100):g}",
             "confidence": f"{100 * CONFIDENCE:.0f}\u00a0%",
             "rounded": max((g.steps[-1] for run in runs for g in run.rounding), default=0),
@@ -73,22 +83,32 @@ class LongRuns(Measurement[Result]):
         return Section('{% include "sections/long.html.j2" %}', values)
 
 
-def _pictures(runs: Sequence[LongRun], command: str) -> list[Picture]:
+def _count(n: int) -> str:
+    return f"{n:,}".replace(",", "\u00a0")
+
+
+def _shown(runs: Sequence[LongRun]) -> list[str]:
+    """Return the quantities with a picture: the energy or the first invariant, and the manifold."""
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
-    shown += [MANIFOLD] if MANIFOLD in names else []
+    return [*shown, *([MANIFOLD] if MANIFOLD in names else [])]
+
+
+def _pictures(runs: Sequence[LongRun], subject: Subject) -> list[Picture]:
     pictures = []
-    for name in shown:
+    for name in _shown(runs):
         curves = [
-            Curve(run.method, points, place=k) for k, run in enumerate(runs) if (points := _growth(run, name))
+            Curve(run.method, points, subject.styles.of(run.method))
+            for run in runs
+            if (points := _growth(run, name))
         ]
         if curves:
-            title = f"{runs[0].scene} {name}"
+            title = f"Largest deviation of {name} against time, {subject.scene.title}"
             pictures.append(
                 Picture(
-                    Markup(growth_figure(title, curves, f"largest deviation of {name}")),
+                    growth_figure(f"{runs[0].scene} {name}", title, curves, f"largest deviation of {name}"),
                     f"The largest deviation of the {name} up to each time t. Dotted: growth like √t and t.",
-                    command,
+                    subject.report_command("long"),
                 )
             )
     return pictures

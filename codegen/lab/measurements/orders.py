@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from markupsafe import Markup
-
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.orders.order_study import COMPARED, OrderStudy, order_study
 from codegen.lab.page.figures import Curve, convergence_figure
-from codegen.lab.page.formatting import Picture, scientific
+from codegen.lab.page.formatting import Picture, enumeration, scientific
 from codegen.lab.subject import MethodResults, Subject
 from codegen.printers import targets
 
@@ -59,6 +57,20 @@ class Orders(Measurement[Result]):
         }
         return Section('{% include "sections/orders.html.j2" %}', values)
 
+    def verdict(self, result: Result, subject: Subject) -> str:
+        """Return the number of methods whose observed order equals the computed order, and the others."""
+        total = len(result.measured) + len(result.failures)
+        held = sum(m.verdict == "holds" for m in result.measured)
+        if total == 0:
+            return ""
+        if held == total:
+            number = f"all {total} methods" if total > 1 else "the method"
+            return f"The observed order of the emitted code equals the computed order for {number}."
+        others = [f"{m.method.label} ({m.verdict})" for m in result.measured if m.verdict != "holds"]
+        others += [f"{f.method} (failed)" for f in result.failures]
+        sentence = f"The observed order of the emitted code equals the computed order for {held} of {total}"
+        return f"{sentence} methods; the exceptions are {enumeration(others)}."
+
     def overview(self, result: Result, subject: Subject) -> Section:
         """Return the number of methods whose observed order equals the computed order."""
         held = sum(m.verdict == "holds" for m in result.measured)
@@ -91,12 +103,13 @@ def _observed(order: float | None) -> str:
 def _picture(studies: Iterable[OrderStudy], subject: Subject) -> Picture:
     scene = subject.scene
     curves = [
-        Curve(m.method.label, points, m.order.order, place=k)
-        for k, m in enumerate(studies)
+        Curve(m.method.label, points, subject.styles.of(m.method.label), m.order.order)
+        for m in studies
         if (points := tuple((r.h, r.error) for r in m.main.refinement.clean))
     ]
+    title = f"Error against step size, {scene.title}"
     return Picture(
-        Markup(convergence_figure(f"{scene.name} convergence", curves, f"error at t = {scene.span[1]}")),
+        convergence_figure(f"{scene.name} convergence", title, curves, f"error at t = {scene.span[1]}"),
         "Error of the emitted code against the step size. Dashed: the slope of each computed order.",
         subject.report_command("orders"),
     )

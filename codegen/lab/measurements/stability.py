@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 
-from markupsafe import Markup
-
 from codegen.lab.measurement import Measurement, Section
 from codegen.lab.page.figures import region_figure
-from codegen.lab.page.formatting import Picture, scientific
+from codegen.lab.page.formatting import Picture, enumeration, scientific
 from codegen.lab.stability.endurance import Endurance
 from codegen.lab.stability.extreme_steps import ACCURATE, WRONG, Answer
 from codegen.lab.stability.linear_stability import region
@@ -17,6 +15,9 @@ from codegen.lab.stability.stability_study import Findings, Stability, StiffScen
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
 OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }} cases.</p>'
+
+NAMED = 2
+"""Largest number of methods that the verdict names as those with the longest step."""
 
 Result = MethodResults[Stability]
 
@@ -62,6 +63,27 @@ class StabilityTests(Measurement[Result]):
         for failure in result.failures:
             yield f"{subject.scene.name} {failure.method}: no stability tests: {failure.reason}"
 
+    def verdict(self, result: Result, subject: Subject) -> str:
+        """Return the number of wrong results, and the methods with the longest usable step."""
+        answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
+        wrong = [method for kind, method in answers if kind == "wrong"]
+        parts = []
+        if answers:
+            names = f" ({enumeration(list(dict.fromkeys(wrong)))})" if wrong else ""
+            parts.append(
+                f"{len(wrong) or 'none'} of {len(answers)} extreme steps had a silent wrong result{names}"
+            )
+        if undetermined := sum(kind == "undetermined" for kind, _ in answers):
+            parts.append(f"{undetermined} had an undetermined result")
+        limits = {s.method: s.findings.limit.h for s in result.measured if s.findings.limit.h is not None}
+        if limits:
+            longest = max(limits.values())
+            best = [method for method, h in limits.items() if h == longest]
+            who = enumeration(best) if len(best) <= NAMED else f"{len(best)} of {len(limits)} methods"
+            parts.append(f"the longest usable step is {longest:.3g} ({who})")
+        sentence = "; ".join(parts)
+        return f"{sentence[0].upper()}{sentence[1:]}." if parts else ""
+
     def section(self, result: Result, subject: Subject) -> Section:
         """Return all tables."""
         return Section('{% include "sections/stability.html.j2" %}', data(result, subject))
@@ -77,12 +99,13 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     """Return the variables of the template."""
     methods = result.measured
     stiff = [(s, v) for s in methods for v in s.findings.stiff]
-    command = subject.report_command("stability")
+    rows = [_row(s) for s in methods]
     return {
-        "rows": [_row(s) for s in methods],
+        "rows": rows,
+        "undetermined": any(row["other"] for row in rows),
         "failures": result.failures,
-        "picture": _picture(methods, command),
-        "command": command,
+        "picture": _picture(methods, subject),
+        "command": subject.report_command("stability"),
         "cases": [_cases(s) for s in methods],
         "variants": [
             {"variant": name, "verdicts": [(s.method, v.verdict) for s, v in stiff if v.variant == name]}
@@ -93,15 +116,17 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     }
 
 
-def _picture(methods: Sequence[Stability], command: str) -> Picture | None:
-    functions = [(s.method, k, s.region.value) for k, s in enumerate(methods) if s.region is not None]
+def _picture(methods: Sequence[Stability], subject: Subject) -> Picture | None:
+    styles = subject.styles
+    functions = [(s.method, styles.of(s.method), s.region.value) for s in methods if s.region is not None]
     if not functions:
         return None
+    title = f"Regions of linear stability, {subject.scene.title}"
     return Picture(
-        Markup(region_figure(f"{methods[0].scene} regions", functions)),
-        "The curves |R(hλ)| = 1 bound the regions of linear stability for y′ = λy. Each curve contains zero; "
-        "near zero, the stable region is to the left of the curve.",
-        command,
+        region_figure(f"{methods[0].scene} regions", title, functions),
+        "The regions of linear stability for y′ = λy, shaded: |R(hλ)| ≤ 1. Methods with the same stability "
+        "function have the same boundary; their markers alternate.",
+        subject.report_command("stability"),
     )
 
 

@@ -30,7 +30,7 @@ FEWEST = 4
 """Number of runs that are needed for three slopes."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Convergence:
     """The runs of one method on one scene, and the order from the order conditions."""
 
@@ -39,6 +39,9 @@ class Convergence:
     target: str
     stated: CertifiedOrder
     refinement: Refinement
+
+    def __repr__(self) -> str:
+        return f"<{self.method} on {self.scene}: {self.sentence()}>"
 
     @property
     def observed(self) -> float | None:

@@ -1,21 +1,25 @@
 """The documents of the report: a page for each scene, and an overview with links to the pages.
 
-Each document contains its style and its pictures and loads nothing from elsewhere.
+Each document contains its style, its pictures and a script, and loads nothing from elsewhere. Without the
+script, a document can be read in full: the script only adds the values of markers and hides series.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from codegen import scenes
 from codegen.build import find_compiler
-from codegen.lab.efficiency.requirements import NEEDS
+from codegen.lab.efficiency.requirements import REQUIREMENTS
 from codegen.lab.measurement import Section
 from codegen.lab.page.formatting import scientific
+from codegen.lab.page.series_style import Styles
+from codegen.lab.page.svg import SERIES_DARK, SERIES_LIGHT, key
 from codegen.lab.scene_results import SceneResults
 from codegen.scene.problem import Problem
 from orderconds import __version__
@@ -41,7 +45,14 @@ def render(results: SceneResults, command: str) -> str:
         "span": f"{first} ≤ t ≤ {last}",
     }
     sections = [
-        {"name": m.name, "title": m.title, "html": m.failure if body is None else _html(body)}
+        {
+            "name": m.name,
+            "title": m.title,
+            "verdict": _marked(m.verdict(), results.subject.labels),
+            "holds": m.holds,
+            "failure": m.failure,
+            "html": "" if body is None else _html(body, results.subject.styles),
+        }
         for m in results.measured
         if (body := m.section()) is not None or m.failure
     ]
@@ -56,20 +67,36 @@ def render_overview(every: Sequence[SceneResults], command: str) -> str:
             "page": page_name(results),
             "name": results.scene.name,
             "about": scenes.about(results.subject.name).partition("\n\n")[0],
-            "sections": [_html(body) for m in results.measured if (body := m.overview()) is not None],
+            "sections": [
+                _html(body, results.subject.styles)
+                for m in results.measured
+                if (body := m.overview()) is not None
+            ],
         }
         for results in every
     ]
-    return _filled("overview.html.j2", command, scenes=summaries, needs=NEEDS)
+    return _filled("overview.html.j2", command, scenes=summaries, needs=REQUIREMENTS)
 
 
-def _html(section: Section) -> Markup:
+def _html(section: Section, styles: Styles) -> Markup:
     """Return the HTML of a section; text is escaped by the template environment."""
-    return Markup(_environment().from_string(section.template).render(**section.data))
+    return Markup(_environment().from_string(section.template).render(section.data, styles=styles))
+
+
+def _marked(sentence: str, labels: Sequence[str]) -> Markup:
+    """Return a sentence as HTML with the labels of methods as code."""
+    pattern = "|".join(re.escape(escape(label)) for label in sorted(labels, key=len, reverse=True))
+    text = str(escape(sentence))
+    return Markup(re.sub(rf"(?<![\w:])({pattern})(?![\w:])", r"<code>\1</code>", text) if labels else text)
 
 
 def _filled(name: str, command: str, **values: object) -> str:
-    facts = {"command": command, "version": __version__, "compiler": find_compiler().version}
+    facts: dict[str, object] = {
+        "command": command,
+        "version": __version__,
+        "compiler": find_compiler().version,
+    }
+    facts |= {"light": SERIES_LIGHT, "dark": SERIES_DARK}
     return _environment().get_template(name).render(**facts, **values)
 
 
@@ -84,6 +111,7 @@ def _environment() -> Environment:
         autoescape=True,
     )
     environment.filters["power"] = scientific
+    environment.filters["key"] = key
     return environment
 
 

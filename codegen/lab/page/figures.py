@@ -1,177 +1,248 @@
-"""Figures as inline SVG with the colours and fonts of the page, in light and dark mode.
-
-Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text is
-written as SVG text, not as outlines. The identifiers in the SVG are hashes that depend on the data and on the
-name of the figure. Therefore equal data gives equal bytes, and two figures of a page have different
-identifiers.
-"""
+"""The figures of the report: convergence, work and precision, growth of deviations, linear stability."""
 
 from __future__ import annotations
 
-import io
 import math
-import re
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeAlias, TypedDict
+
+from markupsafe import Markup
+
+from codegen.lab.page.formatting import power_of_ten, scientific, seconds, superscript
+from codegen.lab.page.series_style import Style
+from codegen.lab.page.svg import INK, MUTED, PLACEHOLDERS, RULE, STYLE, Point, Text, svg_element
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
     from matplotlib.figure import Figure
 
-INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
-SERIES = tuple(f"#010b{k:02x}" for k in range(1, 11))
-COLOURS = {INK: "var(--ink)", MUTED: "var(--muted)", RULE: "var(--rule)"} | {
-    colour: f"var(--series-{k})" for k, colour in enumerate(SERIES, start=1)
-}
-"""The CSS variable of the page for each placeholder colour."""
-
-MARKERS = ("o", "s", "^", "D", "v", "P", "X", "<", ">", "h")
-
-LIGHT = {
-    "var(--ink)": "#1d1c1a",
-    "var(--muted)": "#6b675f",
-    "var(--rule)": "#dedad1",
-    "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
-} | {
-    f"var(--series-{k})": colour
-    for k, colour in enumerate(
-        (
-            "#1f6fb2",
-            "#c2501f",
-            "#2a8a5c",
-            "#8349a6",
-            "#9c7a00",
-            "#54606b",
-            "#b3264a",
-            "#0f8f94",
-            "#5a4fcf",
-            "#7a4a2a",
-        ),
-        start=1,
-    )
-}
-"""The colour for each CSS variable, for pictures with a white background that are not part of a page."""
 SIZE = (4.7, 3.9)
 """Width and height in inches. On a phone the picture is shown at about this size, so its text is readable."""
 
 LINE = 0.175
 """Height of a line of labels in inches. The figure becomes higher by LINE for each line after the third."""
 
+LONG_LABEL = 27
+"""If a label has more characters, the legend has one column."""
+
+MARKS = 9
+"""Number of markers on a line without measured points of its own."""
+
+Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
+
 
 @dataclass(frozen=True)
 class Curve:
-    """A labelled sequence of points (x, y), and the order for a reference line (None: no line).
-
-    The curve of a ``peer`` is dashed and thin. ``place`` is the number of the colour and marker, so that a
-    method can have the same colour and marker in all pictures. By default it is the position of the curve.
-    """
+    """A labelled sequence of points (x, y) with its style, and the order for a reference line (None: no
+    line)."""
 
     label: str
-    points: tuple[tuple[float, float], ...]
+    points: tuple[Point, ...]
+    style: Style
     order: int | None = None
-    peer: bool = False
-    place: int | None = None
 
 
-def convergence_figure(name: str, curves: Sequence[Curve], error_label: str) -> str:
+class _Appearance(TypedDict):
+    """The arguments of Matplotlib for a style."""
+
+    color: str
+    marker: str
+    markerfacecolor: str
+    linestyle: str | tuple[float, tuple[float, ...]]
+    linewidth: float
+
+
+@dataclass
+class _Drawing:
+    """A figure under construction: its axes, and the texts of the markers of each series."""
+
+    figure: Figure
+    axes: Axes
+    values: dict[int, list[str]] = field(default_factory=dict)
+
+    def draw(self, curve: Curve, value: Callable[[float, float], str], marks: Sequence[int]) -> None:
+        """Draw a curve with markers at the points with the numbers ``marks``."""
+        number, style = len(self.values), curve.style
+        x, y = zip(*curve.points, strict=True)
+        (line,) = self.axes.plot(
+            x, y, label=curve.label, clip_on=False, markevery=list(marks), **_appearance(style)
+        )
+        line.set_gid(f"series:{number}")
+        self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
+
+    def finish(self, name: str, title: str, description: str) -> Markup:
+        """Add the legend and return the SVG element."""
+        _legend(self.figure, self.axes)
+        return svg_element(self.figure, Text(name, title, description, self.values))
+
+
+def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
     """Return error against step size, log-log, with a dashed line for each stated order."""
-    figure, axes = _canvas()
+    drawing = _canvas()
     for order in sorted({c.order for c in curves if c.order is not None}):
-        _reference_line(axes, order, next(c for c in curves if c.order == order))
-    _draw(axes, curves)
-    axes.set_xlabel("step size h")
-    axes.set_ylabel(error_label)
-    _ticks(axes.xaxis, lambda x: f"{x:g}")
-    _legend(figure)
-    return _svg(figure, name)
+        _reference_line(drawing.axes, order, next(c for c in curves if c.order == order))
+    for curve in curves:
+        drawing.draw(curve, lambda h, e: f"h = {scientific(h, 3)}, error {scientific(e)}", _all(curve))
+    _label(drawing.axes, "step size h", error_label)
+    _ticks(drawing.axes.xaxis, lambda x: f"{x:g}")
+    return drawing.finish(name, title, _description("step size", "error", curves))
 
 
-def efficiency_figure(name: str, curves: Sequence[Curve], error_label: str) -> str:
-    """Return error against CPU time of the whole run, log-log."""
-    figure, axes = _canvas()
-    _draw(axes, curves)
-    axes.set_xlabel("CPU time of the run")
-    axes.set_ylabel(error_label)
-    _ticks(axes.xaxis, seconds)
-    _legend(figure)
-    return _svg(figure, name)
+SLOPES = (2, 4, 8)
+"""Orders of the reference slopes of a work-precision diagram."""
 
 
-def growth_figure(name: str, curves: Sequence[Curve], label: str) -> str:
+def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
+    """Return error against CPU time of the whole run, log-log, with the slopes of the orders :data:`SLOPES`.
+
+    With a method of order p and equal steps, the error is proportional to the time to the power -p.
+    """
+    drawing = _canvas()
+    for curve in curves:
+        drawing.draw(curve, lambda t, e: f"{seconds(t)}, error {scientific(e)}", _all(curve))
+    _slopes(drawing.axes, [p for c in curves for p in c.points])
+    _label(drawing.axes, "CPU time of the run", error_label)
+    _ticks(drawing.axes.xaxis, seconds)
+    return drawing.finish(name, title, _description("CPU time in seconds", "error", curves))
+
+
+def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
     """Return the largest deviation up to each time, log-log, with dotted lines for t^1/2 and t."""
-    figure, axes = _canvas()
-    _draw(axes, curves, marked=False)
+    drawing = _canvas()
+    axes = drawing.axes
+    for number, curve in enumerate(curves):
+        marks = spread([math.log(t) for t, _ in curve.points], MARKS, number / max(1, len(curves)))
+        drawing.draw(curve, lambda t, e: f"up to t = {scientific(t, 3)}, {scientific(e)}", marks)
     left, right = axes.get_xlim()
     low, high = axes.get_ylim()
     for exponent, text in ((0.5, "√t"), (1.0, "t")):
         ends = (left * 1.3, right / 1.3)
         values = [low * 3 * (x / ends[0]) ** exponent for x in ends]
         axes.plot(ends, values, color=MUTED, linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
-        axes.annotate(
-            text, (ends[1], values[1]), xytext=(2, 0), textcoords="offset points", color=MUTED, fontsize=8
-        )
+        _annotate(axes, text, (ends[1], values[1]), (2, 0), "left")
     axes.set_ylim(low, high)
-    axes.set_xlabel("time")
-    axes.set_ylabel(label)
+    _label(axes, "time", label)
     _ticks(axes.xaxis, power_of_ten)
-    _legend(figure)
-    return _svg(figure, name)
+    return drawing.finish(name, title, _description("time", "deviation", curves))
 
 
 PLANE = (-8.0, 4.0, -6.0, 6.0)
 """Bounds of a picture of linear stability: interval of real parts, then interval of imaginary parts."""
 
-GRID = 121
-"""Number of grid points in each direction."""
+GRID = 120
+"""Number of grid points in each direction. It is even, so that no grid line is on an axis, which is the
+boundary of many stable regions."""
+
+MARGIN = 0.7
+"""Distance of the stable regions from the frame of the picture."""
+
+SHADE = 0.09
+"""Opacity of a stable region."""
 
 
-def region_figure(name: str, functions: Sequence[tuple[str, int, Callable[[complex], complex]]]) -> str:
-    """Return the boundaries |R(z)| = 1; ``functions`` are triples of label, place and stability function R.
+def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
+    """Return the stable regions |R(z)| <= 1, shaded, with their boundaries.
 
-    Every boundary contains zero. Near zero, the stable region is to the left of the boundary.
+    ``functions`` are triples of label, style and stability function R. Each method has its markers at other
+    points, so that two methods with the same boundary are both visible.
     """
-    left, right, low, high = PLANE
-    xs, ys = ([a + (b - a) * k / (GRID - 1) for k in range(GRID)] for a, b in ((left, right), (low, high)))
-    figure, axes = _canvas(log=False)
+    drawing, plane = _canvas(log=False), _Plane.containing([f for _, _, f in functions])
+    axes = drawing.axes
     axes.axhline(0.0, color=MUTED, linewidth=0.6)
     axes.axvline(0.0, color=MUTED, linewidth=0.6)
-    for label, place, value in functions:
-        sizes = [[min(abs(value(complex(x, y))), 1e3) for x in xs] for y in ys]
-        colour = SERIES[place % len(SERIES)]
-        axes.contour(xs, ys, sizes, levels=[1.0], colors=[colour], linewidths=1.3)
-        axes.plot([], [], color=colour, label=label)
+    for number, (label, style, value) in enumerate(functions):
+        looks, grid = _appearance(style), (plane.xs, plane.ys, plane.sizes(value))
+        fill = axes.contourf(*grid, levels=[-1.0, 1.0], colors=[looks["color"]], alpha=SHADE)
+        line = axes.contour(*grid, levels=[1.0], colors=[looks["color"]], linewidths=1.3)
+        points = _boundary(line.allsegs[0], number / len(functions))
+        x, y = zip(*points, strict=True) if points else ((), ())
+        (marks,) = axes.plot(x, y, **looks)
+        marks.set_linestyle("none")
+        for artist in (fill, line, marks):
+            artist.set_gid(f"series:{number}")
+        axes.plot([], [], label=label, **looks)
+        drawing.values[number] = [
+            f"{label}: |R| = 1 at {a:.2f} {b:+.2f}i".replace("-", "−") for a, b in points
+        ]
+    axes.set_xlim(plane.xs[0], plane.xs[-1])
+    axes.set_ylim(plane.ys[0], plane.ys[-1])
     axes.set_aspect("equal")
-    axes.set_xlabel("real part of hλ")
-    axes.set_ylabel("imaginary part of hλ")
-    _legend(figure)
-    return _svg(figure, name)
+    _label(axes, "real part of hλ", "imaginary part of hλ")
+    about = "Boundaries of the regions of linear stability of " + ", ".join(f[0] for f in functions) + "."
+    return drawing.finish(name, title, about)
 
 
-STYLE: dict[str, object] = {
-    "svg.fonttype": "none",
-    "font.size": 9,
-    "legend.fontsize": 8.5,
-    "axes.edgecolor": MUTED,
-    "axes.labelcolor": INK,
-    "axes.linewidth": 0.6,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "xtick.color": MUTED,
-    "ytick.color": MUTED,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.minor.size": 0,
-    "ytick.minor.size": 0,
-    "lines.linewidth": 1.3,
-    "lines.markersize": 4.5,
-}
+@dataclass(frozen=True)
+class _Plane:
+    """A grid of points in the complex plane: their real parts and their imaginary parts."""
+
+    xs: tuple[float, ...]
+    ys: tuple[float, ...]
+
+    @classmethod
+    def between(cls, left: float, right: float, low: float, high: float) -> _Plane:
+        """Return the grid with these bounds."""
+        xs, ys = (
+            tuple(a + (b - a) * k / (GRID - 1) for k in range(GRID)) for a, b in ((left, right), (low, high))
+        )
+        return cls(xs, ys)
+
+    @classmethod
+    def containing(cls, functions: Sequence[Callable[[complex], complex]]) -> _Plane:
+        """Return the part of :data:`PLANE` that contains the stable regions to the left of zero."""
+        whole = cls.between(*PLANE)
+        points = [
+            (x, y)
+            for function in functions
+            for y, row in zip(whole.ys[::4], whole.sizes(function, 4), strict=True)
+            for x, size in zip(whole.xs[::4], row, strict=True)
+            if size <= 1.0
+        ]
+        left = min((x for x, _ in points), default=PLANE[0]) - MARGIN
+        high = max((abs(y) for _, y in points), default=PLANE[3]) + MARGIN
+        right = max((x for x, _ in points), default=PLANE[1]) + MARGIN
+        if high > PLANE[3]:
+            return whole
+        left = max(PLANE[0], min(left, right - 2 * high))
+        return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
+
+    def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
+        """Return |R| at every point with a number divisible by ``step``; large values are cut off."""
+        return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
 
-def _canvas(*, log: bool = True) -> tuple[Figure, Axes]:
+def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
+    """Return the numbers of at most ``count`` points at about equal distances.
+
+    ``shift``, from 0 to 1, moves the points by this part of a distance.
+
+    >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
+    [1, 4, 7]
+    """
+    if len(positions) <= count:
+        return list(range(len(positions)))
+    first, last = positions[0], positions[-1]
+    wanted = [first + (last - first) * (k + shift) / count for k in range(count)]
+    nearest = (min(range(len(positions)), key=lambda i: abs(positions[i] - x)) for x in wanted)
+    return sorted(set(nearest))
+
+
+def _boundary(segments: Iterable[Iterable[Sequence[float]]], shift: float) -> list[Point]:
+    """Return points on the lines of a contour, at about equal distances."""
+    points: list[Point] = []
+    for segment in segments:
+        line = [(float(x), float(y)) for x, y in segment]
+        lengths = [0.0]
+        for a, b in pairwise(line):
+            lengths.append(lengths[-1] + math.dist(a, b))
+        points += [line[k] for k in spread(lengths, max(1, min(MARKS, round(lengths[-1] / 1.2))), shift)]
+    return points
+
+
+def _canvas(*, log: bool = True) -> _Drawing:
     import matplotlib
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
@@ -185,37 +256,65 @@ def _canvas(*, log: bool = True) -> tuple[Figure, Axes]:
         axes.set_yscale("log")
     axes.grid(color=RULE, linewidth=0.5)
     axes.set_axisbelow(True)
-    return figure, axes
+    return _Drawing(figure, axes)
 
 
-def _legend(figure: Figure) -> None:
+def _appearance(style: Style) -> _Appearance:
+    """Return the arguments of Matplotlib for a style."""
+    colour = PLACEHOLDERS[style.colour]
+    return {
+        "color": colour,
+        "marker": style.marker,
+        "markerfacecolor": PLACEHOLDERS["var(--paper)"] if style.hollow else colour,
+        "linestyle": (0, style.dash) if style.dash else "-",
+        "linewidth": 0.9 if style.hollow else 1.3,
+    }
+
+
+def _label(axes: Axes, x: str, y: str) -> None:
+    axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    if axes.get_yscale() == "log":
+        _ticks(axes.yaxis, power_of_ten)
+
+
+def _legend(figure: Figure, axes: Axes) -> None:
     """Put the labels above the axes, where they do not overlap curves."""
-    labels = sum(len(axes.get_legend_handles_labels()[1]) for axes in figure.axes)
+    labels = axes.get_legend_handles_labels()[1]
     if not labels:
         return
     width, height = SIZE
-    figure.set_size_inches(width, height + LINE * max(0, (labels + 1) // 2 - 3))
-    figure.legend(
+    columns = 1 if max(map(len, labels)) > LONG_LABEL else 2
+    lines = -(-len(labels) // columns)
+    figure.set_size_inches(width, height + LINE * max(0, lines - 3))
+    legend = figure.legend(
         loc="outside upper left",
-        ncols=2,
+        ncols=columns,
         frameon=False,
         labelcolor=INK,
-        handlelength=1.6,
+        handlelength=2.4,
         columnspacing=1.4,
         borderaxespad=0.2,
     )
+    for number, (handle, text) in enumerate(zip(legend.legend_handles, legend.get_texts(), strict=True)):
+        text.set_gid(f"key:{number}")
+        if handle is not None:
+            handle.set_gid(f"key:{number}")
 
 
-def _draw(axes: Axes, curves: Sequence[Curve], *, marked: bool = True) -> None:
-    for number, curve in enumerate(curves):
-        k = number if curve.place is None else curve.place
-        colour = SERIES[k % len(SERIES)]
-        x, y = zip(*curve.points, strict=True)
-        marker = MARKERS[(k + 3 * (k // len(SERIES))) % len(MARKERS)] if marked else ""
-        (line,) = axes.plot(x, y, color=colour, marker=marker, label=curve.label, clip_on=False)
-        if curve.peer:
-            line.set(linestyle=(0, (3, 2)), linewidth=0.9, markerfacecolor="none")
-    _ticks(axes.yaxis, power_of_ten)
+def _all(curve: Curve) -> list[int]:
+    return list(range(len(curve.points)))
+
+
+def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
+    """Return the ends of each curve in words, for readers who cannot see the figure."""
+    ends = []
+    for curve in curves:
+        (a, b), (c, d) = curve.points[0], curve.points[-1]
+        ends.append(
+            f"{curve.label}: {y} {scientific(b)} at {x} {scientific(a)}, {scientific(d)} at {scientific(c)}"
+        )
+    return "; ".join(ends) + "." if ends else "No run succeeds."
 
 
 def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
@@ -224,15 +323,40 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
     finest = min(curve.points)
     y = [0.45 * finest[1] * (h / finest[0]) ** order for h in (x[0], x[-1])]
     axes.plot([x[0], x[-1]], y, color=MUTED, linewidth=0.8, linestyle=(0, (4, 3)))
-    axes.annotate(
-        f"h{superscript(order)}" if order > 1 else "h",
-        (x[0], y[0]),
-        xytext=(-2, -7),
-        textcoords="offset points",
-        ha="right",
-        color=MUTED,
-        fontsize=8,
-    )
+    _annotate(axes, f"h{superscript(order)}" if order > 1 else "h", (x[0], y[0]), (-2, -7), "right")
+
+
+def _slopes(axes: Axes, points: Sequence[Point]) -> None:
+    """Draw the slope of each order of :data:`SLOPES`, in the corner with fewer points.
+
+    The corners are the one at the left below and the one at the right above, which work-precision curves
+    seldom reach. All lines begin at the upper left of a box, and end at its lower or right side.
+    """
+    if not points:
+        return
+    left, right = map(math.log10, axes.get_xlim())
+    low, high = map(math.log10, axes.get_ylim())
+    wide, tall = 0.26 * (right - left), 0.36 * (high - low)
+    boxes = ((left, low), (right - wide, high - tall))
+
+    def inside(box: Point) -> int:
+        return sum(
+            0 <= math.log10(x) - box[0] <= wide and 0 <= math.log10(y) - box[1] <= tall for x, y in points
+        )
+
+    x, y = min(boxes, key=inside)
+    x, y = x + 0.1 * wide, y + 0.92 * tall
+    for order in SLOPES:
+        run = min(0.75 * wide, 0.8 * tall / order)
+        ends = [(10**x, 10**y), (10 ** (x + run), 10 ** (y - order * run))]
+        axes.plot(*zip(*ends, strict=True), color=MUTED, linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
+        _annotate(axes, f"p = {order}" if order == SLOPES[0] else str(order), ends[1], (2, -4), "left")
+    axes.set_xlim(10**left, 10**right)
+    axes.set_ylim(10**low, 10**high)
+
+
+def _annotate(axes: Axes, text: str, at: Point, shift: Point, side: str) -> None:
+    axes.annotate(text, at, xytext=shift, textcoords="offset points", ha=side, color=MUTED, fontsize=8)
 
 
 def _ticks(axis: Axis, text: Callable[[float], str]) -> None:
@@ -241,65 +365,3 @@ def _ticks(axis: Axis, text: Callable[[float], str]) -> None:
     axis.set_major_locator(LogLocator(base=10, numticks=9))
     axis.set_major_formatter(FuncFormatter(lambda x, _: text(x)))
     axis.set_minor_formatter(NullFormatter())
-
-
-def superscript(n: int) -> str:
-    """Return an integer in superscript digits.
-
-    >>> superscript(-12)
-    '⁻¹²'
-    """
-    return str(n).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-
-
-def power_of_ten(x: float) -> str:
-    """Return a power of ten in mathematical notation.
-
-    >>> power_of_ten(1e-08), power_of_ten(1.0)
-    ('10⁻⁸', '1')
-    """
-    exponent = round(math.log10(x))
-    return "1" if exponent == 0 else f"10{superscript(exponent)}"
-
-
-def seconds(x: float) -> str:
-    """Return a time with a unit.
-
-    >>> seconds(1e-5), seconds(0.1), seconds(1e-9)
-    ('10 µs', '100 ms', '1 ns')
-    """
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
-        if x >= 0.999 * size:
-            return f"{x / size:g} {unit}"
-    return f"{x / 1e-9:.3g} ns"
-
-
-def standalone(svg: str, title: str) -> str:
-    """Return an SVG element of this module as a complete document with fixed colours on white and a title."""
-    for variable, value in LIGHT.items():
-        svg = svg.replace(variable, value)
-    head = svg.index(">") + 1
-    size = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg)
-    width, height = size.groups() if size else ("100%", "100%")
-    paper = f'<title>{title}</title><rect width="{width}" height="{height}" fill="#ffffff"/>'
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{svg[:head]}{paper}{svg[head:]}\n'
-
-
-def _svg(figure: Figure, name: str) -> str:
-    """Return the figure as an SVG element, without size and date, and with the colours of the page."""
-    import matplotlib
-
-    stream = io.StringIO()
-    with matplotlib.rc_context(STYLE | {"svg.hashsalt": name}):
-        figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None})
-    text = stream.getvalue()
-    text = text[text.index("<svg") :]
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
-    text = re.sub(r'\s+(width|height)="[\d.]+pt"', "", text, count=2)
-    # A style element in the figure would apply to the whole page.
-    text = re.sub(r"<style.*?</style>", "", text, flags=re.DOTALL)
-    text = re.sub(r'\s+id="[^"]*_\d+"', "", text)
-    text = re.sub(r"""'DejaVu Sans'(?:, [^;"]*)?""", "var(--sans)", text)
-    for colour, variable in COLOURS.items():
-        text = text.replace(colour, variable)
-    return text.strip()

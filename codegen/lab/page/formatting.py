@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from markupsafe import Markup
-
-from codegen.lab.page.figures import superscript
 
 
 @dataclass(frozen=True)
@@ -17,6 +16,25 @@ class Picture:
     svg: Markup
     caption: str
     command: str
+
+
+def superscript(n: int) -> str:
+    """Return an integer in superscript digits.
+
+    >>> superscript(-12)
+    '⁻¹²'
+    """
+    return str(n).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def power_of_ten(x: float) -> str:
+    """Return a power of ten in mathematical notation.
+
+    >>> power_of_ten(1e-08), power_of_ten(1.0)
+    ('10⁻⁸', '1')
+    """
+    exponent = round(math.log10(x))
+    return "1" if exponent == 0 else f"10{superscript(exponent)}"
 
 
 def scientific(x: float, digits: int = 2) -> str:
@@ -33,18 +51,25 @@ def scientific(x: float, digits: int = 2) -> str:
     return f"{mantissa.replace('-', '−')} · 10{superscript(int(exponent))}"
 
 
-def duration(seconds: float | None) -> str:
+def seconds(x: float) -> str:
+    """Return a time with three digits and a unit.
+
+    >>> seconds(1e-5), seconds(0.1), seconds(1.234e-9), seconds(2.0)
+    ('10 µs', '100 ms', '1.23 ns', '2 s')
+    """
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if x >= 0.9995 * size:
+            return f"{x / size:.3g} {unit}"
+    return f"{x / 1e-9:.3g} ns"
+
+
+def duration(time: float | None) -> str:
     """Return a time with three digits and a unit; a dash for None.
 
-    >>> duration(1.234e-5), duration(2.0), duration(None)
-    ('12.3 µs', '2 s', '–')
+    >>> duration(1.234e-5), duration(None)
+    ('12.3 µs', '–')
     """
-    if seconds is None:
-        return "–"
-    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
-        if seconds >= 0.9995 * size:
-            return f"{seconds / size:.3g} {unit}"
-    return f"{seconds / 1e-9:.3g} ns"
+    return "–" if time is None else seconds(time)
 
 
 def decade(k: int) -> str:
@@ -54,3 +79,12 @@ def decade(k: int) -> str:
     '10⁻⁶'
     """
     return f"10{superscript(-k)}"
+
+
+def enumeration(words: Sequence[str]) -> str:
+    """Return words as a list in a sentence.
+
+    >>> enumeration(["a"]), enumeration(["a", "b"]), enumeration(["a", "b", "c"])
+    ('a', 'a and b', 'a, b and c')
+    """
+    return " and ".join([", ".join(words[:-1]), words[-1]] if len(words) > 1 else words)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.domain import FloatDomain
+from codegen.ir.elementary import MATHEMATICAL
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
@@ -19,7 +20,7 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
     import heyoka
 
     variables = heyoka.make_vars(*scene.symbols)
-    functions = {name: getattr(heyoka, name) for name in ("sqrt", "sin", "cos", "exp", "log")}
+    functions = {name: getattr(heyoka, name) for name in MATHEMATICAL}
     constants = lambda x: heyoka.expression(float(x))  # noqa: E731
     roots = velocity(scene).python(constants, functions)(list(variables), heyoka.time)
     start = list(scene.initial(FloatDomain(0.0)))

@@ -50,7 +50,8 @@ def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
 def projection_lines(scene: Problem) -> StraightLine:
     """Return the projection of a scene as straight-line code."""
     domain = ExprDomain()
-    return straight_line(scene, project(scene, domain, tuple(domain.space.sym(s) for s in scene.symbols)))
+    state = tuple(domain.space.sym(s) for s in scene.symbols)
+    return straight_line(scene.name, scene.symbols, project(scene, domain, state))
 
 
 def projection(scene: Problem) -> Callable[[Sequence[float]], tuple[float, ...]]:

@@ -7,10 +7,10 @@ import time
 from dataclasses import dataclass
 
 from codegen.emitter import Compiled
+from codegen.integrator import StepFailed
 from codegen.lab.distance import distance
 from codegen.lab.invariants import MANIFOLD, functions
 from codegen.lab.runner import Emitted
-from codegen.loader import StepFailed
 
 MANY = 10_000_000
 BACK = 100_000

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from codegen.emitter import Compiled
+from codegen.integrator import StepFailed
 from codegen.lab.distance import distance
 from codegen.lab.invariants import functions
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted
-from codegen.loader import StepFailed
 
 USABLE = 0.1
 MOST = 2**22

@@ -15,12 +15,12 @@ import pytest
 from orderconds.cli import program
 from orderconds.tableau import find
 
-README = Path(__file__).parents[3] / "README.md"
+PAGE = Path(__file__).parents[3] / "docs/howto/scene.md"
 
 
 def scene(folder: Path, *changes: tuple[str, str]) -> str:
-    """Write the heavy top of the README with some words replaced, and return its path."""
-    text = README.read_text(encoding="utf-8").partition("# top.py")[2].partition("```")[0]
+    """Write the heavy top of the documentation with some words replaced, and return its path."""
+    text = PAGE.read_text(encoding="utf-8").partition("# top.py")[2].partition("```")[0]
     for old, new in changes:
         assert old in text
         text = text.replace(old, new)

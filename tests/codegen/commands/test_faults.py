@@ -16,6 +16,7 @@ from click.testing import CliRunner
 
 from codegen.commands.emit import command as emit
 from codegen.commands.regenerate import command as regenerate
+from codegen.commands.report import command as report
 from codegen.loader import load
 from orderconds.errors import InputError
 from orderconds.output_file import SUFFIX
@@ -183,6 +184,63 @@ def test_a_report_that_is_stopped_leaves_whole_pages_and_is_completed_by_the_nex
     assert sorted(contents(folder)) == ["free_rigid_body.html", "index.html"]
     for page in contents(folder).values():
         assert page.endswith(b"</html>\n")
+
+
+PAGES = (*REPORT[1:5], "--only", "orders", "-o")
+"""One measurement, then two pages: one of the scene and the overview."""
+
+
+@posix
+@pytest.mark.parametrize(
+    ("rename", "pages"), [pytest.param(1, [], marks=pytest.mark.slow), (2, ["free_rigid_body.html"])]
+)
+def test_a_report_that_is_killed_between_its_pages_leaves_whole_pages_and_is_completed_by_the_next(
+    rename: int, pages: list[str], tmp_path: Path
+) -> None:
+    kill_at(rename, "report", *PAGES, str(tmp_path))
+    assert [path.name for path in tmp_path.glob("*.html")] == pages
+    for page in pages:
+        assert (tmp_path / page).read_text(encoding="utf-8").endswith("</html>\n")
+    assert run(report, *PAGES, str(tmp_path))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["free_rigid_body.html", "index.html"]
+
+
+@posix
+@pytest.mark.parametrize("room", [pytest.param(500, marks=pytest.mark.slow), 5000])
+def test_a_disk_that_is_full_before_or_between_pages_is_one_message(room: int, tmp_path: Path) -> None:
+    """A limit on the size of a file acts as a full disk, and needs no disk."""
+    command = [sys.executable, "-m", "orderconds", "report", *PAGES, str(tmp_path)]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    limit = partial(limit_files, room)
+    full = subprocess.run(
+        command, env=environment, capture_output=True, text=True, check=False, preexec_fn=limit
+    )
+    assert (full.returncode, full.stdout, full.stderr.count("\n")) == (2, "", 1)
+    assert f"{tmp_path}: cannot write there: file too large" in full.stderr
+    assert [path.name for path in tmp_path.rglob("*") if path.suffix in (".html", SUFFIX)] == []
+    done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["free_rigid_body.html", "index.html"]
+
+
+def limit_files(room: int) -> None:
+    """Bound the files that a process writes, in bytes."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
+
+
+@posix
+@pytest.mark.parametrize("words", [pytest.param([], marks=pytest.mark.slow), ["--json"]])
+def test_a_report_whose_reader_goes_away_has_its_pages(words: list[str], tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "orderconds", "report", *PAGES, str(tmp_path), *words]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(command, env=environment, stdout=writing, stderr=subprocess.PIPE, check=False)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (141, b"")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["free_rigid_body.html", "index.html"]
 
 
 @posix

@@ -8,12 +8,13 @@ import pytest
 from sympy import diag
 
 from codegen.emitter import emit_compiled
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import SeriesDomain
 from codegen.ir.expr import evaluate
 from codegen.ir.interpret import interpret
 from codegen.ir.program import BODY, SPACE
 from codegen.kernel.translate import to_kernel
-from codegen.loader import Status, StepFailed, load
+from codegen.loader import load
 from codegen.passes import optimise
 from codegen.printers import names as target_names
 from codegen.printers import target as known_target

@@ -9,12 +9,13 @@ from sympy import diag
 
 from codegen import scenes
 from codegen.emitter import compile_method, emit_compiled
+from codegen.integrator import StepFailed
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST
 from codegen.ir.scene_operations import FLOWS, FlowFor
 from codegen.kernel.deferred_flows import part
-from codegen.loader import StepFailed, load
+from codegen.loader import load
 from tests.strategies import top_scene
 
 TURNS = ["T.mean", "T.turn"]

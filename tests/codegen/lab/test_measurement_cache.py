@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -77,6 +78,31 @@ def test_a_damaged_entry_is_measured_again(cache: MeasurementCache, damage) -> N
     assert cache.find(("key",), Result) is None
     assert cache.get(("key",), Result, measure).numbers[-1] == 2.0
     assert cache.get(("key",), Result, measure).numbers[-1] == 2.0
+
+
+def replace_by_a_folder(path: Path) -> None:
+    (path / "within").mkdir(parents=True)
+
+
+def replace_by_a_link(path: Path) -> None:
+    """A link to a device without end."""
+    path.symlink_to("/dev/zero")
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes and devices of POSIX")
+@pytest.mark.parametrize("replace", [replace_by_a_folder, replace_by_a_link, os.mkfifo])
+def test_what_is_no_file_is_not_read_and_is_replaced(
+    cache: MeasurementCache, replace: Callable[[Path], None]
+) -> None:
+    measure = Counted()
+    cache.get(("key",), Result, measure)
+    (path,) = entries(cache)
+    path.unlink()
+    replace(path)
+    assert cache.get(("key",), Result, measure).numbers[-1] == 2.0
+    assert cache.get(("key",), Result, measure).numbers[-1] == 2.0
+    assert path.is_file()
+    assert not path.is_symlink()
 
 
 def test_an_entry_of_another_type_is_measured_again(cache: MeasurementCache) -> None:

@@ -8,13 +8,20 @@ from codegen.lab import timing
 
 
 class Clock:
-    """CPU time that passes only when a run says so; ``disturb`` makes the first calls take longer."""
+    """CPU time that passes only when a run says so; ``disturb`` makes the first calls take longer.
+
+    ``tick`` is the resolution of the clock of the process. The time of other threads is added to ``others``.
+    """
 
     def __init__(self) -> None:
-        self.now, self.disturb = 0.0, 0
+        self.now, self.disturb, self.others = 0.0, 0, 0.0
+        self.tick: float | None = None
 
     def process_time(self) -> float:
-        return self.now
+        return self.now if self.tick is None else self.now // self.tick * self.tick
+
+    def thread_time(self) -> float:
+        return self.now - self.others
 
     def run(self, steps: int) -> None:
         self.now += 2e-6 + 50e-9 * steps + (40e-6 if self.disturb > 0 else 0.0)
@@ -41,6 +48,20 @@ def test_a_disturbed_batch_does_not_count(clock: Clock) -> None:
 def test_a_batch_lasts_long_enough_for_the_clock(clock: Clock) -> None:
     timing.cost(lambda: clock.run(0), batch=1e-2, batches=3)
     assert clock.now >= 3e-2
+
+
+def test_a_coarse_clock_of_the_process_makes_no_batch_last_nothing(clock: Clock) -> None:
+    clock.tick = 4e-3
+    found = timing.samples(lambda: clock.run(0), batch=1e-3)
+    assert found[0] == pytest.approx(2e-6, rel=1e-6)
+
+
+def test_the_time_of_other_threads_counts(clock: Clock) -> None:
+    def call() -> None:
+        clock.now += 1e-3
+        clock.others += 1e-3
+
+    assert timing.cost(call, batch=1e-2) == pytest.approx(1e-3)
 
 
 def test_no_time_is_negative(clock: Clock) -> None:

@@ -7,11 +7,12 @@ import pytest
 
 from codegen import scenes
 from codegen.emitter import emit_compiled, start_of
+from codegen.integrator import Statistics
 from codegen.ir.angle_depth import chain
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.ir.precision import DOUBLE, Precision
-from codegen.loader import Statistics, load
+from codegen.loader import load
 from codegen.run import stopping
 from codegen.run.execute import Machine
 from codegen.run.floats import EmittedFloats

@@ -10,8 +10,9 @@ from sympy import Matrix, symbols
 from codegen.emitter import compile_method, emit_compiled
 from codegen.groups.actions.left_multiplication import LeftMultiplication
 from codegen.groups.rn import Rn
+from codegen.integrator import Status, StepFailed
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON
-from codegen.loader import Status, StepFailed, load
+from codegen.loader import load
 from codegen.printers import names as target_names
 from codegen.run.terms import STATUSES
 from codegen.scene.field_scene import FieldScene

@@ -13,8 +13,9 @@ from codegen.commands.emit import command as emit_command
 from codegen.commands.emit import explanation
 from codegen.emitter import compile_method, emit_compiled, start_of
 from codegen.groups import LeftMultiplication, Rn
+from codegen.integrator import StepFailed
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
-from codegen.loader import StepFailed, load
+from codegen.loader import load
 from codegen.run import solver_choice
 from codegen.run.execute import _inverted
 from codegen.run.solver_choice import CHOICES, FEW_STEPS, LARGE, STEPS, Candidate, is_linear

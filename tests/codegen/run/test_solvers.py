@@ -10,10 +10,11 @@ from itertools import pairwise
 import pytest
 
 from codegen.emitter import emit_compiled
+from codegen.integrator import Statistics, Status, StepFailed
 from codegen.ir.domain import FloatDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Newton, Start
-from codegen.loader import Statistics, Status, StepFailed, load
+from codegen.loader import load
 from codegen.lower import problem_for
 from codegen.printers import names as target_names
 from tests.compilations import compiled, emitted

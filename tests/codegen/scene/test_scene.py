@@ -123,6 +123,15 @@ def test_the_gallery_is_listed_with_titles(name):
     assert name in [row["name"] for row in scenes.listing()]
 
 
+def test_a_scene_of_a_user_has_its_title_or_the_name_of_its_file(tmp_path):
+    text = (TESTS / "valid" / "scenes" / "pendulum.py").read_text(encoding="utf-8")
+    given, untitled = tmp_path / "given.py", tmp_path / "swing.py"
+    given.write_text(text, encoding="utf-8")
+    untitled.write_text(text.replace('    title="Pendulum with a moving support",\n', ""), encoding="utf-8")
+    assert scenes.load(str(given)).title == "Pendulum with a moving support"
+    assert scenes.load(str(untitled)).title == "swing"
+
+
 class TestAValidFile:
     @pytest.fixture
     def scene(self):

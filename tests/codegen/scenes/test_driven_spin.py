@@ -9,13 +9,13 @@ import pytest
 
 from codegen.certify import certified_order
 from codegen.emitter import compile_method, emit_compiled
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import PreciseDomain
 from codegen.ir.interpret import interpret
 from codegen.ir.operations import Advance
 from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
-from codegen.loader import Status, StepFailed
 from codegen.loader import load as load_module
 from codegen.passes.rewrite import rewrite
 from codegen.scenes import load

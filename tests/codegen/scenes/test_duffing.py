@@ -16,6 +16,7 @@ from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
 from codegen.loader import load as load_module
+from codegen.run.floats import EmittedFloats
 from codegen.scenes import load
 from codegen.snippets.graph import needed
 from orderconds.ring import QQ
@@ -73,13 +74,16 @@ def test_the_exponential_of_a_traceless_matrix_has_determinant_one():
 
 @pytest.fixture(scope="module")
 def emitted_functions():
-    found = needed("python", ["signed_stumpff0", "signed_stumpff1"])
+    found = needed("python", ["signed_stumpff0", "signed_stumpff1", "signed_slope1"])
     space = {name: getattr(math, name) for name in found.library}
     exec("\n\n".join(found.texts), space)
-    return space["signed_stumpff0"], space["signed_stumpff1"]
+    return space["signed_stumpff0"], space["signed_stumpff1"], space["signed_slope1"]
 
 
-@pytest.mark.parametrize("z", [-700.0, -9.5, -1.0, -0.01, -1e-12, -5e-324, 0.0, 1e-9, 0.8, 30.0])
+SIGNED = [-700.0, -9.5, -1.0, -0.01, -1e-12, -5e-324, 0.0, 1e-9, 0.8, 30.0]
+
+
+@pytest.mark.parametrize("z", SIGNED)
 def test_stumpff_functions_continue_to_negative_arguments(z, emitted_functions):
     exact = PreciseDomain(Fraction(1), 40)
     for k in (0, 1):
@@ -87,6 +91,17 @@ def test_stumpff_functions_continue_to_negative_arguments(z, emitted_functions):
         close = float(4 * math.ulp(float(expected)) + abs(expected) * abs(z) ** 0.5 * 2.0**-52)
         assert FloatDomain(0.0).call(f"signed_stumpff{k}", z) == pytest.approx(float(expected), abs=close)
         assert emitted_functions[k](z) == pytest.approx(float(expected), abs=close)
+
+
+@pytest.mark.parametrize("z", [*SIGNED, math.nextafter(-1, -2), math.nextafter(1, 2)])
+def test_the_derivative_of_sine_over_angle_continues_to_negative_arguments(z, emitted_functions):
+    exact = PreciseDomain(Fraction(1), 40)
+    expected = exact.call("signed_slope1", exact.context.mpf(z))
+    c0 = exact.call("signed_stumpff0", exact.context.mpf(z))
+    close = 8 * 2.0**-53 * float(abs(expected) + abs(c0) * (1 + abs(z) ** 0.5) / max(1, abs(z)))
+    assert FloatDomain(0.0).call("signed_slope1", z) == pytest.approx(float(expected), abs=close)
+    assert emitted_functions[2](z) == pytest.approx(float(expected), abs=close)
+    assert EmittedFloats().call("signed_slope1", z) == emitted_functions[2](z)
 
 
 def test_over_power_series_both_signs_are_one_function():

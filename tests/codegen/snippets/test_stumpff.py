@@ -12,8 +12,9 @@ from cffi import FFI
 
 from codegen.build import build
 from codegen.emitter import emit
+from codegen.integrator import StepFailed
 from codegen.ir.precision import DOUBLE, SINGLE, Precision
-from codegen.loader import StepFailed, load
+from codegen.loader import load
 from codegen.snippets.graph import needed
 from codegen.snippets.stumpff import SETS, SMALL, SWITCH, TINY, coefficients, economised, limit
 

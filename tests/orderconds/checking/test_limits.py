@@ -32,7 +32,7 @@ def plain(name: str, folder: Path) -> Path:
 def test_compositions_in_plain_arrays_are_decided_by_theorem(name: str, family: str, tmp_path: Path) -> None:
     for order in (None, 8):
         (found,) = check(plain(name, tmp_path), family, order).orders
-        assert (found.order, found.certificate, found.limit) == (8, "decimal", None)
+        assert (found.order, found.certificate, found.limit) == (8, "double", None)
 
 
 def test_the_csv_of_a_composition_is_checked_against_all_its_claims(tmp_path: Path) -> None:

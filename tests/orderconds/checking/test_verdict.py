@@ -76,7 +76,7 @@ def test_the_order_required_stands_in_place_of_the_claims_and_is_a_lower_bound()
 def test_a_family_asked_for_is_checked_alone_claimed_or_not() -> None:
     report = check(rk(*RK4, "rk = 4"), family="cg")
     assert [(f.family, f.claimed) for f in report.orders] == [("cg", None)]
-    assert report.verdict == "holds"
+    assert report.verdict == "unclaimed"
 
 
 def test_without_claims_the_family_of_the_format_is_checked() -> None:
@@ -124,7 +124,7 @@ def test_an_embedded_row_has_the_order_it_states() -> None:
         text = f'name = "m"\nfamily = "rk"\nA = {CG3[0]}\nb = {CG3[1]}\nsource = "a test"\n'
         return check(Tableau.loads(f"{text}embedded = {{ b = {b}, order = {stated} }}\n")).verdict
 
-    assert with_embedded('["17/54", "19/54", "1/3"]', 2) == "holds"
+    assert with_embedded('["17/54", "19/54", "1/3"]', 2) == "unclaimed"
     assert with_embedded('["17/54", "19/54", "1/3"]', 3) == "fails"
     with pytest.raises(InputError, match="identically zero"):
         with_embedded(CG3[1], 2)

@@ -218,7 +218,7 @@ def test_files_of_other_formats_are_checked_as_they_are(tmp_path: Path) -> None:
     plain.write_text("0,0,0\n2/3,2/3,0\n,1/4,3/4\n", encoding="utf-8")
     result = run(str(plain), "--family", "cg")
     assert (result.exit_code, result.stderr) == (0, "")
-    assert "my_method: holds" in result.stdout
+    assert "my_method: order 2; nothing claimed" in result.stdout
     for of, suffix in (("latex", "tex"), ("numpy", "npz"), ("c", "h"), ("json", "json"), ("sympy", "py")):
         path = tmp_path / f"x.{suffix}"
         path.write_bytes(export(as_data(Tableau.load(find("cf43"))), of))

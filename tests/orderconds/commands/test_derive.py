@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,6 +16,9 @@ from click.testing import CliRunner, Result
 
 from orderconds import families
 from orderconds.cli import program
+from orderconds.derivation import derive
+from orderconds.formula import coefficients
+from orderconds.formula.notation import LATEX
 
 
 def run(*args: str) -> Result:
@@ -90,11 +95,32 @@ def test_text_has_the_six_conditions_of_vcg_order_3() -> None:
     assert "sum_{i,j} b_i a_ij c_j = 1/6" in result.stdout
 
 
-def test_latex_is_one_aligned_environment() -> None:
+def test_latex_has_one_environment_and_a_tree_and_a_label_for_each_condition() -> None:
     lines = run("rk", "--order", "3", "--format", "latex").stdout.splitlines()
-    assert (lines[0], lines[-1]) == (r"\begin{align*}", r"\end{align*}")
-    assert sum("&=" in line for line in lines) == 4
-    assert sum(line.endswith(r"\\") for line in lines) == 3
+    first, last = lines.index(r"\begin{alignat}{2}"), lines.index(r"\end{alignat}")
+    rows = [line for line in lines[first + 1 : last] if not line.lstrip().startswith("%")]
+    assert len(rows) == 4
+    assert all(r"\tikz[tree]{" in row and "&=" in row for row in rows)
+    labels = ["rk:1:1", "rk:2:1", "rk:3:1", "rk:3:2"]
+    assert [re.findall(r"\\label\{(.*?)\}", row) for row in rows] == [[label] for label in labels]
+    assert sum(row.endswith(r"\\") for row in rows) == 3
+
+
+@pytest.mark.parametrize("family", families.with_conditions())
+def test_latex_defines_every_symbol(family: str) -> None:
+    order = families.get(family).order_bound or 3
+    *_, sentence = run(family, "--order", str(order), "--format", "latex").stdout.splitlines()
+    found = {c.name for x in derive(family, order) for c in coefficients(x.formula)}
+    for name in found:
+        shown = LATEX.names.get(name, name)
+        assert re.search(rf"(?:^|[ $,;]){re.escape(shown)}_", sentence), (name, sentence)
+
+
+def test_the_option_output_writes_what_stdout_shows(tmp_path: Path) -> None:
+    file = tmp_path / "conditions.tex"
+    result = run("vcg", "--order", "2", "--format", "latex", "-o", str(file))
+    assert (result.exit_code, result.stdout) == (0, "")
+    assert file.read_text(encoding="utf-8") == run("vcg", "--order", "2", "--format", "latex").stdout
 
 
 def test_sympy_form_reads_back_in_sympy() -> None:
@@ -180,3 +206,12 @@ def test_an_order_with_more_trees_than_can_be_derived_is_refused_at_once(
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"orderconds: {family}: there are {trees} trees of order {order}, and")
     assert f"lower --order to {order - 1}" in result.stderr
+
+
+@pytest.mark.parametrize(("words", "said"), [("-s 6 --order 6", "about "), ("-s 4 --order 6", "")])
+def test_more_terms_than_can_be_written_are_refused(words: str, said: str) -> None:
+    result = CliRunner().invoke(program, ["derive", "rkmk", "--all", *words.split()])
+    assert result.exit_code == 2
+    assert re.search(
+        rf"the conditions have {said}\d+ terms; expected at most \d+; lower --order", result.stderr
+    )

@@ -140,6 +140,18 @@ def test_bad_input_is_one_message(args: str, said: str) -> None:
     assert result.stdout == ""
 
 
+@pytest.mark.skipif(os.name != "posix", reason="links")
+@pytest.mark.parametrize("option", ["-o", "--checkpoint"])
+def test_a_link_to_itself_is_one_message(option: str, tmp_path: Path) -> None:
+    loop, other = tmp_path / "loop.toml", "-o" if option == "--checkpoint" else "--checkpoint"
+    loop.symlink_to(loop)
+    words = ["rk", "--stages", "2", "--order", "2", option, str(loop), other, str(tmp_path / "other")]
+    result = run(*words)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert str(loop) in result.stderr
+    assert loop.is_symlink()
+
+
 def test_a_killed_process_resumes_to_the_same_bytes(tmp_path: Path) -> None:
     args = ["vcg", "--stages", "3", "--order", "3", "--minimise", "error", "--starts", "192"]
     whole = tmp_path / "whole.toml"

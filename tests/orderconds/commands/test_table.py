@@ -19,8 +19,8 @@ def run(*arguments: str):  # type: ignore[no-untyped-def]
     return CliRunner().invoke(program, ["table", *arguments])
 
 
-def test_the_readme_names_every_tableau() -> None:
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+def test_the_page_of_the_library_names_every_tableau() -> None:
+    text = (ROOT / "docs/reference/library.md").read_text(encoding="utf-8")
     shown = text[text.index(table.BEGIN) : text.index(table.END)].splitlines()[3:]
     assert tuple(line.split(" | ")[0].removeprefix("| ") for line in shown) == available()
 

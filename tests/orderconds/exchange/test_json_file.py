@@ -35,5 +35,5 @@ def test_only_an_object_is_a_tableau(content: bytes) -> None:
 
 
 def test_what_is_written_is_read_as_it_was() -> None:
-    data = {"name": "m", "A": [[], ["1/2"]], "claims": {"rk": 2, "explicit": True}}
+    data = {"name": "m", "family": "rk", "A": [[], ["1/2"]], "claims": {"rk": 2, "explicit": True}}
     assert read(write(data), "back") == data

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sympy
 from hypothesis import given
 
-from orderconds.exchange.notation import from_latex, from_python, to_latex, to_python
+from orderconds.exchange.notation import from_latex, from_python, to_python
+from orderconds.tableau.coefficient_latex import to_latex
 from orderconds.tableau.record import from_data
 from tests.orderconds.exchange.coefficients import COEFFICIENTS
 

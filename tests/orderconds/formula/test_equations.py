@@ -8,7 +8,7 @@ import pytest
 
 from orderconds import families
 from orderconds.derivation import derive
-from orderconds.formula.equations import LINE, aligned, broken
+from orderconds.formula.equations import LINE, Equation, broken, numbered
 from orderconds.stage_expansion import expand_stages
 
 
@@ -54,12 +54,23 @@ def test_a_line_is_broken_outside_brackets_where_that_will_do() -> None:
 
 
 def test_rows_are_parted_by_two_backslashes() -> None:
-    rows = [("", "x", "1"), ("", " + ".join(["a_{1} b_{2}"] * 40), "1/2")]
-    lines = aligned(rows).splitlines()
-    assert lines[1] == r"  & x = 1 \\"
-    assert all(line.startswith("  & ") for line in lines[1:-1])
-    assert all(line.endswith(r" \\") for line in lines[1:-2])
-    assert lines[-2].endswith("= 1/2")
+    rows = [Equation("x", "1", label="one"), Equation(" + ".join(["a_{1} b_{2}"] * 40), "1/2", label="two")]
+    first, *lines, last = (line.strip() for line in numbered(rows).splitlines())
+    assert (first, last) == (r"\begin{align}", r"\end{align}")
+    assert lines[0] == r"& x = 1 \label{one} \\"
+    assert all(line.startswith("& ") for line in lines)
+    assert all(line.endswith(r" \notag \\") for line in lines[1:-1])
+    assert lines[-1].endswith(r"= 1/2 \label{two}")
+
+
+def test_short_equations_have_three_columns_and_aligned_signs() -> None:
+    rows = [Equation("x", "1", picture="P", label="one"), Equation("y z", "2", label="two")]
+    assert numbered(rows).splitlines() == [
+        r"\begin{alignat}{2}",
+        r"  P &\quad& x &= 1 \label{one} \\",
+        r"   &\quad& y z &= 2 \label{two}",
+        r"\end{alignat}",
+    ]
 
 
 def test_nothing_is_broken_inside_braces() -> None:

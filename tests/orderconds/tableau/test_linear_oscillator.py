@@ -33,7 +33,7 @@ PRINTED = {
     "symplectic_euler": 6.44,
     "radau2a2": 3.15e1,
 }
-"""The greatest |H_k - H_ex| of each method; the rest of the table is no tableau (see the README)."""
+"""The greatest |H_k - H_ex| of each method; the rest is no tableau (docs/reference/library.md)."""
 
 
 def stiffness(t):

@@ -9,22 +9,35 @@ import pytest
 
 from codegen import scenes
 from codegen.emitter import compile_method
+from codegen.ir.program import Solve
 from codegen.lab.distance import distance
 from codegen.lab.efficiency import race
 from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.equations import Equations
-from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
+from codegen.lab.efficiency.goal import Goal
+from codegen.lab.efficiency.jobs import Jobs
+from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor, run, widths_of_inputs
 from codegen.lab.efficiency.race import Racer, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
+from codegen.lab.efficiency.search import Search
+from codegen.lab.efficiency.task import Task
 from codegen.lab.reference import cached_reference
-from codegen.lower import families_for
+from codegen.lower import families_for, lower, problem_for
 from codegen.method import parse
 from codegen.scene.classical_forms import PRINTED
 from orderconds.errors import InputError
 
 SCENE = "linear_oscillator+u"
 FEW = ("rk4", "dormand_prince5", "gauss2", "strang", "dop853")
-NEEDS = ((), ("symplectic",), ("adaptive",), ("explicit",), ("explicit", "symplectic"), ("manifold",))
+NEEDS = (
+    (),
+    ("symplectic",),
+    ("adaptive",),
+    ("explicit",),
+    ("explicit", "symplectic"),
+    ("manifold",),
+    ("explicit", "fixed"),
+)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -48,6 +61,7 @@ def test_every_place_meets_the_needs(found: Recommendation) -> None:
             "symplectic": known.symplectic,
             "explicit": known.explicit,
             "adaptive": known.adaptive,
+            "fixed": not known.adaptive,
         }
         assert all(given[need] for need in found.request.needs), place.entry.recipe.label
 
@@ -79,7 +93,7 @@ def test_the_stack_of_every_place_is_within_the_limit() -> None:
 def test_a_method_that_loses_a_conserved_quantity_is_not_recommended_for_long_times(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    from codegen.lab.efficiency import recommend as module
+    from codegen.lab.efficiency import search as module
 
     free = recommend(Request(SCENE, 1e-4, ("symplectic",), tableaux=FEW))
     first = free.places[0].entry.recipe.label
@@ -154,3 +168,76 @@ def test_a_bar_drops_slow_steps_and_orders_below_those_that_are_far_from_the_err
     assert bar.hopeless("cf")
     assert not bar.hopeless("rkmk")
     assert not Bar(1e-12).too_high("cf", False, 1.0)
+
+
+def test_jobs_of_slow_families_wait() -> None:
+    """A family that is predicted to be 1000 times slower has its second turn after all others."""
+    goal = Goal(1e-6)
+    recipes = [Recipe(f"{f}:m{k}", 4, k, f"m{k}") for f in ("slow", "fast") for k in range(6)]
+    jobs = Jobs({recipe: [goal] for recipe in recipes})
+    order = []
+    for k in range(len(jobs)):
+        recipe, bars = jobs[k]
+        order.append(recipe.method)
+        assert len(bars) == 1
+        outside = 1e3 if recipe.family == "slow" else 1.0
+        jobs.add(recipe, Prediction(recipe.method, 4, recipe.family, error=1e-6, outside=outside))
+    assert order.index("fast:m5") < order.index("slow:m1")
+    assert sorted(order) == sorted(r.method for r in recipes)
+
+
+def test_functions_of_doubles_agree_with_the_operations_that_they_replace() -> None:
+    problem = scenes.load("dipole")
+    equations, exact = Equations(problem), cached_reference(problem)
+    predictor = Predictor(equations, exact)
+    for label in ("vcg:midpoint", "rkmk(2):rk4", "splitting:strang", "taylor(6)"):
+        method = parse(label, families_for(problem))
+        own, program = problem_for(problem, method), lower(problem, method)
+        widths = widths_of_inputs(program, own)
+        predictor.cost(program, own, widths)
+        numeric = predictor.numeric.of(program, own, widths)
+        states = [run(p, own, 8)[0] for p in (program, numeric)]
+        assert max(abs(a - b) for a, b in zip(*states, strict=True)) < 1e-8
+        assert all(isinstance(s, Solve) or s.operation.name for s in numeric.body)
+
+
+def test_one_search_serves_several_goals() -> None:
+    """Each goal has the places that meet its own error and needs; runs are shared."""
+    goals = (Goal(1e-4), Goal(1e-8), Goal(1e-8, ("symplectic",)))
+    search = Search(Task(SCENE, tableaux=FEW), goals)
+    search.run()
+    for goal in goals:
+        places, _ = search.leaders(goal)
+        assert places
+        assert all(p.error <= goal.error and goal.met(p.entry.features) for p in places)
+    assert search.results[1e-8].keys() >= {p.entry.recipe for p in search.leaders(goals[2])[0]}
+
+
+def test_a_racer_reaches_the_same_error_after_it_has_reached_larger_errors() -> None:
+    problem = scenes.load("free_rigid_body")
+    equations, exact = Equations(problem), cached_reference(problem)
+    known = entry(Recipe("cf:cf4", 4, 4, "cf4"), compile_method(problem, "cf:cf4"))
+    used = Racer(equations, exact, known)
+    for error in (1e-2, 1e-4, 1e-6, 1e-8):
+        used.reach(error)
+    fresh = Racer(equations, exact, known).reach(1e-10)
+    assert fresh.reached
+    assert used.reach(1e-10).steps == fresh.steps
+
+
+def test_named_methods_alone_are_searched() -> None:
+    task = Task("dipole", methods=(("cf:cf4", False), ("ambient:dop853", True)))
+    recipes = task.recipes()
+    assert {(r.method, r.adaptive, r.order) for r in recipes} == {
+        ("cf:cf4", False, 4),
+        ("ambient:dop853", True, 8),
+    }
+    assert len({r.form for r in recipes if r.family == "ambient"}) > 1
+
+
+def test_a_search_among_very_few_tableaux_ends() -> None:
+    """A single job runs in this process, and the queue of jobs must end there too."""
+    result = recommend(Request("free_rigid_body", 1e-3, tableaux=("cf4",)))
+    assert all(p.entry.recipe.method.endswith("cf4") for p in result.places)
+    assert result.places
+    assert list(Jobs({})) == []

@@ -11,7 +11,10 @@ import pytest
 from codegen.errors import MethodError
 from codegen.lab import subject as subjects
 from codegen.lab.efficiency import emitted_candidate, peer_candidate
-from codegen.lab.efficiency.requirements import NEEDS
+from codegen.lab.efficiency.requirements import DECADES, REQUIREMENTS
+from codegen.lab.measurements.advice import Advice
+from codegen.lab.measurements.cost import Cost
+from codegen.lab.measurements.long_runs import LongRuns
 from codegen.lab.measurements.orders import Orders, agreement
 from codegen.lab.measurements.stability import StabilityTests
 from codegen.lab.orders import order_study
@@ -105,12 +108,17 @@ def test_nothing_is_fetched(document: str) -> None:
     parser = Balanced()
     parser.feed(document)
     for tag, attributes in parser.seen:
-        assert tag not in {"script", "link", "img", "iframe"}
+        assert tag not in {"link", "img", "iframe"}
+        assert tag != "script" or not attributes
         for name in ("src", "xlink:href"):
             assert (attributes.get(name) or "#").startswith("#")
         assert re.fullmatch(r"#\w+|free_rigid_body\.html|index\.html", attributes.get("href") or "#top")
     assert "@import" not in document
     assert "url(http" not in document
+    script = document.partition("<script>")[2].partition("</script>")[0]
+    assert script
+    for word in ("fetch(", "XMLHttpRequest", "import(", "http:", "https:", "localStorage", "eval("):
+        assert word not in script
 
 
 def test_every_link_within_the_page_has_its_target(document: str) -> None:
@@ -157,18 +165,34 @@ def test_the_page_is_the_same_when_the_times_are(page: str, found: SceneResults)
 def test_text_of_a_scene_cannot_become_markup(found: SceneResults) -> None:
     wild = replace(found.scene, title="<script>alert(1)</script> & (x)")
     spoilt = replace(found, subject=replace(found.subject, scene=wild))
-    assert "<script" not in render(spoilt, "x") + render_overview([spoilt], "x")
+    for document in (render(spoilt, "x"), render_overview([spoilt], "x")):
+        assert "<script>alert" not in document
+        assert document.count("<script") == 1
 
 
 def test_the_overview_links_to_the_page_and_names_each_requirement(
     overview: str, found: SceneResults
 ) -> None:
     assert f'<a href="{page_name(found)}">' in overview
-    for need in NEEDS:
+    for need in REQUIREMENTS:
         assert need.name in overview
-    assert re.findall(r"No method on this[^<]*", overview) == [
-        "No method on this page satisfies: symplectic, adaptive."
-    ]
+    assert re.findall(r"No method satisfies[^<]*", overview) == ["No method satisfies: symplectic, adaptive."]
+
+
+def test_each_cell_of_the_advice_has_the_time_the_step_and_the_command(
+    overview: str, found: SceneResults
+) -> None:
+    lines = {line.need: line.best for line in part(found, Advice).advice}
+    cells = [best for best in lines["any emitted method"] if best is not None]
+    assert len(cells) == len(DECADES)
+    times = [best.seconds for best in cells]
+    assert times == sorted(times)  # a smaller error never takes less time
+    for best in cells:
+        assert best.command == f"orderconds emit free_rigid_body --method {best.method} -o ."
+        assert best.h is not None
+        assert best.steps == round(2 / best.h)
+        assert best.command in overview
+    assert lines["symplectic"] == (None,) * len(DECADES)
 
 
 def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> None:
@@ -190,9 +214,15 @@ def test_stiff_variants_endurance_and_wrong_results_are_shown(found: SceneResult
         one.findings, stiff=(spin,), endurance=(ended,), notes=("no reference",), answers=(bad, *answers[1:])
     )
     page = render(with_part(found, StabilityTests, replace(one, findings=findings), *others), "x")
-    for text in ("<dt>stiff spin</dt>", "order reduction 4 to 2.0", "10000000 steps", "no reference"):
+    for text in (
+        '<th scope="row">stiff spin</th>',
+        "order reduction 4 to 2.0",
+        "10000000 steps",
+        "no reference",
+    ):
         assert text in page
     assert '<td class="num fails">1</td>' in page
+    assert "1 of 70 extreme steps had a silent wrong result (<code>cg:cg3</code>)" in page
     assert '<td class="num fails">1</td>' not in render(found, "x")
 
 
@@ -205,7 +235,10 @@ def test_an_undetermined_result_is_shown_and_fails_only_the_stability_command(fo
     assert not lost.held
     results = with_part(found, StabilityTests, lost, *others)
     assert results.held == found.held
-    assert " + 1 undetermined" in render(results, "x")
+    assert "; 1 had an undetermined result;" in render(results, "x")
+    heading = '<th scope="col" class="num">undetermined</th>'
+    assert heading in render(results, "x")
+    assert heading not in render(found, "x")
 
 
 def test_a_method_that_fails_is_a_row_with_the_reason_and_the_others_are_measured(
@@ -251,3 +284,101 @@ def test_a_measurement_that_fails_does_not_hide_the_others(
     assert '<section id="long">' in page
     assert results.as_json()["methods"] == {"failure": "no orders today"}
     assert not results.held
+
+
+def sections(page: str) -> dict[str, str]:
+    """Return the HTML of each section by name."""
+    return dict(re.findall(r'<section id="(\w+)">(.*?)</section>', page, flags=re.DOTALL))
+
+
+def test_every_section_begins_with_a_sentence_of_verdict(page: str) -> None:
+    found = sections(page)
+    assert len(found) == 7
+    for text in found.values():
+        (verdict,) = re.findall(r'</h2>\n<p class="verdict">(.+?)</p>', text)
+        assert verdict.endswith(".")
+
+
+def test_the_verdict_follows_from_the_data(page: str, found: SceneResults) -> None:
+    orders = part(found, Orders)
+    assert "equals the computed order for all 2 methods." in sections(page)["orders"]
+    failed = MethodResults(orders.measured[:1], (subjects.MethodFailure("cf:cf4", "no reason"),))
+    measured = tuple(
+        replace(m, result=failed) if isinstance(m.measurement, Orders) else m for m in found.measured
+    )
+    text = sections(render(replace(found, measured=measured), "x"))["orders"]
+    assert '<p class="verdict bad">' in text
+    assert "for 1 of 2 methods; the exceptions are <code>cf:cf4</code> (failed)." in text
+
+
+def test_the_verdict_on_cost_names_the_fastest_at_each_accuracy(page: str, found: SceneResults) -> None:
+    places = part(found, Cost).result.places
+    text = sections(page)["cost"]
+    for place in places:
+        assert f"<code>{place.winner.partition(' (')[0]}</code>" in text.partition("</p>")[0]
+
+
+def test_the_verdict_on_long_runs_names_the_law_of_each_method(page: str, found: SceneResults) -> None:
+    verdict = sections(page)["long"].partition("</p>")[0]
+    for run in part(found, LongRuns).measured:
+        (energy,) = (k for k in run.kept if k.name == "energy")
+        assert f"<code>{run.method}</code>" in verdict
+        assert energy.drift.law in verdict
+
+
+def test_every_table_has_a_caption_and_headings_with_a_scope(document: str) -> None:
+    tables = re.findall(r"<table[^>]*>(.*?)</table>", document, flags=re.DOTALL)
+    assert tables
+    for table in tables:
+        assert re.match(r"\s*<caption>[^<]+", table)
+        head = table.partition("<thead>")[2].partition("</thead>")[0]
+        assert all('scope="col"' in cell for cell in re.findall(r"<th\b[^>]*>", head))
+
+
+def test_no_table_of_stability_has_more_than_seven_columns(page: str) -> None:
+    """At a width of 1280 px, more columns are wider than the page."""
+    for head in re.findall(r"<thead>(.*?)</thead>", sections(page)["stability"], flags=re.DOTALL):
+        assert head.count("<th ") <= 7
+
+
+def test_every_picture_has_title_and_description(page: str) -> None:
+    pictures = re.findall(r'<svg[^>]*role="img".*?</svg>', page, flags=re.DOTALL)
+    assert len(pictures) == 4
+    for picture in pictures:
+        assert re.search(r"<title id=[^>]+>[^<]+Free rigid body", picture)
+        assert re.search(r"<desc id=[^>]+>[^<]{20,}", picture)
+
+
+def keys(text: str) -> dict[str, set[tuple[str, ...]]]:
+    """Return the looks of each method in the tables: colour and outline of its key."""
+    looks: dict[str, set[tuple[str, ...]]] = {}
+    for key, label in re.findall(r'<svg class="key"(.*?)</svg><code>([^<]+)</code>', text, flags=re.DOTALL):
+        found = re.findall(r"stroke:(var\([^)]+\))", key)[:1] + re.findall(r'd="(M[^"]+Z)"', key)
+        looks.setdefault(label.removeprefix("adaptive "), set()).add(tuple(found))
+    return looks
+
+
+def test_a_method_has_one_colour_and_marker_in_all_tables_and_pages(page: str, overview: str) -> None:
+    looks = keys(page + overview)
+    assert {"cg:cg3", "cf:cf4", "c-rk4-projected"} <= looks.keys()
+    assert all(len(found) == 1 for found in looks.values())
+    assert len(set.union(*looks.values())) == len(looks)
+    for name in ("advice", "orders", "cost", "stability", "long", "conditions", "emitted"):
+        assert {"cg:cg3", "cf:cf4"} <= keys(sections(page)[name]).keys()
+
+
+def test_a_method_has_the_colour_of_the_tables_in_all_pictures(page: str, found: SceneResults) -> None:
+    for picture in re.findall(r'<svg[^>]*role="img".*?</svg>', page, flags=re.DOTALL):
+        labels = dict(re.findall(r'data-key="(\d+)">\s*<text[^>]*>([^<]+)<', picture))
+        for number, label in labels.items():
+            lines = re.findall(rf'data-series="{number}">\s*<path[^>]*stroke: (var\([^)]+\))', picture)
+            assert set(lines) == {found.subject.styles.of(label).colour}
+
+
+def test_nothing_is_hidden_without_the_script(document: str) -> None:
+    body = document.partition("<main>")[2].partition("</main>")[0]
+    assert not re.search(r"\shidden[\s>]|display: ?none|visibility: ?hidden", body)
+    style = document.partition("<style>")[2].partition("</style>")[0]
+    hiding = re.findall(r"([^{}]+)\{[^{}]*display: none", style)
+    assert {rule.strip() for rule in hiding} == {"svg .off", ".tip[hidden]", ".advice thead"}
+    assert 'class="off"' not in body

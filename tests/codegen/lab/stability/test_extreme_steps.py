@@ -8,9 +8,9 @@ from dataclasses import replace
 import pytest
 
 from codegen.emitter import compile_method
+from codegen.integrator import Integrator
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import ACCURATE, SILENT, WRONG, Case, answer, cases
-from codegen.loader import Integrator
 
 
 class Spoilt:

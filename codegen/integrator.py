@@ -1,0 +1,409 @@
+"""The interface of loaded modules: steps, runs, trajectories, adaptive runs and Jacobians.
+
+A state is a flat sequence of numbers, a NumPy array, or a pair such as (q, mu); a batch of states is an array
+with one state in each row (:mod:`codegen.state_form`). Results have the form of the argument.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from typing import Any
+
+from codegen.artifact import Artifact
+from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
+from codegen.printers import target as known_target
+from codegen.printers.interface import Interface
+from codegen.state_form import Batch, State, StateForm, batch_of, read
+
+Signals = Callable[[float], Sequence[float]]
+"""A function from the time to the run-time inputs."""
+
+
+SOLVERS = (NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
+"""The solvers of implicit blocks, the most robust first."""
+
+
+class Status(IntEnum):
+    """The result of a step; emitted code returns these numbers."""
+
+    OK = 0
+    NOT_CONVERGED = 1
+    NOT_FINITE = 2
+    BAD_STEP = 3
+    LIMIT = 4
+    TOO_FAR = 5
+    SINGULAR = 6
+    TOO_SHORT = 7
+
+
+class StepFailed(ArithmeticError):
+    """The error of a failed step: its status, the number of steps completed before it, and the state after
+    these steps."""
+
+    def __init__(self, status: Status, step: int, state: State, reason: str) -> None:
+        super().__init__(f"step {step + 1}: {reason}")
+        self.status, self.step, self.state, self.reason = status, step, state, reason
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """The end of an adaptive run: state, time, size of the next step, accepted and rejected steps."""
+
+    state: State
+    t: float
+    h: float
+    accepted: int
+    rejected: int
+    states: State = None
+    """The states at the times ``t_eval``; None without such times."""
+
+
+@dataclass
+class Statistics:
+    """Counts of a run: ``sweeps`` of each block in all steps, and ``most``, the largest number of sweeps of a
+    block in one step. ``failed`` is the index of the block that failed, counted from 1, or 0 if no block
+    failed.
+
+    ``matrices`` is the number of Newton matrices that were computed.
+    """
+
+    sweeps: list[int] = field(default_factory=list)
+    most: int = 0
+    failed: int = 0
+    matrices: int = 0
+
+
+@dataclass(frozen=True)
+class Begun:
+    """The checked arguments of a call: form of the state, state as numbers, parameter values, inputs,
+    statistics."""
+
+    form: StateForm
+    numbers: list[float]
+    values: list[float]
+    inputs: Signals | None = None
+    statistics: Statistics | None = None
+    solvers: tuple[str, ...] = ()
+
+    def failed(self, status: int, step: int, state: Sequence[float], reason: str) -> StepFailed:
+        """Return the error of a failed step; its state has the type of the caller's state.
+
+        If an implicit block did not converge, the message names the other solvers.
+        """
+        if status == Status.NOT_CONVERGED:
+            others = [s for s in SOLVERS if s not in self.solvers]
+            options = f", or emit with --solver {' or '.join(others)}" if others else ""
+            reason += f"; take shorter steps{options}"
+        return StepFailed(Status(status), step, self.form.restore(state), reason)
+
+
+class Integrator(ABC):
+    """A loaded module: ``interface`` lists its arguments, ``defaults`` the scene's parameter values."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
+        self.interface, self.defaults = interface, dict(defaults)
+        self.artifact: Artifact | None = None
+
+    @property
+    def initial(self) -> list[float]:
+        """The initial state of the scene; TypeError if the integrator was not loaded from an artifact."""
+        return [float(x) for x in self._manifest("initial")]
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The interval of time of the scene; TypeError if the integrator was not loaded from an artifact."""
+        first, last = self._manifest("span")
+        return float(first), float(last)
+
+    def _manifest(self, key: str) -> Sequence[float]:
+        if self.artifact is None or key not in self.artifact.manifest:
+            raise TypeError(f"this integrator has no {key}: it was not loaded from the files of a scene")
+        value: Sequence[float] = self.artifact.manifest[key]
+        return value
+
+    def __repr__(self) -> str:
+        parameters = ", ".join(self.interface.parameters)
+        return f"<integrator {self.interface.module}: {self.interface.size} numbers" + (
+            f", parameters {parameters}>" if parameters else ">"
+        )
+
+    def __reduce__(self) -> tuple[Callable[..., Integrator], tuple[object, ...]]:
+        # Libraries and modules cannot be pickled. A pickle contains the emitted files, to load them again.
+        if self.artifact is None:
+            raise TypeError("only integrators that codegen.load has returned can be pickled")
+        interface = self.interface.as_json()
+        return _loaded, (self.artifact.manifest["target"], interface, self.defaults, self.artifact)
+
+    def step(
+        self,
+        state: State,
+        h: float,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        inputs: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the state after one step of size h; raise StepFailed if the step fails.
+
+        ``inputs`` are the run-time inputs, in the interface's order; they are constant during the step.
+        """
+        held = None if inputs is None else tuple(inputs)
+        function = None if held is None else lambda t: held
+        return self.run(state, h, 1, t, statistics, function, **parameters)
+
+    def run(
+        self,
+        state: State,
+        h: float,
+        steps: int,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the state after ``steps`` steps of size h from time t; raise StepFailed if a step fails.
+
+        ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
+        """
+        if (batch := batch_of(state, self.interface.size)) is not None:
+            return batch.joined(
+                [self.run(x, h, steps, t, statistics, inputs, **parameters) for x in batch.states]
+            )
+        begun = self._begin(state, parameters, inputs, statistics)
+        final, _ = self._call(begun, t, h, self._checked_count(steps), 0)
+        return begun.form.restore(final)
+
+    def trajectory(
+        self,
+        state: State,
+        h: float,
+        steps: int | None = None,
+        stride: int = 1,
+        t: float = 0.0,
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        *,
+        t_eval: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return a list of states: the initial state and every stride-th state after it.
+
+        With ``t_eval`` the result is the states at these times, in monotone order; ``t`` is the time of the
+        initial state. Between two times the steps are equal, and at most as long as h.
+        """
+        if (batch := batch_of(state, self.interface.size)) is not None:
+            rows = [
+                self.trajectory(x, h, steps, stride, t, statistics, inputs, t_eval=t_eval, **parameters)
+                for x in batch.states
+            ]
+            return batch.joined(rows)
+        if (steps is None) is (t_eval is None):
+            raise TypeError("expected either steps or t_eval")
+        if stride < 1:
+            raise ValueError(f"expected a stride of at least 1, found {stride}")
+        begun = self._begin(state, parameters, inputs, statistics)
+        if t_eval is not None:
+            return begun.form.restore(self._sampled(begun, t, h, t_eval))
+        _, states = self._call(begun, t, h, self._checked_count(steps or 0), stride)
+        return begun.form.restore(states)
+
+    def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
+        """Return the states at these times, reached with equal steps of at most h between two times."""
+        if not math.isfinite(h) or h == 0:
+            raise ValueError(f"expected a step size, found {h}")
+        rows: list[Sequence[float]] = []
+        for time in _monotone(t, times):
+            # A quotient such as 0.3/0.1 is not an integer because of rounding.
+            steps = math.ceil(abs((time - t) / h) * (1 - 1e-12))
+            if steps:
+                final, _ = self._call(begun, t, (time - t) / steps, steps, 0)
+                begun = replace(begun, numbers=list(final))
+            rows.append(begun.numbers)
+            t = time
+        return rows
+
+    def adaptive(
+        self,
+        state: State,
+        t: float = 0.0,
+        end: float | None = None,
+        h: float = 0.0,
+        *,
+        rtol: float = 1e-6,
+        atol: float = 1e-9,
+        limit: int = 100_000,
+        statistics: Statistics | None = None,
+        inputs: Signals | None = None,
+        t_eval: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> Arrival:
+        """Integrate from t to end with steps as large as the tolerances allow; the first step has size ``h``.
+
+        With ``t_eval`` the result also has the states at these times, at each of which a step ends; ``end``
+        is by default the last of them. A batch is integrated state by state; the result has an array of
+        states and the counts of all steps.
+
+        TypeError is raised for a module without an error estimate (``emit --adaptive``). StepFailed is raised
+        if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not reach the
+        end.
+        """
+        if not self.interface.adaptive:
+            raise TypeError("this module has no adaptive run; emit it with --adaptive")
+        times = None if t_eval is None else _monotone(t, t_eval)
+        if end is None:
+            if not times:
+                raise TypeError("expected end, the time at which the run ends")
+            end = times[-1]
+        if (batch := batch_of(state, self.interface.size)) is not None:
+            options = {"rtol": rtol, "atol": atol, "limit": limit, "statistics": statistics}
+            arrivals = [
+                self.adaptive(x, t, end, h, inputs=inputs, t_eval=t_eval, **options, **parameters)  # type: ignore[arg-type]
+                for x in batch.states
+            ]
+            return _joined(arrivals, batch)
+        tolerances = (float(rtol), float(atol))
+        begun = self._begin(state, parameters, inputs, statistics)
+        if times is None:
+            arrival = self._adapt(begun, (float(t), float(end), float(h)), tolerances, operator.index(limit))
+            return replace(arrival, state=begun.form.restore(arrival.state))
+        return self._adapt_through(begun, t, [*times, float(end)], h, tolerances, operator.index(limit))
+
+    def _adapt_through(
+        self,
+        begun: Begun,
+        t: float,
+        times: Sequence[float],
+        h: float,
+        tolerances: tuple[float, float],
+        limit: int,
+    ) -> Arrival:
+        """Run with step control through all these times; the last one is the end."""
+        rows: list[Sequence[float]] = []
+        accepted = rejected = 0
+        for time in times:
+            arrival = self._adapt(begun, (float(t), time, float(h)), tolerances, limit - accepted)
+            accepted, rejected = accepted + arrival.accepted, rejected + arrival.rejected
+            # A time that is close to the last one leaves a short step, which is no suggestion for the next.
+            t, h = time, arrival.h if arrival.accepted > 1 or not h else max(h, arrival.h, key=abs)
+            begun = replace(begun, numbers=list(arrival.state))
+            rows.append(begun.numbers)
+        restore = begun.form.restore
+        return Arrival(restore(rows[-1]), t, h, accepted, rejected, restore(rows[:-1]))
+
+    def jacobian(
+        self,
+        state: State,
+        h: float,
+        t: float = 0.0,
+        inputs: Sequence[float] | None = None,
+        **parameters: float,
+    ) -> State:
+        """Return the derivative of one step with respect to the state. The header of the emitted module
+        describes its rows and columns.
+
+        TypeError is raised for a module without a Jacobian (``emit --jacobian``), StepFailed if the step
+        fails.
+        """
+        if not self.interface.variations:
+            raise TypeError("this module has no derivative of its step; emit it with --jacobian")
+        if bool(self.interface.inputs) != (inputs is not None):
+            raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
+        held = None if inputs is None else [float(x) for x in inputs]
+        form, numbers = read(state, self.interface.size)
+        begun = Begun(form, numbers, self._values(parameters), solvers=self.interface.solvers)
+        return form.matrix(self._derive(begun, t, h, held))
+
+    def _begin(
+        self,
+        state: State,
+        parameters: Mapping[str, float],
+        inputs: Signals | None,
+        statistics: Statistics | None,
+    ) -> Begun:
+        """Return the checked arguments; raise TypeError for wrong names or inputs, ValueError for a wrong
+        state."""
+        names = self.interface.inputs
+        if bool(names) != (inputs is not None):
+            raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
+        form, numbers = read(state, self.interface.size)
+        return Begun(
+            form,
+            numbers,
+            self._values(parameters),
+            inputs,
+            statistics,
+            self.interface.solvers,
+        )
+
+    def _checked_count(self, steps: int) -> int:
+        count = operator.index(steps)
+        if count < 0:
+            raise ValueError(f"expected no negative number of steps, found {steps}")
+        return count
+
+    def _values(self, parameters: Mapping[str, float]) -> list[float]:
+        known = self.interface.parameters
+        for name in parameters:
+            if name not in known:
+                raise TypeError(f"unknown parameter {name}; the parameters are: {', '.join(known) or 'none'}")
+        values = {**self.defaults, **parameters}
+        for name in known:
+            if name not in values:
+                raise TypeError(f"the parameter {name} has no value")
+        return [float(values[name]) for name in known]
+
+    def _count(self, counts: Any, statistics: Statistics | None) -> None:
+        """Add the counts that emitted code has returned to the caller's statistics."""
+        if counts is not None and statistics is not None:
+            before = statistics.sweeps or [0] * len(self.interface.blocks)
+            statistics.sweeps = [a + b for a, b in zip(before, counts.sweeps, strict=True)]
+            statistics.most = max(statistics.most, counts.most)
+            statistics.failed = counts.failed
+            statistics.matrices += counts.matrices if self.interface.newton else 0
+
+    @abstractmethod
+    def _call(
+        self, begun: Begun, t: float, h: float, steps: int, stride: int
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        """Run the steps, and return the final state and the rows of the trajectory."""
+
+    @abstractmethod
+    def _derive(self, begun: Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
+        """Return the rows of the Jacobian."""
+
+    @abstractmethod
+    def _adapt(
+        self, begun: Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
+    ) -> Arrival:
+        """Run with step control; ``span`` is (t, end, h)."""
+
+
+def _monotone(t: float, times: Sequence[float]) -> list[float]:
+    """Return times as floats; ValueError unless they increase or decrease from t."""
+    given = [float(x) for x in times]
+    steps = [b - a for a, b in zip([t, *given], given, strict=False)]
+    if not all(x >= 0 for x in steps) and not all(x <= 0 for x in steps):
+        raise ValueError(f"expected times in t_eval that increase or decrease from t = {t}")
+    return given
+
+
+def _joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:
+    """Return the arrival of a batch."""
+    last = arrivals[-1]
+    states = None if last.states is None else batch.joined([x.states for x in arrivals])
+    accepted, rejected = sum(x.accepted for x in arrivals), sum(x.rejected for x in arrivals)
+    return Arrival(batch.joined([x.state for x in arrivals]), last.t, last.h, accepted, rejected, states)
+
+
+def _loaded(
+    target: str, interface: dict[str, Any], defaults: Mapping[str, float], artifact: Artifact
+) -> Integrator:
+    """Return the integrator of a pickle."""
+    integrator = known_target(target).load(Interface.from_json(interface), defaults, artifact.files)
+    integrator.artifact = artifact
+    return integrator

@@ -1,0 +1,60 @@
+"""Emitted Python modules."""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+from codegen.integrator import Arrival, Begun, Integrator
+from codegen.printers.interface import Interface
+
+
+class InterpretedIntegrator(Integrator):
+    """An emitted Python module."""
+
+    def __init__(self, interface: Interface, defaults: Mapping[str, float], source: str) -> None:
+        super().__init__(interface, defaults)
+        self.module = types.ModuleType(interface.module)
+        exec(compile(source, f"{interface.module}.py", "exec"), self.module.__dict__)
+
+    def _call(
+        self, begun: Begun, t: float, h: float, steps: int, stride: int
+    ) -> tuple[Sequence[float], Sequence[Sequence[float]]]:
+        time, sampled = [t] if self.interface.time else [], [] if begun.inputs is None else [begun.inputs]
+        with self._observed(begun) as counted:
+            arguments = [begun.numbers, *time, h, steps, *sampled, *begun.values]
+            answer = self.module.run(*arguments, stride=stride, **counted)
+        return (answer[-1], answer) if stride else (answer, [])
+
+    def _adapt(
+        self, begun: Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
+    ) -> Arrival:
+        t, end, h = span
+        sampled = [] if begun.inputs is None else [begun.inputs]
+        keywords: dict[str, Any] = dict(zip(("rtol", "atol"), tolerances, strict=True)) | {"limit": limit}
+        keywords |= dict(zip(self.interface.parameters, begun.values, strict=True))
+        with self._observed(begun) as counted:
+            return Arrival(
+                *self.module.run_adaptive(begun.numbers, t, end, *sampled, h, **keywords, **counted)
+            )
+
+    def _derive(self, begun: Begun, t: float, h: float, held: list[float] | None) -> list[list[float]]:
+        time, inputs = [t] if self.interface.time else [], [] if held is None else [held]
+        try:
+            return list(self.module.jacobian(begun.numbers, *time, h, *inputs, *begun.values))
+        except self.module.StepFailed as failure:
+            raise begun.failed(failure.status, 0, begun.numbers, failure.reason) from None
+
+    @contextmanager
+    def _observed(self, begun: Begun) -> Iterator[dict[str, Any]]:
+        """Yield the argument for statistics; convert StepFailed of the emitted module to
+        :class:`StepFailed`."""
+        counts = self.module.Statistics() if self.interface.blocks else None
+        try:
+            yield {} if counts is None else {"statistics": counts}
+        except self.module.StepFailed as failure:
+            raise begun.failed(failure.status, failure.step, failure.state, failure.reason) from None
+        finally:
+            self._count(counts, begun.statistics)

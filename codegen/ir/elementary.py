@@ -1,0 +1,78 @@
+"""Elementary functions of one argument that formulas of scenes may call, besides sqrt, sin, cos, exp and log.
+
+Each function is written once in this table, with its derivatives. A Taylor series uses f(a)' = r a', where
+the rate r is a polynomial in f, the other function of a pair, or a power of a polynomial in a.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from codegen.ir.expr import Expr
+
+
+@dataclass(frozen=True)
+class Elementary:
+    """A function f of one argument x.
+
+    ``slope(x, f)`` and ``curvature(x, f)`` are the first and second derivative; f is the value at x, which is
+    already computed. ``at_zero`` is f(0), None if it is not rational. ``raising`` says that Python raises an
+    exception for some real arguments, where C computes a NaN or an infinity.
+    """
+
+    name: str
+    slope: Callable[[Expr, Expr], Expr]
+    curvature: Callable[[Expr, Expr], Expr]
+    at_zero: Fraction | None = Fraction(0)
+    raising: bool = False
+
+
+def _of_cosine(x: Expr, f: Expr) -> Expr:
+    return x.space.call("cosh", x)
+
+
+def _of_sine(x: Expr, f: Expr) -> Expr:
+    return x.space.call("sinh", x)
+
+
+def _value(x: Expr, f: Expr) -> Expr:
+    return f
+
+
+def _arc(x: Expr, f: Expr) -> Expr:
+    return x.space.one / (1 + x * x)
+
+
+def _arcsine(x: Expr, f: Expr) -> Expr:
+    return x.space.one / x.space.call("sqrt", 1 - x * x)
+
+
+def _arccosine(x: Expr, f: Expr) -> Expr:
+    return -_arcsine(x, f)
+
+
+def _cubed(slope: Callable[[Expr, Expr], Expr]) -> Callable[[Expr, Expr], Expr]:
+    return lambda x, f: x * slope(x, f) ** 3
+
+
+ELEMENTARY = {
+    function.name: function
+    for function in (
+        Elementary("tan", lambda x, f: 1 + f * f, lambda x, f: 2 * f * (1 + f * f)),
+        Elementary("sinh", _of_cosine, _value, raising=True),
+        Elementary("cosh", _of_sine, _value, Fraction(1), raising=True),
+        Elementary("tanh", lambda x, f: 1 - f * f, lambda x, f: -2 * f * (1 - f * f)),
+        Elementary("atan", _arc, lambda x, f: -2 * x * _arc(x, f) ** 2),
+        Elementary("asin", _arcsine, _cubed(_arcsine), raising=True),
+        Elementary("acos", _arccosine, _cubed(_arccosine), None, raising=True),
+    )
+}
+"""The functions by name."""
+
+MATHEMATICAL = ("sqrt", "sin", "cos", "exp", "log", *ELEMENTARY)
+"""All functions of one argument with this name in the mathematical libraries of C, Python, mpmath and
+python-flint."""

@@ -1,0 +1,119 @@
+"""A recommendation as one call: the fastest method of the library for a scene, an error and needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from html import escape
+from typing import cast
+
+from codegen.artifact import Artifact
+from codegen.emitter import emit
+from codegen.lab.efficiency import recommend as search
+from codegen.lab.efficiency.recommend import Recommendation, Request
+from codegen.lab.progress import Progress
+from codegen.printers import DEFAULT
+
+SECONDS = 50.0
+"""The seconds that a search may take if the caller does not limit it."""
+
+
+@dataclass(frozen=True)
+class AdvisedMethod:
+    """A method that reaches the error: its name, its step size or its tolerance, and what was measured.
+
+    ``h`` is None for a method with step-size control, ``tolerance`` is None for equal steps. ``command``
+    emits the integrator.
+    """
+
+    method: str
+    form: str
+    adaptive: bool
+    h: float | None
+    tolerance: float | None
+    error: float
+    seconds: float | None
+    command: str
+
+    def text(self) -> str:
+        """Return the method and its step size or tolerance."""
+        return f"{self.method}, " + (
+            f"h = {self.h:.3g}" if self.h is not None else f"rtol = {self.tolerance:.1e}"
+        )
+
+
+@dataclass(frozen=True, repr=False)
+class Advice:
+    """The ``best`` method and the ``runner_up``, None if no method reaches the error; ``search`` has all
+    details. An advice is true if there is a best method."""
+
+    scene: str
+    best: AdvisedMethod | None
+    runner_up: AdvisedMethod | None
+    search: Recommendation
+
+    def __bool__(self) -> bool:
+        return self.best is not None
+
+    def emit(self, target: str = DEFAULT) -> Artifact:
+        """Return the integrator of the best method; ValueError if no method reaches the error."""
+        if self.best is None:
+            raise ValueError("no method reaches the error")
+        best = self.best
+        return emit(self.scene, best.method, target, adaptive=best.adaptive, form=best.form)
+
+    def __repr__(self) -> str:
+        if self.best is None:
+            return f"<no method reaches the error on {self.scene}>"
+        return f"<{self.scene}: {self.best.text()}; error {self.best.error:.1e}>"
+
+    def _repr_html_(self) -> str:
+        rows = [("recommended", self.best), ("runner-up", self.runner_up)]
+        cells = "".join(
+            f"<tr><td>{name}</td><td>{escape(x.text())}</td><td>{x.error:.1e}</td></tr>"
+            for name, x in rows
+            if x is not None
+        )
+        return f"<table><tr><th></th><th>method</th><th>error</th></tr>{cells}</table>"
+
+
+def recommend(
+    scene: str,
+    error: float,
+    *,
+    needs: Sequence[str] | str = (),
+    stack: int | None = None,
+    span: tuple[Fraction | int | str, Fraction | int | str] | None = None,
+    budget: float = SECONDS,
+    tableaux: Sequence[str] = (),
+    progress: Progress = str,
+) -> Advice:
+    """Search the library for the fastest method that reaches an error at the end of the span.
+
+    The arguments are those of ``orderconds recommend``; ``needs`` are names such as ``"symplectic"``. Errors:
+    SceneError, UnknownName and InputError for wrong arguments.
+    """
+    names = tuple(word.strip() for word in needs.split(",")) if isinstance(needs, str) else tuple(needs)
+    interval = None if span is None else (Fraction(span[0]), Fraction(span[1]))
+    request = Request(scene, error, names, stack, interval, budget, tuple(tableaux))
+    result = search.recommend(request, progress)
+    record = result.as_json()
+    return Advice(scene, _advised(record["recommended"]), _advised(record["runner_up"]), result)
+
+
+def _advised(record: object) -> AdvisedMethod | None:
+    """Return a method of the JSON record of a recommendation."""
+    if record is None:
+        return None
+    values = cast("dict[str, object]", record)
+    return AdvisedMethod(
+        method=str(values["method"]),
+        form=str(values["form"]),
+        adaptive=bool(values["adaptive"]),
+        h=cast("float | None", values["h"]),
+        tolerance=cast("float | None", values["tolerance"]),
+        error=cast("float", values["error"]),
+        seconds=cast("float | None", values["seconds"]),
+        command=str(values["command"]),
+    )

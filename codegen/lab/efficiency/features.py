@@ -1,0 +1,58 @@
+"""Properties of emitted methods, computed from their programs and tableaux."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from codegen.artifact import Artifact
+from codegen.emitter import Compiled
+from codegen.lower import lowering
+from codegen.printers import target as known_target
+
+
+@dataclass(frozen=True)
+class Features:
+    """Properties of an emitted method.
+
+    ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding.
+    ``explicit``: no equations are solved, so all steps take the same time. ``stack`` is an upper bound of the
+    stack of a call in bytes, 0 if it is not known. ``lines`` is the number of lines of the file that contains
+    the step.
+    """
+
+    label: str
+    on_manifold: bool
+    symplectic: bool
+    explicit: bool
+    adaptive: bool
+    stack: int
+    lines: int
+
+
+def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Features:
+    """Return the properties of a method; ``label`` defaults to the label of the method."""
+    target = known_target(artifact.manifest["target"])
+    source = artifact.files[target.step_file(artifact.manifest["module"])]
+    stack = re.search(target.stack, source) if target.stack else None
+    return Features(
+        label or compiled.method.label,
+        lowering(compiled.method.family).keeps_manifold(compiled.scene),
+        is_symplectic(compiled),
+        not compiled.kernel.loops,
+        compiled.method.adaptive,
+        int(stack[1]) if stack else 0,
+        source.count("\n"),
+    )
+
+
+def is_symplectic(compiled: Compiled) -> bool:
+    """Whether steps of constant size are symplectic maps.
+
+    False for methods with step-size control, because variable steps destroy the long-time behaviour of
+    symplectic methods.
+    """
+    scene, method = compiled.scene, compiled.method
+    if not scene.is_hamiltonian or method.adaptive:
+        return False
+    return lowering(method.family).symplectic(scene, method)

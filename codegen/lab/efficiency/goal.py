@@ -1,0 +1,95 @@
+"""The goals of a search: an error at the end of the span, and needs that the method must satisfy."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from codegen.errors import MethodError
+from codegen.lab.efficiency.candidates import Recipe, method_of
+from codegen.lab.efficiency.features import Features
+from codegen.lower import lowering
+from codegen.scene.classical_forms import PRINTED
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError, UnknownName
+
+
+@dataclass(frozen=True)
+class Need:
+    """A requirement on recipes: its name, its meaning; ``long`` says that it includes long times."""
+
+    name: str
+    meaning: str
+    long: bool = False
+
+
+NEEDS = (
+    Need("manifold", "the state stays on the manifold up to rounding"),
+    Need(
+        "symplectic", "steps are symplectic maps, and no conserved quantity is lost in a long run", long=True
+    ),
+    Need("explicit", "no equations are solved; each step takes the same time"),
+    Need("adaptive", "step sizes are controlled by an error estimate"),
+    Need("fixed", "all steps have the same size"),
+)
+
+
+@dataclass(frozen=True)
+class Goal:
+    """The error at the end of the span, the needs, and the bytes of stack that a call may use."""
+
+    error: float
+    needs: tuple[str, ...] = ()
+    stack: int | None = None
+
+    def __post_init__(self) -> None:
+        known = [need.name for need in NEEDS]
+        for name in self.needs:
+            if name not in known:
+                raise UnknownName(f"unknown need {name!r}", where="--need", expected=", ".join(known))
+        if not 0 < self.error < math.inf:
+            raise InputError(f"the error {self.error:g}", where="--error", expected="a number above 0")
+
+    @property
+    def long(self) -> bool:
+        """Whether a need includes long times."""
+        return any(need.long for need in NEEDS if need.name in self.needs)
+
+    @property
+    def explicit(self) -> bool:
+        """Whether methods that solve equations are excluded."""
+        return "explicit" in self.needs
+
+    def met(self, properties: Features) -> bool:
+        """Whether a compiled recipe meets the needs."""
+        given = {
+            "manifold": properties.on_manifold,
+            "symplectic": properties.symplectic,
+            "explicit": properties.explicit,
+            "adaptive": properties.adaptive,
+            "fixed": not properties.adaptive,
+        }
+        return all(given[name] for name in self.needs) and (
+            self.stack is None or 0 < properties.stack <= self.stack
+        )
+
+
+def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
+    """Whether a recipe may meet the needs; other needs are tested when the recipe is compiled."""
+    if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
+        return False
+    if "manifold" in needs and not stays_on_manifold(recipe, problem):
+        return False
+    if "symplectic" not in needs:
+        return True
+    if recipe.adaptive or not problem.is_hamiltonian:
+        return False
+    try:
+        return lowering(recipe.family).symplectic(problem, method_of(recipe, problem))
+    except MethodError:
+        return False
+
+
+def stays_on_manifold(recipe: Recipe, problem: Problem) -> bool:
+    """Whether the states of a recipe stay on the manifold of the scene up to rounding."""
+    return recipe.form == PRINTED and lowering(recipe.family).keeps_manifold(problem)

@@ -1,0 +1,143 @@
+"""Step programs whose operations are Python functions of doubles, for many interpreted steps.
+
+Each operation is evaluated once with symbols. Its expressions become one Python function, which is called
+instead of the operation. The interpreter then runs about ten times as fast as with the operations themselves.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from codegen.ir.domain import Domain, ExprDomain, FloatDomain, Values
+from codegen.ir.expr import Expr
+from codegen.ir.interpret import flatten
+from codegen.ir.operations import Linear, Operation
+from codegen.ir.operations import Problem as Evaluated
+from codegen.ir.program import Assign, Program, Statement
+from codegen.ir.values import Kind, Var
+from codegen.lab.number_types import Evaluate, Scalar
+from codegen.lab.straight_line_field import straight_line
+from codegen.scene.problem import Problem
+
+Shape = tuple[tuple[str, int], ...]
+"""The kind and the width of each argument of an operation."""
+
+
+@dataclass(frozen=True)
+class Symbolic:
+    """An operation of a problem on symbols: the expressions of its results, and the width of each result.
+
+    ``symbols`` are the names of the components of the arguments, followed by the step size.
+    """
+
+    expressions: tuple[Expr, ...]
+    widths: tuple[int, ...]
+    symbols: tuple[str, ...]
+
+    def function(self) -> Evaluate:
+        """Return the expressions as a Python function of the values of the symbols."""
+        code = straight_line("operation", self.symbols, self.expressions)
+        return code.python(float, {name: _called(name) for name in code.functions})
+
+
+def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
+    """Return an operation evaluated on symbols."""
+    domain = ExprDomain(problem.roots[0].space)
+    names: list[str] = []
+    values: list[object] = []
+    for k, (kind, width) in enumerate(shape):
+        own = [f"{k}.{i}" for i in range(width)]
+        names += own
+        symbols = tuple(map(domain.space.sym, own))
+        values.append(symbols[0] if kind == Kind.REAL.value else symbols)
+    results = assign.operation.evaluate(problem, domain, tuple(values))
+    flat = [flatten(v.kind, x) for v, x in zip(assign.targets, results, strict=True)]
+    return Symbolic(tuple(x for part in flat for x in part), tuple(map(len, flat)), (*names, "h"))
+
+
+def _called(name: str) -> Callable[..., float]:
+    """Return a function of the math library, or another function of :class:`FloatDomain`."""
+    known: Callable[..., float] | None = getattr(math, name, None)
+    domain = FloatDomain(0.0)
+    return known or (lambda *args: domain.call(name, *args))
+
+
+@dataclass(frozen=True)
+class Numeric(Operation):
+    """An operation as a Python function of doubles; ``parts`` are the kinds and widths of its results."""
+
+    function: Evaluate
+    parts: Shape
+    label: str
+
+    @property
+    def name(self) -> str:
+        """The name of the operation that the function replaces."""
+        return self.label
+
+    def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
+        """Return the results for doubles."""
+        flat: list[Scalar] = []
+        for x in args:
+            if isinstance(x, tuple):
+                flat.extend(x)
+            else:
+                flat.append(x)
+        flat.append(domain.h)
+        values = self.function(flat, 0.0)
+        results, at = [], 0
+        for kind, width in self.parts:
+            results.append(values[at] if kind == Kind.REAL.value else values[at : at + width])
+            at += width
+        return tuple(results)
+
+
+@dataclass(frozen=True)
+class NumericLinear(Operation):
+    """A linear combination; the coefficients are doubles with powers of the step size."""
+
+    coefficients: tuple[tuple[float, int], ...]
+    name = "lin"
+
+    def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
+        """Return the sum for doubles."""
+        h = domain.h
+        factors = [c * h**power for c, power in self.coefficients]
+        if len(factors) == 1:
+            factor = factors[0]
+            return (tuple([factor * x for x in args[0]]),)
+        return (tuple([sum(map(float.__mul__, factors, xs)) for xs in zip(*args, strict=True)]),)
+
+
+@dataclass
+class NumericPrograms:
+    """The functions of one problem's operations, each compiled when it is first used."""
+
+    functions: dict[object, Evaluate] = field(default_factory=dict)
+
+    def of(self, program: Program, problem: Problem, widths: dict[Var, int]) -> Program:
+        """Return the program with Python functions; ``widths`` are those of all variables."""
+
+        def replaced(assign: Assign) -> Assign:
+            return replace(assign, operation=self._numeric(assign, problem, widths))
+
+        body: list[Statement] = []
+        for statement in program.body:
+            if isinstance(statement, Assign):
+                body.append(replaced(statement))
+            else:
+                body.append(replace(statement, body=tuple(map(replaced, statement.body))))
+        return replace(program, body=tuple(body))
+
+    def _numeric(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> Operation:
+        operation = assign.operation
+        if isinstance(operation, Linear):
+            return NumericLinear(tuple((float(c.value), c.power) for c in operation.coefficients))
+        shape = tuple((a.kind.value, widths[a]) for a in assign.args)
+        key = problem.group.name, len(problem.roots), operation, shape
+        if key not in self.functions:
+            self.functions[key] = symbolic(assign, problem, shape).function()
+        parts = tuple((v.kind.value, widths[v]) for v in assign.targets)
+        return Numeric(self.functions[key], parts, operation.name)

@@ -1,0 +1,284 @@
+"""The search for the fastest recipes of the library for several goals.
+
+The search has three stages. First, each recipe is predicted by a few interpreted steps
+(:mod:`codegen.lab.efficiency.prediction`). Methods are dropped without a run if their steps take too long,
+or if methods of higher order are far from the error. Then recipes are emitted and raced in C in the order of
+their predicted times. The ratio of measured to predicted times of each kind of recipe corrects the later
+predictions. A recipe is left out if its corrected prediction exceeds the best measured time by a safety
+factor. Last, the leaders are timed again, with more repetitions.
+
+Goals differ in the error and in the needs. They share predictions, compiled modules and runs.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+from codegen.lab.efficiency.candidates import Recipe
+from codegen.lab.efficiency.goal import Goal, possible
+from codegen.lab.efficiency.jobs import Jobs
+from codegen.lab.efficiency.prediction import Prediction
+from codegen.lab.efficiency.race import Entry, Racer, Result
+from codegen.lab.efficiency.task import Task, emitted, predicted
+from codegen.lab.long_runs.drift import LOST
+from codegen.lab.long_runs.trajectory import record
+from codegen.lab.progress import Progress
+from codegen.lab.reference import Reference, cached_reference
+from orderconds.processes import in_processes
+
+SAFETY = 2.5
+"""A recipe is raced if its corrected prediction is at most SAFETY times the best measured time."""
+
+UNSEEN = 4.0
+"""The safety factor for a kind of recipe of which none was raced yet."""
+
+LEADERS, CLOSE = 4, 1.4
+"""At most LEADERS recipes within a factor CLOSE of the best are timed again."""
+
+ROUND = 6
+"""Recipes that are emitted between two corrections."""
+
+GROUP = 50
+"""Predictions between two messages."""
+
+PREDICTING = 0.5
+"""The part of the budget that predictions may take."""
+
+UNREACHED = 1e-3
+"""The gain of a recipe for a goal that no recipe reaches according to the predictions."""
+
+LONG_STEPS = 20_000
+"""Steps of the long run that a recommendation for long times must survive."""
+
+Kind = tuple[str, bool, bool]
+"""Family, explicit or not, adaptive or not: predictions of one kind have similar errors."""
+
+Key = tuple[str, str]
+"""Method and form: recipes with and without step-size control share a prediction."""
+
+
+@dataclass
+class Search:
+    """One search; :meth:`run` fills ``results``, :meth:`leaders` ranks them for a goal."""
+
+    task: Task
+    goals: tuple[Goal, ...]
+    progress: Progress = str
+    safety: float = SAFETY
+    predictions: dict[Key, Prediction] = field(default_factory=dict)
+    ratios: dict[tuple[Kind, float], list[float]] = field(default_factory=lambda: defaultdict(list))
+    results: dict[float, dict[Recipe, Result]] = field(default_factory=dict)
+    racers: dict[Recipe, Racer] = field(default_factory=dict)
+    raced: set[Recipe] = field(default_factory=set)
+    codes: set[str] = field(default_factory=set)
+    timed: set[tuple[Recipe, float]] = field(default_factory=set)
+    complete: bool = True
+
+    def __post_init__(self) -> None:
+        self.start = time.monotonic()
+        self.problem = self.task.problem()
+        self.progress(f"{self.problem.name}: reference solution")
+        self.exact: Reference = cached_reference(self.problem)
+        self.results = {goal.error: {} for goal in self.goals}
+        self.suited: dict[Recipe, tuple[Goal, ...]] = {}
+        needs = dict.fromkeys(goal.needs for goal in self.goals)
+        for recipe in self.task.recipes():
+            known = {n for n in needs if possible(recipe, n, self.problem)}
+            if known:
+                self.suited[recipe] = tuple(goal for goal in self.goals if goal.needs in known)
+
+    @property
+    def spent(self) -> float:
+        """The part of the budget that is used."""
+        return (time.monotonic() - self.start) / self.task.budget
+
+    def run(self) -> None:
+        """Predict and race."""
+        self.predict()
+        self.race()
+
+    def predict(self) -> None:
+        """Predict all recipes until the part of the budget for predictions is used.
+
+        Families and forms take turns (:class:`Jobs`), and those that are slower than others have fewer turns.
+        """
+        methods: dict[Recipe, list[Goal]] = defaultdict(list)
+        for recipe, suited in self.suited.items():
+            methods[replace(recipe, adaptive=False)] += suited
+        jobs = Jobs(methods)
+        for k, prediction in enumerate(in_processes(partial(predicted, self.task), jobs)):
+            if k % GROUP == 0:
+                self.progress(f"{self.problem.name}: predicting method {k + 1} of {len(jobs)}")
+            if prediction is not None:
+                recipe = jobs.given[k]
+                self.predictions[recipe.method, recipe.form] = prediction
+                jobs.add(recipe, prediction)
+            if self.spent > PREDICTING:
+                self.complete = k + 1 == len(jobs)
+                return
+
+    def expected(self, recipe: Recipe, error: float) -> float:
+        """Return the predicted seconds of a recipe for an error, corrected by the ratio of its kind."""
+        prediction = self.predictions.get((recipe.method, recipe.form))
+        if prediction is None or prediction.failure:
+            return math.inf
+        seconds, kind = prediction.seconds(error), self.kind(recipe)
+        if (kind, error) in self._corrections:
+            return seconds * self._corrections[kind, error] / self.safety
+        if kind in self._of_kind:
+            return seconds * self._of_kind[kind] / self.safety
+        return seconds * self._least / UNSEEN
+
+    def _correct(self) -> None:
+        """Compute the corrections of predictions from the ratios."""
+        self._corrections = {key: geometric_mean(x) for key, x in self.ratios.items() if x}
+        joined: dict[Kind, list[float]] = defaultdict(list)
+        for (kind, _), ratios in self.ratios.items():
+            joined[kind] += ratios
+        self._of_kind = {kind: geometric_mean(x) for kind, x in joined.items() if x}
+        self._least = min((min(x) for x in joined.values() if x), default=1.0)
+
+    def kind(self, recipe: Recipe) -> Kind:
+        """Return the kind of a recipe."""
+        prediction = self.predictions.get((recipe.method, recipe.form))
+        return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
+
+    def race(self) -> None:
+        """Emit and time recipes, the most promising first."""
+        while True:
+            self._correct()
+            ready = self._next()
+            if not ready:
+                return
+            if self.spent > 1:
+                self.complete = False
+                return
+            names = ", ".join(r.label for r in ready)
+            self.progress(f"{self.problem.name}: racing {names}")
+            self.raced.update(ready)
+            for candidate in in_processes(partial(emitted, self.task), ready):
+                if isinstance(candidate, Entry) and candidate.code not in self.codes:
+                    self.codes.add(candidate.code)
+                    self.racers[candidate.recipe] = self.racer(candidate)
+                    self._measure(candidate.recipe)
+                if self.spent > 1:
+                    break
+
+    def _next(self) -> list[Recipe]:
+        """Return the next recipes to emit: those that promise the largest gains for all goals.
+
+        A kind that was not raced yet is represented by one recipe.
+        """
+        gains: dict[Recipe, float] = defaultdict(float)
+        open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
+        times = {(r, g.error): self.expected(r, g.error) for r, suited in open_.items() for g in suited}
+        promises = {
+            goal: [(r, times[r, goal.error]) for r, suited in open_.items() if goal in suited]
+            for goal in self.goals
+        }
+        for goal, promised in promises.items():
+            if goal.explicit:
+                promised = [(r, seconds) for r, seconds in promised if self.kind(r)[1]]
+            bound = self.best(goal)
+            if not math.isfinite(bound) and promised:
+                bound = self.safety * min(seconds for _, seconds in promised)
+            for recipe, seconds in promised:
+                if seconds < bound or not math.isfinite(bound):
+                    gains[recipe] += math.log(bound / seconds) if seconds < bound < math.inf else UNREACHED
+        chosen: list[Recipe] = []
+        fresh: set[Kind] = set()
+        for recipe in sorted(gains, key=lambda r: -gains[r]):
+            kind = self.kind(recipe)
+            if kind in self._of_kind or kind not in fresh:
+                fresh.add(kind)
+                chosen.append(recipe)
+        return chosen[:ROUND]
+
+    def _known(self, recipe: Recipe) -> bool:
+        prediction = self.predictions.get((recipe.method, recipe.form))
+        return prediction is not None and not prediction.failure
+
+    def best(self, goal: Goal) -> float:
+        """The best measured seconds for a goal so far."""
+        return min((r.seconds for r in self._reached(goal)), default=math.inf)
+
+    def _reached(self, goal: Goal) -> Iterable[Result]:
+        """Yield the fastest result of each recipe that reaches a goal and meets its needs.
+
+        A run with a smaller error is a run that reaches the goal.
+        """
+        fastest: dict[Recipe, Result] = {}
+        for error, results in self.results.items():
+            for recipe, result in results.items() if error <= goal.error else ():
+                known = fastest.get(recipe)
+                if result.reached and (known is None or result.seconds < known.seconds):
+                    fastest[recipe] = result
+        return [result for result in fastest.values() if goal.met(result.entry.features)]
+
+    def racer(self, candidate: Entry) -> Racer:
+        """Return a racer for an entry."""
+        return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
+
+    def _measure(self, recipe: Recipe) -> None:
+        """Race an entry for each error where it may win, and record the ratios of its kind."""
+        racer = self.racers[recipe]
+        prediction = self.predictions[recipe.method, recipe.form]
+        met = [goal for goal in self.suited[recipe] if goal.met(racer.entry.features)]
+        for error in sorted({goal.error for goal in met}, reverse=True):
+            worst = max(self.best(goal) for goal in met if goal.error == error)
+            if self.expected(recipe, error) >= worst:
+                continue
+            result = racer.reach(error, worst)
+            self.results[error][recipe] = result
+            known = prediction.seconds(error)
+            if math.isfinite(known):
+                # A recipe that left the race is slower than the best by more than its safety factor.
+                seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
+                if math.isfinite(seconds):
+                    self.ratios[self.kind(recipe), error].append(seconds / known)
+
+    def time_again(self, goal: Goal) -> None:
+        """Time the leaders for a goal again, each run once."""
+        ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
+        for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
+            recipe = result.entry.recipe
+            if (recipe, result.control) not in self.timed:
+                self.timed.add((recipe, result.control))
+                seconds = min(result.seconds, self.racers[recipe].seconds(result.control, 0.004, 9))
+                for results in self.results.values():
+                    if recipe in results and results[recipe].control == result.control:
+                        results[recipe] = replace(results[recipe], seconds=seconds)
+
+    def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
+        """Time the leaders for a goal again; return all places, and the labels that a long run excludes."""
+        self.time_again(goal)
+        ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
+        lost: list[str] = []
+        if goal.long:
+            while ranked and self._loses(ranked[0]):
+                lost.append(ranked.pop(0).entry.recipe.label)
+            while len(ranked) > 1 and self._loses(ranked[1]):
+                lost.append(ranked.pop(1).entry.recipe.label)
+        return ranked, lost
+
+    def _loses(self, result: Result) -> bool:
+        """Whether a conserved quantity is lost, or a step fails, in a long run with the step of a result."""
+        racer = self.racers[result.entry.recipe]
+        h = (racer.last - racer.first) / result.steps
+        done = record(self.problem, racer.integrator, racer.initial, h, LONG_STEPS, racer.first)
+        largest = (max(s.peaks, default=0.0) / done.scales[name] for name, s in done.series.items())
+        return bool(done.failure) or any(x >= LOST for x in largest)
+
+
+def geometric_mean(values: Sequence[float]) -> float:
+    """Return the geometric mean.
+
+    >>> geometric_mean([1.0, 4.0])
+    2.0
+    """
+    return math.exp(sum(map(math.log, values)) / len(values))

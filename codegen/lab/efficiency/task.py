@@ -1,0 +1,103 @@
+"""The task of a search: a scene with its span and the methods of the search; the work of its processes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cache
+
+from codegen import scenes
+from codegen.build import build
+from codegen.emitter import compile_method
+from codegen.lab.efficiency.candidates import Recipe, candidates, method_of, named
+from codegen.lab.efficiency.equations import Equations, all_equations
+from codegen.lab.efficiency.prediction import Bar, Prediction, Predictor
+from codegen.lab.efficiency.race import Entry, entry
+from codegen.lab.reference import cached_reference
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+
+BUDGET = 50.0
+"""Seconds that a search may take by default; the recipe in work is finished."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A scene as the user names it, and the extent of the search.
+
+    ``span`` replaces the span of the scene. ``budget`` are the seconds that the search may take. ``tableaux``
+    restrict the library. ``methods`` are the labels of the methods to search, with whether each has
+    step-size control; if it is empty, the library is searched.
+    """
+
+    scene: str
+    span: tuple[Fraction, Fraction] | None = None
+    budget: float = BUDGET
+    tableaux: tuple[str, ...] = ()
+    methods: tuple[tuple[str, bool], ...] = ()
+
+    def problem(self) -> Problem:
+        """Return the scene with its span."""
+        return _problem(self.scene, self.span)
+
+    def equations(self, form: str) -> Equations:
+        """Return the equations of the scene in a form."""
+        return _equations(self.scene, self.span, form)
+
+    def recipes(self) -> list[Recipe]:
+        """Return the recipes to search."""
+        if self.methods:
+            return list(named(self.problem(), self.methods))
+        return list(candidates(self.problem(), self.tableaux))
+
+
+@dataclass(frozen=True)
+class Failed:
+    """A recipe that the compiler refuses, with the reason."""
+
+    recipe: Recipe
+    reason: str
+
+
+@cache
+def _problem(scene: str, span: tuple[Fraction, Fraction] | None) -> Problem:
+    problem = scenes.load(scene)
+    return problem if span is None else replace(problem, span=span)
+
+
+@cache
+def _equations(scene: str, span: tuple[Fraction, Fraction] | None, form: str) -> Equations:
+    (equations,) = all_equations(_problem(scene, span), (form,))
+    return equations
+
+
+@cache
+def _predictor(task: Task, form: str) -> Predictor:
+    return Predictor(task.equations(form), cached_reference(task.problem()))
+
+
+def predicted(task: Task, job: tuple[Recipe, tuple[Bar, ...]]) -> Prediction | None:
+    """Return the prediction of a recipe for the bars of its goals; runs in a worker process.
+
+    None is returned if there is no bar.
+    """
+    recipe, bars = job
+    if not bars:
+        return None
+    problem = task.problem()
+    try:
+        method = replace(method_of(recipe, problem), adaptive=False)
+        return _predictor(task, recipe.form).predict(method, recipe.order, *bars)
+    except (InputError, ArithmeticError) as error:
+        return Prediction(recipe.method, recipe.order, failure=str(error))
+
+
+def emitted(task: Task, recipe: Recipe) -> Entry | Failed:
+    """Return a recipe as a compiled module in the cache; runs in a worker process."""
+    problem = task.problem()
+    try:
+        candidate = entry(recipe, compile_method(problem, method_of(recipe, problem), form=recipe.form))
+        build(candidate.artifact.files)
+    except (InputError, ArithmeticError) as error:
+        return Failed(recipe, str(error))
+    return candidate

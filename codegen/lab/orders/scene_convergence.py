@@ -1,0 +1,129 @@
+"""The convergence of several methods on one scene."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+
+from codegen import scenes
+from codegen.build import CompilerMissing
+from codegen.certify import CertifiedOrder, certified_order
+from codegen.lab.orders import convergence
+from codegen.lab.orders.convergence import Convergence, NotEmitted
+from codegen.lab.progress import Progress
+from codegen.lab.reference import Reference, cached_reference
+from codegen.lab.runner import DOUBLE, check_target, runner
+from codegen.lower import families_for
+from codegen.method import Method, method_of
+from codegen.printers import DEFAULT
+from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
+from codegen.scene.problem import Problem
+from orderconds.errors import InputError
+from orderconds.tableau import Tableau
+
+
+@dataclass(frozen=True)
+class ConvergenceTest:
+    """A test of methods on a scene, whose arguments are checked; :meth:`results` runs the methods."""
+
+    scene: Problem
+    equations: Problem
+    methods: tuple[Method, ...]
+    target: str
+    steps: tuple[int, ...]
+    digits: int
+    stated: int | None
+    form: ClassicalForm | None
+
+    @classmethod
+    def of(
+        cls,
+        scene: Problem | str,
+        methods: Sequence[Method | Tableau | str],
+        *,
+        target: str | None = None,
+        form: str | None = None,
+        steps: Sequence[int] = (),
+        digits: int = DOUBLE,
+        stated: int | None = None,
+    ) -> ConvergenceTest:
+        """Return a test; the arguments are those of :func:`converge`."""
+        problem = scenes.load(scene) if isinstance(scene, str) else scene
+        chosen = find_form(problem, form) if form not in (None, PRINTED) else None
+        equations = problem if chosen is None else chosen.problem
+        known = tuple(method_of(method, families_for(equations)) for method in methods)
+        check_target(target or DEFAULT, digits)
+        return cls(problem, equations, known, target or DEFAULT, tuple(steps), digits, stated, chosen)
+
+    def reference(self) -> Reference:
+        """Return the reference solution."""
+        return cached_reference(self.scene)
+
+    def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:
+        """Return the convergence of one method; CompilerMissing if the target needs a compiler."""
+        try:
+            known = self.stated
+            order = (
+                certified_order(method, self.equations) if known is None else CertifiedOrder(known, "stated")
+            )
+            run = runner(self.equations, method, self.target, self.digits, order)
+            progress(f"running {method.label}")
+            return convergence.converge(run, order, exact, steps=self.steps, form=self.form)
+        except CompilerMissing:  # no other method of a compiled target can run either
+            raise
+        except (InputError, ArithmeticError) as error:
+            return NotEmitted(self.scene.name, method.label, self.target, str(error))
+
+
+@dataclass(frozen=True, repr=False)
+class Convergences:
+    """The results of several methods; the sequence is in the order of the methods."""
+
+    results: tuple[Convergence | NotEmitted, ...]
+
+    def __iter__(self) -> Iterator[Convergence | NotEmitted]:
+        return iter(self.results)
+
+    def __len__(self) -> int:
+        return len(self.results)
+
+    def __getitem__(self, index: int) -> Convergence | NotEmitted:
+        return self.results[index]
+
+    def __bool__(self) -> bool:
+        """Whether every observed order equals the stated order."""
+        return all(result.verdict == "holds" for result in self.results)
+
+    def __repr__(self) -> str:
+        return "\n".join(f"{result.method} on {result.scene}: {result.sentence()}" for result in self.results)
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{escape(result.method)}</td><td>{escape(result.sentence())}</td></tr>"
+            for result in self.results
+        )
+        return f"<table><tr><th>method</th><th>order</th></tr>{rows}</table>"
+
+
+def converge(
+    scene: Problem | str,
+    *methods: Method | Tableau | str,
+    target: str | None = None,
+    form: str | None = None,
+    steps: Sequence[int] = (),
+    digits: int = DOUBLE,
+    stated: int | None = None,
+    progress: Progress = str,
+) -> Convergences:
+    """Measure the order of methods on a scene and compare it with the order that the conditions prove.
+
+    The arguments are those of ``orderconds converge``; a method is a name or an
+    :class:`orderconds.Tableau`. A method that cannot be emitted for the scene has a result with the reason.
+    Errors: SceneError, MethodError, UnknownName and TableauError for wrong arguments.
+    """
+    test = ConvergenceTest.of(
+        scene, methods, target=target, form=form, steps=steps, digits=digits, stated=stated
+    )
+    exact = test.reference()
+    return Convergences(tuple(test.result(method, exact, progress) for method in test.methods))

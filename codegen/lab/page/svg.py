@@ -1,0 +1,170 @@
+"""SVG elements of Matplotlib figures, with the colours and fonts of the page, in light and dark mode.
+
+Matplotlib draws with placeholder colours, which are then replaced by CSS variables of the page. Text is
+written as SVG text, not as outlines. The identifiers in the SVG are hashes that depend on the data and on the
+name of the figure. Therefore equal data gives equal bytes, and two figures of a page have different
+identifiers. The elements of a series and of its entry in the legend have the attributes ``data-series`` and
+``data-key``, by which the script of the page shows and hides the series. Each marker has a title, which
+browsers show without a script.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from html import escape
+from typing import TYPE_CHECKING, TypeAlias, cast
+
+from markupsafe import Markup
+
+from codegen.lab.page.series_style import COLOURS, Style
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Point: TypeAlias = tuple[float, float]
+
+INK, MUTED, RULE = "#010a01", "#010a02", "#010a03"
+PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "var(--paper)": "#010a04"} | {
+    f"var(--series-{k})": f"#010b{k:02x}" for k in range(1, COLOURS + 1)
+}
+"""The placeholder colour for each CSS variable of the page."""
+
+SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9", "#3644a0", "#684a00")
+SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
+"""The colours of the series. Any two differ for readers without red, green or blue receptors."""
+
+LIGHT = {
+    "var(--ink)": "#1d1c1a",
+    "var(--muted)": "#6b675f",
+    "var(--rule)": "#dedad1",
+    "var(--paper)": "#ffffff",
+    "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
+} | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
+"""The colour for each CSS variable, for pictures with a white background that are not part of a page."""
+
+STYLE: dict[str, object] = {
+    "svg.fonttype": "none",
+    "font.size": 9,
+    "legend.fontsize": 8.5,
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.linewidth": 0.6,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "xtick.minor.size": 0,
+    "ytick.minor.size": 0,
+    "lines.linewidth": 1.3,
+    "lines.markersize": 4.8,
+}
+"""Parameters of Matplotlib."""
+
+
+@dataclass(frozen=True)
+class Text:
+    """The name, title and description of a figure, and the texts of the markers of each series.
+
+    The name is unique on a page. Title and description are read by screen readers. ``values`` contains one
+    text for each marker of a series, by the number of the series.
+    """
+
+    name: str
+    title: str
+    description: str
+    values: Mapping[int, Sequence[str]]
+
+
+def svg_element(figure: Figure, text: Text) -> Markup:
+    """Return the figure as an SVG element, without size and date, and with the colours of the page."""
+    import matplotlib
+
+    stream = io.StringIO()
+    with matplotlib.rc_context(STYLE | {"svg.hashsalt": text.name}):
+        figure.savefig(stream, format="svg", transparent=True, metadata={"Date": None})
+    drawn = stream.getvalue()
+    drawn = drawn[drawn.index("<svg") :]
+    drawn = re.sub(r"<metadata>.*?</metadata>", "", drawn, flags=re.DOTALL)
+    drawn = re.sub(r'\s+(width|height)="[\d.]+pt"', "", drawn, count=2)
+    # A style element in the figure would apply to the whole page.
+    drawn = re.sub(r"<style.*?</style>", "", drawn, flags=re.DOTALL)
+    drawn = re.sub(r'\s+id="[^"]*_\d+"', "", drawn)
+    drawn = re.sub(r"""'DejaVu Sans'(?:, [^;"]*)?""", "var(--sans)", drawn)
+    for variable, colour in PLACEHOLDERS.items():
+        drawn = drawn.replace(colour, variable)
+    return Markup(_titled(_with_series(drawn, text.values), text).strip())
+
+
+def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
+    """Replace the identifiers of series by attributes, and add a title to each marker."""
+    before, *groups = re.split(r'<g id="series:(\d+)">', drawn)
+    parts = [before]
+    for number, body in zip(groups[::2], groups[1::2], strict=True):
+        parts += [f'<g data-series="{number}">', _with_titles(body, values.get(int(number), ()))]
+    return re.sub(r'<g id="key:(\d+)">', r'<g data-key="\1">', "".join(parts))
+
+
+def _with_titles(body: str, values: Sequence[str]) -> str:
+    """Add a title to each marker; the legend after the last series has markers without a title."""
+    titles = iter(values)
+
+    def titled(match: re.Match[str]) -> str:
+        value = next(titles, None)
+        return match[0] if value is None else f"<use{match[1]}><title>{escape(value)}</title></use>"
+
+    return re.sub(r"<use([^>]*?)/>", titled, body)
+
+
+def _titled(drawn: str, text: Text) -> str:
+    """Add title and description to an SVG element."""
+    name = re.sub(r"\W+", "-", text.name)
+    head = drawn.index(">")
+    return (
+        f'{drawn[:head]} role="img" aria-labelledby="{name}-title {name}-desc">'
+        f'<title id="{name}-title">{escape(text.title)}</title>'
+        f'<desc id="{name}-desc">{escape(text.description)}</desc>{drawn[head + 1 :]}'
+    )
+
+
+def standalone(svg: str) -> str:
+    """Return an SVG element of this module as a complete document with fixed colours on white."""
+    for variable, value in LIGHT.items():
+        svg = svg.replace(variable, value)
+    head = svg.index("</desc>") + len("</desc>")
+    size = re.search(r'viewBox="0 0 ([\d.]+) ([\d.]+)"', svg)
+    width, height = size.groups() if size else ("100%", "100%")
+    paper = f'<rect width="{width}" height="{height}" fill="#ffffff"/>'
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{svg[:head]}{paper}{svg[head:]}\n'
+
+
+def key(style: Style) -> Markup:
+    """Return a line with the marker of a series as a small SVG element, for the rows of tables."""
+    dash = f";stroke-dasharray:{' '.join(f'{1.4 * x:g}' for x in style.dash)}" if style.dash else ""
+    fill = "var(--paper)" if style.hollow else style.colour
+    return Markup(
+        '<svg class="key" viewBox="0 0 24 10" aria-hidden="true">'
+        f'<path d="M0 5H24" style="fill:none;stroke:{style.colour};stroke-width:1.4{dash}"/>'
+        f'<path d="{_outline(style.marker)}" style="fill:{fill};stroke:{style.colour};stroke-width:1"/></svg>'
+    )
+
+
+@cache
+def _outline(marker: str) -> str:
+    """Return the outline of a marker of Matplotlib around the centre of a key, as SVG path data."""
+    from matplotlib.markers import MarkerStyle
+
+    if marker == "o":
+        return "M9 5a3 3 0 1 0 6 0a3 3 0 1 0 -6 0Z"
+    shape = MarkerStyle(marker)
+    path = shape.get_path().transformed(shape.get_transform())
+    polygons = cast("Sequence[Sequence[Point]]", path.to_polygons(closed_only=False))
+    lines = ("L".join(f"{12 + 6 * x:.2f} {5 - 6 * y:.2f}" for x, y in polygon) for polygon in polygons)
+    return "".join(f"M{line}Z" for line in lines)

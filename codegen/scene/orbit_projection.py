@@ -1,0 +1,66 @@
+"""Whether the projection of a scene's action reaches the orbit of the initial state.
+
+An action of a group without projection returns a point unchanged (:meth:`Action.to_orbit`). A method that
+only projects its results then stays on the orbit only if the orbit is open.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from codegen.ir.domain import FloatDomain
+from codegen.scene.problem import Problem
+
+DISPLACEMENT = 1e-4
+"""The distance of a point from the orbit before it is projected."""
+
+REDUCED = 1e-2
+"""A projection reduces the distance to its square; it must be below REDUCED times the distance before."""
+
+INDEPENDENT = 1e-8
+"""A vector is a combination of others if its remainder is shorter than INDEPENDENT times its length."""
+
+
+def reaches_orbit(problem: Problem) -> bool:
+    """Whether the orbit of the initial state is open, or points near the initial state are projected onto it.
+
+    Each direction perpendicular to the orbit is tested at the initial state.
+    """
+    field, d = problem.as_field(), FloatDomain(0.0)
+    start = tuple(map(float, field.initial(d)))
+    n = field.group.dim
+    units = [tuple(float(i == j) for j in range(n)) for i in range(n)]
+    tangent = _orthonormal([field.action.velocity(d, field.group, x, start) for x in units])
+    axes = [tuple(float(i == j) for j in range(len(start))) for i in range(len(start))]
+    for normal in _orthonormal(axes, tangent):
+        moved = tuple(y + DISPLACEMENT * x for y, x in zip(start, normal, strict=True))
+        end = field.action.to_orbit(d, field.group, moved, start)
+        rest = _remainder([float(a - b) for a, b in zip(end, start, strict=True)], tangent)
+        if math.hypot(*rest) > REDUCED * DISPLACEMENT:
+            return False
+    return True
+
+
+def _orthonormal(
+    vectors: Sequence[Sequence[float]], known: Sequence[Sequence[float]] = ()
+) -> list[list[float]]:
+    """Return an orthonormal basis of the part of the span of ``vectors`` that is perpendicular to ``known``,
+    which is orthonormal."""
+    basis: list[list[float]] = []
+    for vector in vectors:
+        # The second pass removes the rounding errors of the first.
+        rest = _remainder(_remainder(vector, [*known, *basis]), [*known, *basis])
+        length = math.hypot(*rest)
+        if length > INDEPENDENT * max(1.0, math.hypot(*vector)):
+            basis.append([x / length for x in rest])
+    return basis
+
+
+def _remainder(vector: Sequence[float], basis: Sequence[Sequence[float]]) -> list[float]:
+    """Return the part of a vector that is perpendicular to an orthonormal basis."""
+    rest = list(vector)
+    for unit in basis:
+        part = math.fsum(a * b for a, b in zip(rest, unit, strict=True))
+        rest = [a - part * b for a, b in zip(rest, unit, strict=True)]
+    return rest

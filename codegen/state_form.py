@@ -1,0 +1,153 @@
+"""The forms of a state: a flat sequence, a NumPy array of any shape, or a tuple such as (q, mu); and batches.
+
+A compiled step reads and writes one flat list of numbers. A :class:`StateForm` remembers how the caller wrote
+the state, and writes results in the same form: lists for lists, arrays for arrays, tuples for tuples. In a
+tuple, each part may have its own shape, such as a 3 x 3 matrix q and a vector mu; matrices are flattened by
+rows. A batch is an array with a state in each row, or a tuple of such arrays.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+State = Any
+"""A sequence of floats, a NumPy array, or a tuple of these."""
+
+
+@dataclass(frozen=True)
+class StateForm:
+    """The shape of each part of a state, whether the state is a tuple of parts, and whether parts are NumPy
+    arrays; parts that are no arrays are lists."""
+
+    shapes: tuple[tuple[int, ...], ...]
+    is_tuple: bool
+    arrays: tuple[bool, ...]
+
+    def restore(self, values: Sequence[Any]) -> Any:
+        """Return numbers, or the rows of a trajectory, in this form."""
+        if not self.is_tuple and self.shapes == ((len(values),),) and not self.arrays[0]:
+            return list(values)
+        import numpy as np
+
+        table = np.array(values, dtype=float)
+        rows, parts, start = table.shape[:-1], [], 0
+        for shape, array in zip(self.shapes, self.arrays, strict=True):
+            end = start + math.prod(shape)
+            part = table[..., start:end].reshape(*rows, *shape)
+            parts.append(part if array else part.tolist())
+            start = end
+        return tuple(parts) if self.is_tuple else parts[0]
+
+    def matrix(self, rows: Sequence[Sequence[float]]) -> Any:
+        """Return a matrix: an array if the state contains an array, else a list of rows."""
+        if not any(self.arrays):
+            return list(rows)
+        import numpy as np
+
+        return np.array(rows, dtype=float)
+
+
+def read(state: State, size: int) -> tuple[StateForm, list[float]]:
+    """Return the form of a state and its numbers; ValueError unless it has ``size`` real numbers.
+
+    >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
+    >>> numbers, form.restore(numbers)
+    ([1.0, 0.0, 0.0, 1.0, 2.0, 3.0], ([[1.0, 0.0], [0.0, 1.0]], [2.0, 3.0]))
+    """
+    is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
+    parts = tuple(state) if is_tuple else (state,)
+    shapes, numbers = [], []
+    for part in parts:
+        shape, entries = _flat(part)
+        shapes.append(shape)
+        numbers += entries
+    if len(numbers) != size:
+        raise ValueError(f"expected {size} numbers in state, found {len(numbers)}")
+    return StateForm(tuple(shapes), is_tuple, tuple(map(_is_array, parts))), numbers
+
+
+@dataclass(frozen=True)
+class Batch:
+    """States and the functions that join results: the form of the whole batch."""
+
+    states: tuple[State, ...]
+
+    def joined(self, results: Sequence[Any]) -> Any:
+        """Return results as arrays whose first index is the index of the state in the batch."""
+        import numpy as np
+
+        if isinstance(results[0], tuple):
+            return tuple(np.array(part) for part in zip(*results, strict=True))
+        return np.array(results)
+
+
+def batch_of(state: State, size: int) -> Batch | None:
+    """Return the states of a batch; None for a single state.
+
+    >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
+    ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+    >>> batch_of([[1, 0], [0, 1]], 4) is None
+    True
+    """
+    is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
+    parts = tuple(state) if is_tuple else (state,)
+    if not all(_nested(part) for part in parts):
+        return None
+    import numpy as np
+
+    try:
+        tables = [np.array(part, dtype=float) for part in parts]
+    except (TypeError, ValueError):  # ragged or complex; the state is refused where it is read
+        return None
+    count = len(tables[0])
+    if sum(table.size for table in tables) == size or any(len(table) != count for table in tables):
+        return None
+    if sum(table.size for table in tables) != count * size or not count:
+        return None
+    if is_tuple:
+        return Batch(tuple(zip(*tables, strict=True)))
+    array = _is_array(state)
+    return Batch(tuple(row if array else row.tolist() for row in tables[0]))
+
+
+def _nested(part: object) -> bool:
+    """Whether a part has two or more levels."""
+    if _is_array(part):
+        return bool(getattr(part, "ndim", 0) > 1)
+    return isinstance(part, list | tuple) and bool(part) and _has_entries(part[0])
+
+
+def _has_entries(part: object) -> bool:
+    """Whether a part is a sequence or an array with at least one axis."""
+    return getattr(part, "ndim", 0) > 0 if _is_array(part) else isinstance(part, list | tuple)
+
+
+def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
+    """Return the shape and the numbers of a part; raise ValueError for ragged or complex parts."""
+    if not _has_entries(part):
+        return (), [_real(part)]
+    if not _is_array(part) and not _nested(part):
+        numbers = [_real(x) for x in part]
+        return (len(numbers),), numbers
+    import numpy as np
+
+    try:
+        table = np.asarray(part)
+    except ValueError:
+        raise ValueError("expected rows of equal lengths in state, found rows of different lengths") from None
+    if table.dtype.kind not in "fiub":
+        raise ValueError(f"expected real numbers in state, found an array of type {table.dtype}")
+    return table.shape, [float(x) for x in table.ravel()]
+
+
+def _real(x: Any) -> float:
+    if isinstance(x, complex):
+        raise ValueError(f"expected real numbers in state, found {x}")
+    return float(x)
+
+
+def _is_array(part: object) -> bool:
+    return type(part).__module__ == "numpy"

@@ -1,0 +1,160 @@
+"""Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
+
+Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
+the same for all coefficients. The result counts only if the exact tableau has the order that the digits
+support, with the certificate ``exact``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from orderconds import families
+from orderconds.checking.limits import Limits, Meter
+from orderconds.checking.order import family_order
+from orderconds.errors import InputError
+from orderconds.ring.integer_relations import quadratic_field, relation, root_of, simplest
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
+from orderconds.tableau.record import Tableau, from_data
+
+CHANCE = Fraction(1, 2**9)
+"""A fraction with denominator q is accepted if q^2 times the uncertainty of the number is at most this."""
+
+TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
+"""Keys of a file that contain no coefficients."""
+
+MAX_NUMBERS = 400
+MAX_SECONDS = 2.0
+
+
+@dataclass(frozen=True)
+class ExactForms:
+    """The tableau with exact coefficients, the keys of its file, and the text of each recognised number."""
+
+    tableau: Tableau
+    data: Data
+    texts: dict[str, str]
+
+
+def exact_forms(tableau: Tableau) -> ExactForms | None:
+    """Return the exact tableau near the digits, or None if it is not recognised or its order is not proved.
+
+    >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
+    >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]
+    [[], ['2/3']]
+    """
+    if tableau.file is None:
+        return None
+    rounded = tableau.file.symbolic.decimals()
+    if not rounded or len(rounded) > MAX_NUMBERS:
+        return None
+    texts = _recognised([unknown.constant for unknown in rounded])
+    if texts is None:
+        return None
+    replaced = {key: x if key in TEXTS else _replaced(x, texts) for key, x in tableau.file.data.items()}
+    replaced.pop("proof", None)
+    try:
+        exact = from_data(replaced, tableau.path or tableau.name, tableau.path)
+        family = families.get(tableau.family).for_method(tableau.method)
+        supported = family_order(tableau, family)
+        proved = family_order(exact, family, supported.order, meter=Meter(Limits(seconds=MAX_SECONDS)))
+    except InputError:
+        return None
+    if (
+        exact.doubles
+        or not supported.order
+        or proved.order < supported.order
+        or proved.certificate != "exact"
+    ):
+        return None
+    return ExactForms(exact, replaced, {u.name: texts[u.constant] for u in rounded})
+
+
+def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
+    """Return the text of each number as an element of one field, or None."""
+    fractions = {constant: _fraction(constant) for constant in constants}
+    texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
+    others = [constant for constant, x in fractions.items() if x is None]
+    if not others:
+        return texts
+    fields = (quadratic_field(x.value, _bits(x)) for x in others)
+    d = next((d for d in fields if d is not None), None)
+    if d is None:
+        return None
+    for constant in others:
+        text = _surd(constant, d)
+        if text is None:
+            return None
+        texts[constant] = text
+    return texts
+
+
+def _fraction(x: Constant) -> Fraction | None:
+    """Return the simplest fraction near a number, or None if chance could yield it."""
+    q = simplest(x.value - x.unit, x.value + x.unit)
+    return q if q.denominator**2 * x.unit <= CHANCE else None
+
+
+def _bits(x: Constant) -> int:
+    """Return the number of binary places that are known of a number."""
+    return max(0, (x.unit.denominator // x.unit.numerator).bit_length() - 1)
+
+
+def _surd(x: Constant, d: int) -> str | None:
+    """Return a number as ``p + q sqrt(d)``, or None."""
+    bits = _bits(x)
+    root = root_of(d, 2 * bits)
+    coefficients = relation([x.value, Fraction(1), root], bits)
+    if coefficients is None or not coefficients[0]:
+        return None
+    p, q = (Fraction(-c, coefficients[0]) for c in coefficients[1:])
+    if abs(p + q * root - x.value) > x.unit:
+        return None
+    size = abs(q)
+    surd = f"{size.numerator}*" if size.numerator > 1 else ""
+    surd += f"sqrt({d})" + (f"/{size.denominator}" if size.denominator > 1 else "")
+    if not q:
+        return str(p)
+    if not p:
+        return f"-{surd}" if q < 0 else surd
+    return f"{p} {'-' if q < 0 else '+'} {surd}"
+
+
+def _replaced(x: object, texts: dict[Constant, str]) -> object:
+    """Return the values of a file in which each recognised number has its exact text."""
+    if isinstance(x, list):
+        return [_replaced(y, texts) for y in x]
+    if isinstance(x, dict):
+        return {key: _replaced(y, texts) for key, y in x.items()}
+    if not isinstance(x, str):
+        return x
+    try:
+        expression = parse(x)
+    except InputError:
+        return x
+    negative = isinstance(expression, Chain) and expression.operators == ("-",)
+    inner: Expression = expression
+    if isinstance(expression, Chain) and negative and expression.operands[0] == ZERO:
+        inner = expression.operands[1]
+    if not isinstance(inner, Constant) or inner not in texts:
+        return x
+    text = texts[inner]
+    if inner is expression:
+        return text
+    return text[1:] if text.startswith("-") and " " not in text else _negative(text)
+
+
+def _negative(text: str) -> str:
+    """Return the text of -x.
+
+    >>> _negative("1/4 - sqrt(3)/6"), _negative("sqrt(3)/6"), _negative("-1/4 + sqrt(3)/6")
+    ('-1/4 + sqrt(3)/6', '-sqrt(3)/6', '1/4 - sqrt(3)/6')
+    """
+    first, *rest = text.split(" ")
+    first = first[1:] if first.startswith("-") else f"-{first}"
+    if not rest:
+        return first
+    return f"{first} {'+' if rest[0] == '-' else '-'} {rest[1]}"

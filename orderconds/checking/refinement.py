@@ -1,0 +1,63 @@
+"""A tableau with exact coefficients, or with more digits in its rounded decimals, and the proof."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from os import PathLike
+
+from orderconds.checking.exact_forms import exact_forms
+from orderconds.proof import refine as newton
+from orderconds.proof.certificate import Certificate, certify
+from orderconds.proof.krawczyk import NotProved
+from orderconds.tableau import Tableau, dumps
+
+
+@dataclass(frozen=True, repr=False)
+class Refinement:
+    """The refined ``tableau``.
+
+    For a tableau with a table ``[proof]``, ``decimals`` are the new decimals by name, ``pinned`` the names of
+    the decimals that were kept fixed, and ``proof`` the proof. For doubles and other rounded decimals,
+    ``exact`` are the recognised exact numbers by name.
+    """
+
+    tableau: Tableau
+    decimals: dict[str, str]
+    pinned: tuple[str, ...] = ()
+    proof: Certificate | None = None
+    exact: dict[str, str] | None = None
+
+    def __repr__(self) -> str:
+        if self.proof is None:
+            return f"<exact {self.tableau!r}>"
+        return f"<refined {self.tableau!r}: {len(self.decimals)} decimals within {self.proof.radius}>"
+
+    def _repr_html_(self) -> str:
+        return self.tableau._repr_html_()
+
+
+def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
+    """Make the coefficients of a tableau exact or more precise.
+
+    If the tableau has a table ``[proof]``, ``digits`` places of its decimals are computed and proved.
+    Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the exact
+    method has at least the order of the given one. ``tableau`` may also be a file or a name of the library.
+
+    Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if
+    the numbers are not recognised.
+
+    >>> refine("cg4a", digits=30)
+    <refined Tableau('cg4a', rk, 5 stages): 13 decimals within 4.88e-31>
+    >>> refine(Tableau.rk([[0, 0], [2 / 3, 0]], [1 / 4, 3 / 4])).tableau.A[1]
+    (Fraction(2, 3), Fraction(0, 1))
+    """
+    given = tableau if isinstance(tableau, Tableau) else Tableau.load(tableau)
+    if given.proof is None:
+        forms = exact_forms(given)
+        if forms is None:
+            raise NotProved("no decimals of which exact forms are recognised")
+        return Refinement(forms.tableau, {}, exact=forms.texts)
+    where = given.path or given.name
+    refined = newton.refine(dumps(given), where, digits)
+    sharper = Tableau.loads(refined.text, where)
+    return Refinement(sharper, refined.decimals, refined.pinned, certify(sharper))

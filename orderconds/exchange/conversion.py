@@ -1,0 +1,47 @@
+"""A tableau as text or bytes in one of the formats of :mod:`orderconds.exchange`."""
+
+from __future__ import annotations
+
+import re
+from os import PathLike
+
+from orderconds.exchange import export, json_file
+from orderconds.tableau import Tableau, dumps
+from orderconds.tableau.file_format import Data
+from orderconds.tableau.write import as_data
+
+_DECIMAL = re.compile(r"-?\d+\.?\d*d?", re.ASCII)
+"""A decimal or a double as text."""
+
+
+def convert(tableau: Tableau | str | PathLike[str], to: str) -> str | bytes:
+    """Return a tableau in the format ``to``: toml, json, csv, sympy, latex or c as text, numpy as bytes.
+
+    ``tableau`` may also be a file or a name of the library. Raises :class:`~orderconds.errors.InputError` for
+    an unknown format, and for a method that the format cannot represent.
+
+    >>> print(convert("euler", "csv").splitlines()[-1])
+    b,1
+    """
+    given = tableau if isinstance(tableau, Tableau) else Tableau.load(tableau)
+    content = dumps(given).encode() if to == "toml" else export(as_data(given), to)
+    if given.doubles and to == "json":
+        content = json_file.write(_with_floats(as_data(given)))
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        return content
+
+
+def _with_floats(data: Data) -> Data:
+    """Return the keys of a tableau file with numbers in place of decimals and doubles, which other programs
+    expect in JSON."""
+
+    def number(x: object) -> object:
+        if isinstance(x, list):
+            return [number(y) for y in x]
+        if isinstance(x, dict):
+            return {key: number(y) for key, y in x.items()}
+        return float(x.removesuffix("d")) if isinstance(x, str) and _DECIMAL.fullmatch(x) else x
+
+    return {key: number(x) if isinstance(x, list | dict) else x for key, x in data.items()}

@@ -1,0 +1,227 @@
+"""Python modules that assign arrays: ``A = np.array([[0, 0], [1/2, 0]])``, ``b = [0, 1]``, ``order = 2``.
+
+A module is parsed, not executed. Its assignments at the top level are read in order. They may contain lists,
+tuples, numbers, arithmetic, square roots, names assigned before, ``np.zeros``, entries (``A[1, 0] = 1``), and
+the constructors of arrays and exact numbers of NumPy, SymPy and ``fractions``. Arithmetic is exact: ``1/3``
+is the fraction. If a statement that is not understood may change an array, the file is refused;
+:mod:`orderconds.exchange.python_module` executes a module if the user asks for it.
+"""
+
+from __future__ import annotations
+
+import ast
+import re
+import warnings
+from collections.abc import Iterator
+
+from orderconds.errors import TableauError
+from orderconds.exchange.arrays import MATRICES, ROWS, TEXTS, Arrays, from_arrays
+from orderconds.exchange.claim_text import json_table
+from orderconds.exchange.comments import unescaped
+from orderconds.exchange.nested import Cells
+from orderconds.exchange.python_values import Array, Computed, Values, texts
+from orderconds.tableau.file_format import Data
+
+ARRAYS = (*MATRICES, *ROWS)
+COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
+"""Sets of arrays, each of which defines a tableau."""
+
+HINT = "write the numbers as literals, or run the file with --execute"
+HARMLESS = ("print",)
+_TEXT = re.compile(r"# (\w{1,64}): (.*)")
+
+
+def read(content: bytes, where: str) -> Data:
+    """Return the keys of a tableau file from Python source, which is not executed.
+
+    >>> read(b"import numpy as np\\nh = 1/2\\nA = np.array([[0, 0], [h, 0.]])\\nb = [0, 1]", "m.py")["A"]
+    [['0', '0'], ['1/2', '0']]
+    """
+    text = _decoded(content, where)
+    entries = _header(text)
+    numbers = json_table(entries.get("numbers", "{}"), f"{where}: numbers")
+    values = Values(text, numbers.keys())
+    try:
+        for statement in _parsed(text, where).body:
+            _follow(statement, values)
+        _add(entries, values, where)
+    except RecursionError:
+        raise TableauError("an expression nested too deep", where=where, expected="rows of numbers") from None
+    if not entries.keys() & set(ARRAYS):
+        raise TableauError(
+            "no arrays", where=where, expected="assignments such as  A = [[0, 0], [1, 0]]  and  b = [0, 1]"
+        )
+    return from_arrays(entries, where)
+
+
+def reason_to_skip(content: bytes) -> str:
+    """Return why a module is no tableau, or an empty text if it assigns the arrays of one.
+
+    >>> reason_to_skip(b"import os"), reason_to_skip(b"A = [[0]]\\nb = [1]")
+    ('no assignment to A and b', '')
+    """
+    try:
+        tree = _parsed(_decoded(content, ""), "")
+    except TableauError:
+        return "not valid Python"
+    assigned = {
+        name
+        for statement in tree.body
+        for name, value in _assignments(statement)
+        if isinstance(value, ast.List | ast.Tuple | ast.Call | ast.BinOp | ast.Name | ast.Subscript)
+    }
+    complete = any(assigned.issuperset(names) for names in COMPLETE)
+    return "" if complete else "no assignment to A and b"
+
+
+def _decoded(content: bytes, where: str) -> str:
+    try:
+        return content.decode()
+    except UnicodeDecodeError:
+        raise TableauError("bytes that are not UTF-8", where=where, expected="Python source") from None
+
+
+def _parsed(text: str, where: str) -> ast.Module:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # the parser warns of doubtful literals in modules of users
+            return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as problem:
+        line = getattr(problem, "lineno", None)
+        place = f"{where}: line {line}" if line else where
+        raise TableauError("invalid Python source", where=place, expected="a Python module") from None
+
+
+def _header(text: str) -> Arrays:
+    """Return the texts in the comments before the first statement."""
+    entries: Arrays = {}
+    for line in text.split("\n"):
+        if line.strip() and not line.startswith("#"):
+            break
+        if (match := _TEXT.fullmatch(line.rstrip("\r"))) and match[1] in TEXTS:
+            entries.setdefault(match[1], unescaped(match[2]))
+    return entries
+
+
+def _assignments(statement: ast.stmt) -> Iterator[tuple[str, ast.expr]]:
+    """Yield the names that a statement assigns, each with its expression."""
+    if isinstance(statement, ast.Assign):
+        for target in statement.targets:
+            if isinstance(target, ast.Name):
+                yield target.id, statement.value
+            elif isinstance(target, ast.Tuple | ast.List) and isinstance(statement.value, ast.Tuple):
+                for name, value in zip(target.elts, statement.value.elts, strict=False):
+                    if isinstance(name, ast.Name):
+                        yield name.id, value
+    elif isinstance(statement, ast.AnnAssign) and isinstance(statement.target, ast.Name) and statement.value:
+        yield statement.target.id, statement.value
+
+
+def _follow(statement: ast.stmt, values: Values) -> None:
+    """Take one statement at the top level into account."""
+    if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
+        return
+    if isinstance(statement, ast.ImportFrom):
+        names = [alias.asname or alias.name for alias in statement.names]
+        values.forget(list(values.known) if "*" in names else names, statement.lineno)
+        return
+    if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+        changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
+        values.forget(changed, statement.lineno)
+        values.assign(statement.name, Computed("a function or class", statement.lineno))
+        return
+    if isinstance(statement, ast.If) and _is_script_part(statement):
+        return
+    assigned = list(_assignments(statement))
+    if assigned and _targets_are_names(statement):
+        pairs = [(name, values.value(expression)) for name, expression in assigned]
+        for name, value in pairs:
+            values.assign(name, value)
+    elif not _entry_assigned(statement, values):
+        mentioned = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
+        values.forget(sorted(mentioned), statement.lineno)
+
+
+def _is_harmless(statement: ast.Expr) -> bool:
+    """Whether an expression is a docstring, or a call that changes none of its arguments."""
+    value = statement.value
+    if isinstance(value, ast.Call):
+        return isinstance(value.func, ast.Name) and value.func.id in HARMLESS
+    return isinstance(value, ast.Constant)
+
+
+def _is_script_part(statement: ast.If) -> bool:
+    """Whether a block runs only if the module is a script: ``if __name__ == "__main__"``."""
+    return any(isinstance(node, ast.Name) and node.id == "__name__" for node in ast.walk(statement.test))
+
+
+def _targets_are_names(statement: ast.stmt) -> bool:
+    """Whether a statement assigns whole names only."""
+    if isinstance(statement, ast.AnnAssign):
+        return True
+    return isinstance(statement, ast.Assign) and all(
+        isinstance(node, ast.Name | ast.Tuple | ast.List | ast.expr_context)
+        for target in statement.targets
+        for node in ast.walk(target)
+    )
+
+
+def _entry_assigned(statement: ast.stmt, values: Values) -> bool:
+    """Assign an entry, ``A[1, 0] = 1/2``; return False for every other statement."""
+    if not isinstance(statement, ast.Assign) or len(statement.targets) != 1:
+        return False
+    place: list[int] = []
+    target: ast.expr = statement.targets[0]
+    while isinstance(target, ast.Subscript):
+        index = target.slice
+        indices = index.elts if isinstance(index, ast.Tuple) else [index]
+        constants = [x.value for x in indices if isinstance(x, ast.Constant) and type(x.value) is int]
+        if len(constants) != len(indices):
+            return False
+        place = [*constants, *place]
+        target = target.value
+    if not place or not isinstance(target, ast.Name):
+        return False
+    return values.assign_entry(target.id, place, values.value(statement.value))
+
+
+def _add(entries: Arrays, values: Values, where: str) -> None:
+    """Add the arrays, texts and claims that the module assigns."""
+    for name in ARRAYS:
+        value = values.known.get(name)
+        if isinstance(value, Array):
+            if name in entries:
+                raise TableauError(f"two arrays {name}", where=where, expected="one")
+            cells = texts(value, f"{where}: {name}")
+            entries[name] = _row(cells) if name in ROWS else cells
+        elif isinstance(value, Computed) and name != "c":  # the abscissae follow from A
+            raise TableauError(
+                f"{value.reason}, which is not executed",
+                where=f"{where}: {name}: line {value.line}",
+                expected="rows of numbers",
+                hint=HINT,
+            )
+    for name in ("name", "family", "source", "base", "claims"):
+        value = values.known.get(name)
+        if isinstance(value, str):
+            entries.setdefault(name, value)
+        elif name == "claims" and value is not None:
+            raise TableauError(
+                "claims that are not literal",
+                where=f"{where}: claims",
+                expected='claims = "rk=4" or {"rk": 4}',
+            )
+    for name in ("order", "embedded_order"):
+        value = values.known.get(name)
+        if value is not None and not isinstance(value, Array | Computed | str):
+            entries.setdefault(name, texts(value, where))
+
+
+def _row(cells: Cells) -> Cells:
+    """Return a row; a matrix of one row or one column is a row."""
+    if isinstance(cells, list) and cells and isinstance(cells[0], list):
+        if len(cells) == 1:
+            return cells[0]
+        if all(isinstance(cell, list) and len(cell) == 1 for cell in cells):
+            return [cell[0] for cell in cells if isinstance(cell, list)]
+    return cells

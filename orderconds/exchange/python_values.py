@@ -1,0 +1,306 @@
+"""The values of expressions in Python source: numbers as coefficients, arrays, texts. Nothing is executed."""
+
+from __future__ import annotations
+
+import ast
+import json
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+from orderconds.errors import TableauError
+from orderconds.exchange.arrays import coefficient
+from orderconds.exchange.nested import Cells
+from orderconds.tableau.grammar import (
+    MAX_TEXT,
+    ZERO,
+    Chain,
+    Constant,
+    Expression,
+    Name,
+    Power,
+    parse,
+    spell,
+)
+
+ARRAY_CALLS = ("array", "asarray", "Matrix", "ImmutableMatrix", "matrix", "list", "tuple")
+NUMBER_CALLS = ("Integer", "S", "sympify", "float", "float64", "int", "Decimal", "Fraction", "Rational")
+ROUNDED_CALLS = ("Float", "mpf")
+TYPED_CALLS = ("array", "asarray", "matrix")
+"""Constructors of arrays whose entries have one type: an entry of an array of integers cannot become 1/2."""
+NARROW = ("16", "32", "complex", "int", "bool")
+"""Parts of the names of types of integers, of complex numbers, and of floats with few digits."""
+ROOTS = {"sqrt": 2, "cbrt": 3}
+OPERATORS: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
+MAX_ENTRIES = 50_000
+MAX_OPERATIONS = 5_000
+"""The maximal length of one coefficient, in numbers and operations."""
+
+
+@dataclass
+class Array:
+    """A list, a tuple or an array of values; ``integral`` if its entries stay integers."""
+
+    items: list[Value]
+    integral: bool = False
+
+
+@dataclass(frozen=True)
+class Computed:
+    """A value that only execution yields: the reason, and the line of the module."""
+
+    reason: str
+    line: int
+
+
+Value = Expression | Array | Computed | str
+"""The value of an expression: a coefficient, an array, a text, or unknown."""
+
+
+class _NotLiteral(Exception):
+    """An expression that is not understood."""
+
+    def __init__(self, node: ast.AST, reason: str) -> None:
+        super().__init__(reason)
+        self.computed = Computed(reason, getattr(node, "lineno", 0))
+
+
+@dataclass
+class Values:
+    """The names that a module has assigned so far, with their values.
+
+    ``named`` are the names of numbers that the comments of the module define.
+
+    >>> values = Values("x = 2*(1 - sqrt(2))", ())
+    >>> values.assign("x", values.value(ast.parse(values.text).body[0].value))
+    >>> texts(values.known["x"], "m.py")
+    '2*(1 - sqrt(2))'
+    """
+
+    text: str
+    named: Collection[str]
+    known: dict[str, Value] = field(default_factory=dict)
+    _lines: list[bytes] = field(default_factory=list)
+    _entries: int = 0
+
+    def value(self, node: ast.expr) -> Value:
+        """Return the value of an expression."""
+        try:
+            return self._value(node)
+        except _NotLiteral as problem:
+            return problem.computed
+        except TableauError as problem:
+            return Computed(f"{problem.found}", node.lineno)
+
+    def assign(self, name: str, value: Value) -> None:
+        """Assign a name; names of numbers that the comments define keep their definition."""
+        if name not in self.named:
+            self.known[name] = value
+
+    def assign_entry(self, name: str, place: Sequence[int], value: Value) -> bool:
+        """Assign one entry of an array; return False if there is no such entry."""
+        target = self.known.get(name)
+        for k, index in enumerate(place):
+            if not isinstance(target, Array) or not -len(target.items) <= index < len(target.items):
+                return False
+            if k == len(place) - 1:
+                if target.integral and not _is_integral(value):
+                    return False
+                target.items[index] = value
+                return not isinstance(value, Array)
+            target = target.items[index]
+        return False
+
+    def forget(self, names: Collection[str], line: int) -> None:
+        """Record that a statement may change these names, and all names that share their arrays."""
+        shared = {id(self.known[name]) for name in names if isinstance(self.known.get(name), Array)}
+        for name, value in self.known.items():
+            if name in names or id(value) in shared:
+                self.known[name] = Computed("a value that code may change", line)
+
+    def _value(self, node: ast.expr) -> Value:
+        if isinstance(node, ast.List | ast.Tuple):
+            self._entries += len(node.elts)
+            if self._entries > MAX_ENTRIES:
+                raise _NotLiteral(node, f"more than {MAX_ENTRIES} entries")
+            return Array([self._value(x) for x in node.elts])
+        if isinstance(node, ast.Constant):
+            return self._constant(node)
+        if isinstance(node, ast.Name):
+            return self._name(node)
+        if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.USub | ast.UAdd):
+            operand = self._number(node.operand)
+            return Chain(("-",), (ZERO, operand)) if isinstance(node.op, ast.USub) else operand
+        if isinstance(node, ast.BinOp):
+            return self._operation(node)
+        if isinstance(node, ast.Call):
+            return self._call(node)
+        if isinstance(node, ast.Dict):
+            return _table(node)
+        raise _NotLiteral(node, f"an expression of kind {type(node).__name__}")
+
+    def _number(self, node: ast.expr) -> Expression:
+        value = self._value(node)
+        if isinstance(value, str):
+            return parse(value)
+        if isinstance(value, Array | Computed):
+            raise _NotLiteral(node, "arithmetic with arrays" if isinstance(value, Array) else value.reason)
+        return value
+
+    def _constant(self, node: ast.Constant) -> Value:
+        if isinstance(node.value, str):
+            return node.value
+        if type(node.value) is int:
+            return Constant(Fraction(node.value))
+        if isinstance(node.value, float):
+            return parse(coefficient(self._source(node).replace("_", "")))
+        raise _NotLiteral(node, f"the value {str(node.value)[:40]}")
+
+    def _source(self, node: ast.expr) -> str:
+        """Return the text of a number, because a double does not determine the digits in the source."""
+        if not self._lines:
+            self._lines = self.text.encode().splitlines(keepends=True)
+        line = self._lines[node.lineno - 1] if node.lineno <= len(self._lines) else b""
+        return line[node.col_offset : node.end_col_offset].decode(errors="replace")
+
+    def _name(self, node: ast.Name) -> Value:
+        if node.id in self.named:
+            return Name(node.id)
+        value = self.known.get(node.id)
+        if value is None:
+            raise _NotLiteral(node, f"the name {node.id!r}")
+        return value
+
+    def _operation(self, node: ast.BinOp) -> Expression:
+        if isinstance(node.op, ast.Pow):
+            exponent = rational(self._number(node.right))
+            if exponent is None or abs(exponent.numerator) > 64 or exponent.denominator > 24:
+                raise _NotLiteral(node, "a power with such an exponent")
+            return Power(self._number(node.left), exponent)
+        # A long sum is a deep tree, so the operands of one chain are collected without recursion.
+        signs: list[str] = []
+        operands: list[ast.expr] = []
+        first: ast.expr = node
+        while isinstance(first, ast.BinOp) and _class(first.op) == _class(node.op) != "":
+            signs.append(OPERATORS[type(first.op)])
+            operands.append(first.right)
+            first = first.left
+        if not signs:
+            raise _NotLiteral(node, f"the operation {type(node.op).__name__}")
+        if len(operands) > MAX_OPERATIONS:
+            raise _NotLiteral(node, "a number that is too long")
+        values = [self._number(x) for x in (first, *operands[::-1])]
+        return Chain(tuple(signs[::-1]), tuple(values))
+
+    def _call(self, node: ast.Call) -> Value:
+        function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        arguments = node.args
+        if isinstance(node.func, ast.Name) and function in self.known:
+            raise _NotLiteral(node, f"a call of {function}, which the module defines")
+        if function in ARRAY_CALLS and len(arguments) == 1:
+            _require_doubles(node)
+            given = self._value(arguments[0])
+            return _copy(given, function in TYPED_CALLS and _is_integral(given))
+        if function == "zeros" and len(arguments) == 1:
+            return _zeros(self._value(arguments[0]), node)
+        if function in ROOTS and len(arguments) == 1:
+            return Power(self._number(arguments[0]), Fraction(1, ROOTS[function]))
+        if function in NUMBER_CALLS and len(arguments) == 2:
+            return Chain(("/",), (self._number(arguments[0]), self._number(arguments[1])))
+        if function in (*NUMBER_CALLS, *ROUNDED_CALLS) and 1 <= len(arguments) <= 2:
+            return self._converted(function, arguments[0])
+        raise _NotLiteral(node, f"a call of {function or 'a function'}")
+
+    def _converted(self, function: str, argument: ast.expr) -> Expression:
+        """Return a number from a call such as ``Fraction("1/3")`` or ``Float('0.577')``."""
+        text = argument.value if isinstance(argument, ast.Constant) else None
+        if function == "int" and not (isinstance(text, int | str)):
+            raise _NotLiteral(argument, "a call of int")
+        if function in ROUNDED_CALLS and isinstance(text, str):
+            return parse(f"{text}~" if "." in text else text)
+        return self._number(argument)
+
+
+def _class(operator: ast.operator) -> str:
+    """Return the class of operators that are combined from left to right in one chain."""
+    return {"+": "sum", "-": "sum", "*": "product", "/": "product"}.get(OPERATORS.get(type(operator), ""), "")
+
+
+def _require_doubles(node: ast.Call) -> None:
+    """Raise an error for an array of another type than float64."""
+    for keyword in node.keywords:
+        if keyword.arg == "dtype" and any(x in ast.dump(keyword.value) for x in NARROW):
+            raise _NotLiteral(node, "an array of another type than float64")
+
+
+def _is_integral(value: Value) -> bool:
+    """Whether a value is an integer, or an array of integers."""
+    if isinstance(value, Array):
+        return all(map(_is_integral, value.items))
+    if isinstance(value, Chain) and value.operators == ("-",) and value.operands[0] == ZERO:
+        value = value.operands[1]
+    return isinstance(value, Constant) and value.value.denominator == 1 and not value.unit
+
+
+def _copy(value: Value, integral: bool) -> Value:
+    """Return an array that shares no rows with the given one."""
+    return Array([_copy(x, integral) for x in value.items], integral) if isinstance(value, Array) else value
+
+
+def _zeros(shape: Value, node: ast.Call) -> Array:
+    sizes = shape.items if isinstance(shape, Array) else [shape]
+    lengths = [x.value for x in sizes if isinstance(x, Constant) and x.value.denominator == 1]
+    if len(lengths) != len(sizes) or len(sizes) not in (1, 2) or not all(1 <= n <= 200 for n in lengths):
+        raise _NotLiteral(node, "an array of zeros of this shape")
+    if len(lengths) == 1:
+        return Array([ZERO] * int(lengths[0]))
+    return Array([Array([ZERO] * int(lengths[1])) for _ in range(int(lengths[0]))])
+
+
+def _table(node: ast.Dict) -> str:
+    """Return a literal dictionary as JSON."""
+    try:
+        return json.dumps(ast.literal_eval(node))
+    except (ValueError, TypeError, RecursionError, MemoryError):
+        raise _NotLiteral(node, "a dictionary that is not literal") from None
+
+
+def rational(x: Expression) -> Fraction | None:
+    """Return an exponent as a fraction, or None if it is not a quotient of numbers.
+
+    >>> rational(parse("1/3")), rational(parse("-0.5")), rational(parse("sqrt(2)"))
+    (Fraction(1, 3), Fraction(-1, 2), None)
+    """
+    if isinstance(x, Constant) and not x.unit:
+        return x.value
+    if isinstance(x, Chain) and x.operators in (("-",), ("/",)):
+        left, right = (rational(operand) for operand in x.operands)
+        if left is None or right is None or (x.operators == ("/",) and not right):
+            return None
+        return left - right if x.operators == ("-",) else left / right
+    return None
+
+
+def texts(value: Value, where: str) -> Cells:
+    """Return the texts of an array or of a number.
+
+    >>> texts(Array([Constant(Fraction(1, 2)), ZERO]), "m.py")
+    ['0.5', '0']
+    """
+    if isinstance(value, Array):
+        return [texts(x, where) for x in value.items]
+    if isinstance(value, Computed):
+        raise TableauError(
+            f"{value.reason}, which is not executed",
+            where=f"{where}: line {value.line}",
+            expected="a number",
+            hint="write the numbers as literals, or run the file with --execute",
+        )
+    if isinstance(value, str):
+        return value
+    text = spell(value, MAX_TEXT)
+    if len(text) > MAX_TEXT:
+        raise TableauError(
+            "a coefficient that is too long", where=where, expected=f"at most {MAX_TEXT} characters"
+        )
+    return text

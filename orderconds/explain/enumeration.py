@@ -1,0 +1,141 @@
+"""Trees of one kind and order as a sequence, which a notebook draws."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import overload
+
+from orderconds.conditions import OrderCondition
+from orderconds.errors import InputError
+from orderconds.explain import kinds, lines
+from orderconds.explain.kinds import Kind, Member
+from orderconds.explain.svg import sheet
+from orderconds.explain.tikz import picture
+
+MAX_TREES = 100_000
+"""At most this number of members is enumerated; the number of members grows exponentially with the order."""
+
+DRAWN = 500
+"""A picture shows at most this number of trees."""
+
+
+@dataclass(frozen=True, repr=False)
+class ShownTree:
+    """A tree, forest or word of a kind.
+
+    >>> tree = trees("rooted", 3)[1]
+    >>> tree.text, tree.differential, str(tree.condition)
+    ('[..]', "f''(f, f)", 'sum_i b_i c_i^2 = 1/3')
+    """
+
+    kind: Kind
+    member: Member
+    order: int
+
+    @property
+    def text(self) -> str:
+        """The tree as text: ``[..]``."""
+        return self.kind.text(self.member)
+
+    @property
+    def differential(self) -> str:
+        """The elementary differential or Hamiltonian of the tree."""
+        return self.kind.names(self.member)
+
+    @property
+    def condition(self) -> OrderCondition | None:
+        """The order condition of the tree; None if the family of the kind has none for it."""
+        return self.kind.conditions(self.order).get(self.member)
+
+    def drawing(self, *, ascii_only: bool = False) -> str:
+        """Return a drawing as text, with the root in the first line."""
+        style = lines.ASCII if ascii_only else lines.UNICODE
+        return "\n".join(lines.draw(self.kind.diagram(self.member), style))
+
+    def tikz(self) -> str:
+        """Return a picture for LaTeX (package tikz, style :data:`orderconds.explain.tikz.STYLE`)."""
+        return picture(self.kind.diagram(self.member))
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return f"<{self.kind.name} {self.text}>"
+
+    def _repr_svg_(self) -> str:
+        return sheet([(self.kind.diagram(self.member), [self.text, self.differential])])
+
+
+@dataclass(frozen=True, repr=False)
+class ShownTrees:
+    """All trees of one kind and order, in the order of enumeration."""
+
+    kind: Kind
+    order: int
+
+    @cached_property
+    def members(self) -> tuple[ShownTree, ...]:
+        """The trees."""
+        return tuple(ShownTree(self.kind, member, self.order) for member in self.kind.members(self.order))
+
+    @property
+    def conditions(self) -> Mapping[Member, OrderCondition]:
+        """The order condition of each tree, by the key of the condition."""
+        return self.kind.conditions(self.order)
+
+    def __iter__(self) -> Iterator[ShownTree]:
+        return iter(self.members)
+
+    def __len__(self) -> int:
+        return self.kind.count(self.order)
+
+    @overload
+    def __getitem__(self, index: int) -> ShownTree: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[ShownTree, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> ShownTree | tuple[ShownTree, ...]:
+        return self.members[index]
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} {self.kind.name} of order {self.order}>"
+
+    def svg(self, *, explain: bool = False) -> str:
+        """Return one sheet with all drawings; with ``explain`` captions contain elementary differentials."""
+        entries = (
+            (self.kind.diagram(tree.member), [tree.text, *([tree.differential] if explain else [])])
+            for tree in self
+        )
+        return sheet(entries)
+
+    def _repr_svg_(self) -> str:
+        entries = [(self.kind.diagram(t.member), [t.text, t.differential]) for t in self.members[:DRAWN]]
+        return sheet(entries)
+
+
+def trees(kind: str, order: int) -> ShownTrees:
+    """Return all trees, forests or words of ``kind`` and ``order``, as ``orderconds trees`` lists them.
+
+    Raises :class:`~orderconds.errors.UnknownName` for an unknown kind, and
+    :class:`~orderconds.errors.InputError` for an order below 1 or with more than :data:`MAX_TREES` trees.
+
+    >>> trees("rooted", 4)
+    <4 rooted of order 4>
+    >>> [tree.text for tree in trees("rooted", 3)]
+    ['[[.]]', '[..]']
+    """
+    chosen = kinds.get(kind)
+    if order < 1:
+        raise InputError(f"order {order}", where="trees", expected="an order of at least 1")
+    members = chosen.count(order)
+    if members > MAX_TREES:
+        raise InputError(
+            f"there are {members} trees or words of order {order}",
+            where=f"trees {kind}",
+            expected=f"at most {MAX_TREES}",
+            hint="lower --order, or give --count to print only their number",
+        )
+    return ShownTrees(chosen, order)

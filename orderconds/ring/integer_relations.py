@@ -1,0 +1,89 @@
+"""Integer relations between numbers that are known to few digits, by lattice reduction.
+
+The lattice spanned by (e_k, N x_k) has a short vector if a combination of the numbers x_k with small
+integer coefficients is zero (Lenstra, Lenstra and Lovasz 1982). The result is a guess. The caller has to
+verify it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import isqrt
+
+from flint import fmpz, fmpz_mat
+
+GUARD = 6
+"""A relation of n numbers is accepted if chance yields one of this size with probability below 2^-GUARD."""
+
+
+def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
+    """Return small integers c_k with sum_k c_k values_k = 0 up to 2^-bits, or None.
+
+    >>> root = Fraction(2**0.5)
+    >>> relation([root / 2 - 1, Fraction(1), root], 50)
+    [-2, -2, 1]
+    """
+    scale = 2**bits
+    rows = [[int(k == j) for j in range(len(values))] + [round(x * scale)] for k, x in enumerate(values)]
+    reduced = fmpz_mat(rows).lll()
+    shortest = [int(reduced[0, k]) for k in range(len(values) + 1)]
+    longest = max(map(abs, shortest)).bit_length()
+    return shortest[:-1] if longest * len(values) + GUARD <= bits else None
+
+
+def square_free_part(n: int) -> int:
+    """Return the square-free d with n = d k^2, for n > 0.
+
+    >>> square_free_part(12), square_free_part(5)
+    (3, 5)
+    """
+    free = 1
+    for prime, power in fmpz(n).factor():
+        free *= int(prime) ** (power % 2)
+    return free
+
+
+def root_of(d: int, bits: int) -> Fraction:
+    """Return the square root of an integer to ``bits`` binary places, rounded down.
+
+    >>> root_of(9, 10)
+    Fraction(3, 1)
+    """
+    return Fraction(isqrt(d << 2 * bits), 1 << bits)
+
+
+def quadratic_field(x: Fraction, bits: int) -> int | None:
+    """Return the square-free d for which x seems to be p + q sqrt(d) with rational p and q, or None.
+
+    >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
+    3
+    """
+    coefficients = relation([Fraction(1), x, x * x], bits)
+    if coefficients is None or not coefficients[2]:
+        return None
+    c, b, a = coefficients
+    discriminant = b * b - 4 * a * c
+    if discriminant <= 0 or isqrt(discriminant) ** 2 == discriminant:
+        return None
+    return square_free_part(discriminant)
+
+
+def simplest(low: Fraction, high: Fraction) -> Fraction:
+    """Return the fraction with the smallest denominator between two numbers.
+
+    >>> simplest(Fraction(31, 100), Fraction(34, 100))
+    Fraction(1, 3)
+    """
+    terms: list[int] = []
+    while True:
+        whole = low.numerator // low.denominator
+        if whole == low or whole + 1 <= high:
+            terms.append(whole if whole == low else whole + 1)
+            break
+        terms.append(whole)
+        low, high = 1 / (high - whole), 1 / (low - whole)
+    value = Fraction(terms[-1])
+    for term in reversed(terms[:-1]):
+        value = term + 1 / value
+    return value

@@ -1,0 +1,126 @@
+"""A search as one call: the family, the number of stages, the order, and constraints on the coefficients."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from pathlib import Path
+from typing import Literal
+
+from orderconds import families
+from orderconds.explain.kinds import refuse_too_many_trees
+from orderconds.solve import solver
+from orderconds.solve.elimination import Infeasible
+from orderconds.solve.solver import Order, Outcome
+from orderconds.solve.spec import Spec
+from orderconds.tableau import Tableau
+
+
+@dataclass(frozen=True, repr=False)
+class SearchResult:
+    """The result of a search: ``tableau`` with its ``certificate``; or ``impossible``, a proof that there is
+    no such method; or neither.
+
+    ``best_residual`` is the least norm of the residuals of all starts, ``tried`` has one line for each
+    structure that was tried. A result is true if it has a tableau.
+    """
+
+    tableau: Tableau | None
+    certificate: str
+    error_norm: float | None
+    impossible: Infeasible | None
+    best_residual: float
+    tried: tuple[str, ...]
+    command: str
+
+    @classmethod
+    def of(cls, request: Order, outcome: Outcome) -> SearchResult:
+        """Return the result of a search."""
+        solution = outcome.solution
+        return cls(
+            tableau=None if solution is None else Tableau.loads(solution.text, request.name),
+            certificate="none" if solution is None else solution.certificate,
+            error_norm=None if solution is None else solution.error,
+            impossible=outcome.none,
+            best_residual=outcome.best,
+            tried=tuple(outcome.tried),
+            command=request.command(),
+        )
+
+    def __bool__(self) -> bool:
+        return self.tableau is not None
+
+    def __repr__(self) -> str:
+        if self.tableau is not None:
+            return f"<found {self.tableau!r}, certificate {self.certificate}>"
+        if self.impossible is not None:
+            return f"<no method exists: {self.impossible.reason}>"
+        return f"<nothing found; best residual {self.best_residual:.3g}>"
+
+    def _repr_html_(self) -> str | None:
+        from orderconds.tableau.butcher import tableau_html
+
+        return None if self.tableau is None else tableau_html(self.tableau)
+
+
+def solve(
+    family: str,
+    stages: int,
+    order: int,
+    *,
+    explicit: bool = False,
+    dirk: bool = False,
+    symmetric: bool = False,
+    fsal: bool = False,
+    fix: Sequence[str] = (),
+    positive: Sequence[str] = (),
+    size: Fraction | None = None,
+    exponentials: int = 2,
+    inner: int = 2,
+    rkn: bool = False,
+    minimise: Literal["error"] | None = None,
+    starts: int | None = None,
+    seed: int = 0,
+    processes: int = 1,
+    checkpoint: str | os.PathLike[str] | None = None,
+    name: str = "found",
+    report: Callable[[str], object] = str,
+) -> SearchResult:
+    """Find a method of ``family`` with this number of stages and this order, and prove its order.
+
+    The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
+    ``"a21=1/2"``. Contradictory constraints raise InputError. The result depends on ``seed``, and not on the
+    number of ``processes``. ``report`` is called with lines on the progress.
+
+    >>> heun = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
+    >>> heun.tableau.b, heun.certificate
+    ((Fraction(1, 2), Fraction(1, 2)), 'exact')
+    """
+    refuse_too_many_trees(families.get(family), order - 1)  # symmetric methods need no more for even order
+    spec = Spec(
+        stages=stages,
+        explicit=explicit,
+        dirk=dirk,
+        symmetric=symmetric,
+        fsal=fsal,
+        fix=tuple(fix),
+        positive=tuple(positive),
+        size=None if size is None else Fraction(size),
+        exponentials=exponentials,
+        inner=inner,
+        rkn=rkn,
+    )
+    request = Order(
+        family,
+        order,
+        spec,
+        seed=seed,
+        minimised=minimise is not None,
+        starts=starts,
+        processes=processes,
+        checkpoint=None if checkpoint is None else Path(checkpoint),
+        name=name,
+    )
+    return SearchResult.of(request, solver.solve(request, report))

@@ -1,0 +1,138 @@
+"""The keys of a tableau file from arrays of numbers: the constructors of :class:`Tableau` in Python."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from orderconds.errors import TableauError
+from orderconds.tableau.file_format import Coefficient, Data
+from orderconds.tableau.python_numbers import matrix, row
+
+Claimed = Mapping[str, int | bool] | int | None
+"""Claims in Python: orders by family (``{"rk": 4, "rkmk(1)": 3}``) and properties (``{"explicit": True}``);
+one integer is the order in the family of the format."""
+
+
+def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
+    """Return the keys of a Butcher tableau: rows of A, weights, and perhaps abscissae and embedded weights.
+
+    Rows have one entry for each stage. In a triangular array, the zeros at the end of all rows may be left
+    out. :class:`~orderconds.errors.TableauError` names the wrong entry.
+
+    >>> runge_kutta([[], [0.5]], [0, 1])
+    {'family': 'rk', 'A': [[], ['0.5']], 'b': [0, 1]}
+    """
+    weights, rows = row(b, "b"), matrix(A, "A")
+    _require_triangular_or_full(rows, len(weights))
+    data: Data = {"family": "rk", "A": rows, "b": weights}
+    if c is not None:
+        data["c"] = row(c, "c")
+    if bhat is not None:
+        data["embedded"] = {"b": row(bhat, "bhat"), "order": 1}
+        if len(data["embedded"]["b"]) != len(weights):
+            raise TableauError(
+                f"bhat has {len(data['embedded']['b'])} entries, b has {len(weights)} entries",
+                where="bhat",
+                expected="bhat as long as b",
+            )
+    return data
+
+
+def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
+    """Raise an error unless all rows have the same full length, or are those of a triangular array."""
+    lengths = [len(x) for x in rows]
+    shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
+    if len(rows) != stages:
+        raise TableauError(
+            f"A has {len(rows)} rows, b has {stages} entries",
+            where="A",
+            expected="a square A: as many rows as b has entries",
+        )
+    if lengths not in shapes:
+        raise TableauError(
+            f"rows of {', '.join(map(str, lengths))} entries",
+            where="A",
+            expected=f"{stages} rows of {stages} entries, or for an explicit method rows of "
+            f"{', '.join(map(str, shapes[1]))} entries",
+        )
+
+
+def commutator_free(
+    stages: object,
+    update: object,
+    starts: Mapping[int, int] | None = None,
+    embedded: object = None,
+) -> Data:
+    """Return the keys of a commutator-free method.
+
+    ``stages`` has one list of exponentials for each stage, and ``update`` is such a list; the first
+    exponential of a list acts first. An exponential is a row of coefficients, one for each stage; zeros at
+    its end may be left out. ``starts`` maps a stage to the earlier stage from which its product starts; both
+    are counted from 1. ``embedded`` is a second update.
+
+    >>> commutator_free([[], [[0.5]]], [[[0, 1]]])
+    Traceback (most recent call last):
+    orderconds.errors.TableauError: update[1][1]: [0, 1] of type list; expected a number: an exponential is \
+a row of coefficients, and an update is a list of exponentials
+    >>> commutator_free([[], [[0.5]]], [[0, 1]])["stage"]
+    [{}, {'exp': [['0.5']]}]
+    """
+    products = [_product(x, f"stages[{i}]") for i, x in enumerate(_listed(stages), start=1)]
+    for stage, start in (starts or {}).items():
+        if not 1 <= stage <= len(products):
+            raise TableauError(
+                f"the stage {stage}", where="starts", expected=f"a stage from 1 to {len(products)}"
+            )
+        products[stage - 1]["from"] = start
+    data: Data = {"family": "cf", "stage": products, "update": _product(update, "update")}
+    if embedded is not None:
+        data["embedded"] = {**_product(embedded, "embedded"), "order": 1}
+    return data
+
+
+def _listed(stages: object) -> list[object]:
+    if not isinstance(stages, list | tuple):
+        raise TableauError(
+            f"stages of type {type(stages).__name__}",
+            where="stages",
+            expected="a list with one list of exponentials for each stage",
+        )
+    return list(stages)
+
+
+def _product(rows: object, where: str) -> Data:
+    try:
+        exponentials = matrix(rows, where)
+    except TableauError as problem:
+        if "of type list" in problem.found:
+            problem.expected = (
+                "a number: an exponential is a row of coefficients, and an update is a list of exponentials"
+            )
+        raise
+    return {"exp": exponentials} if exponentials else {}
+
+
+def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
+    """Return the keys with name, source and claims.
+
+    >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
+    {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}
+    >>> named({"family": "rk"}, "m", "a paper", 4)
+    {'name': 'm', 'family': 'rk', 'source': 'a paper', 'claims': {'rk': 4}}
+    """
+    result: Data = {"name": name, **data}
+    if source:
+        result["source"] = source
+    if claims is None:
+        return result
+    entries = {data["family"]: claims} if isinstance(claims, int) else dict(claims)
+    table: Data = {}
+    for label, value in entries.items():
+        with_cutoff = re.fullmatch(r"(\w+)\((\d+)\)", label)
+        if with_cutoff is None:
+            table[label] = value
+        else:
+            entry = {"cutoff": int(with_cutoff[2]), "order": value}
+            table.setdefault(with_cutoff[1], []).append(entry)
+    return result | {"claims": table}

@@ -1,0 +1,153 @@
+"""Coefficients from Python: integers, fractions, texts, floats, SymPy numbers, and rows of them.
+
+The result is a coefficient of a tableau file. Floats stay doubles (:mod:`orderconds.tableau.doubles`); texts
+obey the grammar of tableau files. An error names the entry, such as ``A[2][1]``, counted from 1.
+"""
+
+from __future__ import annotations
+
+import numbers
+from collections.abc import Iterable
+from decimal import Decimal
+from fractions import Fraction
+from typing import Protocol, cast
+
+from orderconds.errors import TableauError
+from orderconds.tableau.doubles import double_text
+from orderconds.tableau.file_format import Coefficient
+
+EXPECTED = (
+    'a real number: an integer, a Fraction, a float, a SymPy number, or a text such as "1/4 - sqrt(3)/6"'
+)
+
+
+SMALL = 1024
+"""A floating-point number of less than 64 bits is exact if its denominator is at most this number."""
+
+
+class _Listed(Protocol):
+    """An array of NumPy or a matrix of SymPy."""
+
+    def tolist(self) -> list[object]: ...
+
+
+class _Narrow(Protocol):
+    """A floating-point number of NumPy that is not a double."""
+
+    itemsize: int
+
+
+def coefficient(x: object, where: str) -> Coefficient:
+    """Return a number as the coefficient of a tableau file.
+
+    Floats of NumPy with less than 64 bits become rounded decimals (``~``). TableauError is raised for
+    complex numbers, infinities, NaN and all other objects.
+
+    >>> from fractions import Fraction
+    >>> [coefficient(x, "b[1]") for x in (1, Fraction(1, 3), "sqrt(3)/6", 0.25, 0.1)]
+    [1, '1/3', 'sqrt(3)/6', '0.25', '0.1d']
+    >>> coefficient(1 + 2j, "b[1]")
+    Traceback (most recent call last):
+    orderconds.errors.TableauError: b[1]: the complex number (1+2j); expected a real number
+    """
+    if isinstance(x, bool) or type(x).__name__ == "bool":
+        raise TableauError(f"the truth value {x}", where=where, expected=EXPECTED)
+    if isinstance(x, str):
+        return str(x)
+    if isinstance(x, numbers.Integral):
+        return int(x)
+    if isinstance(x, Fraction):
+        return str(x)
+    if isinstance(x, Decimal):
+        if not x.is_finite():
+            raise TableauError(f"the number {x}", where=where, expected="a finite number")
+        return str(Fraction(x))
+    if isinstance(x, float):
+        return double_text(float(x), where)
+    return _of_a_package(x, where)
+
+
+def _of_a_package(x: object, where: str) -> Coefficient:
+    """Return a number of NumPy, SymPy or python-flint as a coefficient."""
+    package = type(x).__module__.partition(".")[0]
+    if isinstance(x, numbers.Complex) and not isinstance(x, numbers.Real):
+        raise TableauError(f"the complex number {x}", where=where, expected="a real number")
+    if package == "numpy" and isinstance(x, numbers.Real):
+        digits = {2: 3, 4: 7}.get(cast("_Narrow", x).itemsize)
+        return double_text(float(x), where) if digits is None else _rounded(float(x), digits, where)
+    if package == "sympy":
+        return _of_sympy(x, where)
+    if package in ("flint", "orderconds"):
+        return str(x)
+    shown = repr(x)
+    shown = shown if len(shown) <= 60 else f"{shown[:60]} ..."
+    raise TableauError(f"{shown} of type {type(x).__name__}", where=where, expected=EXPECTED)
+
+
+def _rounded(x: float, digits: int, where: str) -> Coefficient:
+    """Return a number of a narrow format: exact if its denominator is small, else a rounded decimal."""
+    text = double_text(x, where)
+    if Fraction(x).denominator <= SMALL:
+        return text
+    return f"{Decimal(f'{x:.{digits - 1}e}'):f}~"
+
+
+def _of_sympy(x: object, where: str) -> Coefficient:
+    """Return a real number of SymPy as a coefficient; floats of SymPy become doubles."""
+    import sympy
+
+    if not isinstance(x, sympy.Expr) or x.free_symbols:
+        raise TableauError(f"the SymPy object {x}", where=where, expected="a SymPy number without symbols")
+    if x.is_real is False:
+        raise TableauError(f"the complex number {x}", where=where, expected="a real number")
+    if x.is_Float:
+        return double_text(float(x), where)
+    text = str(x)
+    if x.has(sympy.Float):
+        return double_text(float(x), where)
+    if x.atoms(sympy.Function, sympy.NumberSymbol) or "(" in text.replace("sqrt(", "").replace("**(", ""):
+        text = str(sympy.radsimp(sympy.expand(x)))
+    return text.replace("**", "^")
+
+
+def row(values: object, where: str) -> list[Coefficient]:
+    """Return the coefficients of a sequence of numbers.
+
+    >>> row((0, 0.5, "1/2"), "b")
+    [0, '0.5', '1/2']
+    """
+    return [coefficient(x, f"{where}[{i}]") for i, x in enumerate(_entries(values, where), start=1)]
+
+
+def matrix(values: object, where: str) -> list[list[Coefficient]]:
+    """Return the coefficients of rows of numbers.
+
+    >>> matrix([[], [0.5]], "A")
+    [[], ['0.5']]
+    """
+    return [row(x, f"{where}[{i}]") for i, x in enumerate(_items(values, where), start=1)]
+
+
+def _items(values: object, where: str) -> list[object]:
+    package = type(values).__module__.partition(".")[0]
+    if package == "sympy" and hasattr(values, "tolist"):
+        return cast("_Listed", values).tolist()
+    scalar = getattr(values, "ndim", 1) == 0
+    if isinstance(values, str | bytes | dict | set) or not isinstance(values, Iterable) or scalar:
+        shown = repr(values)
+        shown = shown if len(shown) <= 60 else f"{shown[:60]} ..."
+        raise TableauError(
+            f"{shown} of type {type(values).__name__}",
+            where=where,
+            expected="a sequence of numbers, such as a list",
+        )
+    return list(values)
+
+
+def _entries(values: object, where: str) -> list[object]:
+    """Return the entries of a row; a SymPy matrix of one row or column counts as a row."""
+    items = _items(values, where)
+    if type(values).__module__.partition(".")[0] != "sympy":
+        return items
+    rows = [x for x in items if isinstance(x, list)]
+    return [x for part in rows for x in part] if 1 in (len(rows), *map(len, rows)) else items

@@ -1,0 +1,70 @@
+"""Coefficients as a user of Python sees them: fractions, floats, and real numbers with an exact text."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, cast
+
+from orderconds.ring.protocol import Element, Ring
+
+if TYPE_CHECKING:
+    import sympy
+
+    from orderconds.ring.protocol import RealRing
+
+
+@dataclass(frozen=True)
+class RealNumber:
+    """A real number that is no fraction: ``text`` as in a tableau file, and the nearest double.
+
+    ``float`` returns the nearest double, so NumPy converts it: ``numpy.array(tableau.A, dtype=float)``.
+
+    >>> root = RealNumber("sqrt(3)/6", 0.28867513459481287)
+    >>> root, float(root)
+    (sqrt(3)/6, 0.28867513459481287)
+    """
+
+    text: str
+    nearest: float
+
+    def __float__(self) -> float:
+        return self.nearest
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __repr__(self) -> str:
+        return self.text
+
+    def _repr_latex_(self) -> str:
+        from orderconds.tableau.coefficient_latex import to_latex
+
+        return f"${to_latex(self.text)}$"
+
+    def _sympy_(self) -> sympy.Expr:
+        """Return the number for ``sympy.sympify``; a rounded decimal becomes a Float."""
+        import sympy
+
+        if "~" in self.text:
+            return sympy.Float(self.nearest)
+        return sympy.sympify(self.text.replace("^", "**"), rational=True)
+
+
+Value = Fraction | float | RealNumber
+"""A coefficient: a fraction if it is rational, a float if it was given as a float, else a real number."""
+
+
+def value_of(x: Element, ring: Ring, doubles: bool = False) -> Value:
+    """Return an element of a ring as a value; ``doubles`` says that balls come from floats.
+
+    >>> from orderconds.ring import QQ
+    >>> value_of(QQ.one / 2, QQ)
+    Fraction(1, 2)
+    """
+    text = ring.text(x)
+    try:
+        return Fraction(text)
+    except ValueError:
+        nearest = cast("RealRing", ring).nearest_float(x)
+        return nearest if doubles else RealNumber(text, nearest)

@@ -1,0 +1,90 @@
+r"""Conditions for a paper: numbered equations with a column of trees, labels, and a legend."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from orderconds.conditions import OrderCondition
+from orderconds.explain import kinds
+from orderconds.explain.diagram import Diagram
+from orderconds.explain.tikz import STYLE, picture
+from orderconds.formula.equations import Equation, numbered
+from orderconds.formula.notation import latex_fraction
+from orderconds.typeset.legend import legend
+
+
+def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explain: bool = False) -> str:
+    r"""Return the conditions of a family in LaTeX; with ``explain`` comments name elementary differentials.
+
+    The first line lists the packages. The label of condition k of order n is ``FAMILY:n:k``.
+
+    >>> from orderconds.derivation import derive
+    >>> print(article("rk", derive("rk", order=2).by_order).splitlines()[0])
+    % Order conditions of the family rk up to order 2. Packages: amsmath, tikz.
+    """
+    kind = kinds.of_family(family)
+    equations, signs = [], set[str]()
+    for order, conditions in enumerate(by_order, start=1):
+        for number, condition in enumerate(conditions, start=1):
+            diagram = kind.diagram(condition.key) if kind is not None else ()
+            signs |= set(_signs(diagram))
+            label = f"{re.sub(r'[^a-z0-9]+', '-', condition.family).strip('-')}:{order}:{number}"
+            equations.append(
+                Equation(
+                    condition.latex,
+                    latex_fraction(condition.rhs),
+                    picture(diagram) if diagram else "",
+                    label,
+                    _comment(condition, explain=explain),
+                )
+            )
+    packages = ["amsmath", *(["tikz"] if kind is not None else [])]
+    library = " (library shapes.geometric)" if "transport" in signs else ""
+    head = f"% Order conditions of the family {family} up to order {len(by_order)}. "
+    head += f"Packages: {', '.join(packages)}{library}."
+    flat = [condition for conditions in by_order for condition in conditions]
+    if not flat:
+        return head
+    style = [] if kind is None else [STYLE]
+    return "\n".join([head, *style, numbered(equations), legend(family, flat) + _trees(kind, signs)])
+
+
+def _comment(condition: OrderCondition, *, explain: bool) -> str:
+    lines = [f"order {condition.order}, {condition.tree}"]
+    if explain:
+        lines.append(f"names {kinds.named_by(condition)}")
+    if condition.relation is not None:
+        lines.append(f"equals {condition.relation}")
+    return "\n".join(lines)
+
+
+def _signs(diagram: Diagram) -> list[str]:
+    """Return the signs of all vertices, and the directions of all edges."""
+    signs = list[str]()
+    for vertex in diagram:
+        signs.append(vertex.sign)
+        for branch in vertex.branches:
+            signs += [branch.edge, *_signs((branch.vertex,))]
+    return signs
+
+
+MEANINGS = {
+    "white": "black and white vertices are derivatives of the first and of the second part",
+    "outward": "an arrow leads from a derivative with respect to the position to one with respect to the "
+    "momentum",
+    "transport": "a diamond is a coadjoint action on the momentum",
+    "bracket": "two branches at a point are a commutator",
+}
+"""The meaning of each sign in drawings of trees that needs an explanation."""
+
+
+def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:
+    """Return a sentence that explains the column of trees."""
+    if kind is None:
+        return ""
+    words = signs & {"letter", "bracket"}
+    what = "word" if words else "tree"
+    text = f" The first column shows the {what} of each condition"
+    text += "" if words else ", with the root at the bottom"
+    return text + "".join(f"; {meaning}" for sign, meaning in MEANINGS.items() if sign in signs) + "."

@@ -1,0 +1,46 @@
+"""The legend of printed conditions: the definition of every symbol that occurs in them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from orderconds import families
+from orderconds.conditions import OrderCondition
+from orderconds.formula import coefficients
+from orderconds.formula.notation import LATEX
+
+
+def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
+    r"""Return one sentence in LaTeX that defines the coefficients in the conditions of a family.
+
+    Abscissae are defined by row sums, so the definition of a row sum also defines the coefficients in it.
+
+    >>> from orderconds.derivation import derive
+    >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))
+    Here $b_i$ are the weights and $c_i = \sum_j a_{ij}$ are the abscissae;
+    $a_{ij}$ are the coefficients of the stages. Sums run over all stages.
+    """
+    formulas = [condition.formula for condition in conditions]
+    symbols = [x for formula in formulas for x in coefficients(formula)]
+    known = families.family_class(family.partition("(")[0]).symbols
+    names = list(dict.fromkeys(x.name for x in symbols))
+    # A symbol that occurs only inside the definition of another one is defined, too.
+    used = [name for name in known if name in names]
+    inner = [name for name in known if name not in used and any(_occurs(name, known[u]) for u in used)]
+    defined = [known[name] for name in used]
+    text = " and ".join([", ".join(defined[:-1]), defined[-1]]) if len(defined) > 1 else "".join(defined)
+    text += "".join(f"; {known[name]}" for name in inner)
+    indices = {index[0] for x in symbols for index in x.indices}
+    return f"Here {text}.{_range(indices)}" if text else ""
+
+
+def _range(indices: set[str]) -> str:
+    """Return a sentence on the range of sums, given the first characters of all indices."""
+    if any(index.isupper() for index in indices):
+        return " Lower-case indices run over all stages, upper-case indices over all exponentials."
+    return " Sums run over all stages." if any(index.isalpha() for index in indices) else ""
+
+
+def _occurs(name: str, definition: str) -> bool:
+    """Whether a coefficient occurs in a definition."""
+    return f"{LATEX.names.get(name, name)}_" in definition.replace(r"\bar", "")
