@@ -33,7 +33,7 @@ def squares(B: Matrix) -> list[Square]:
             k = diagonal[0]
             subtract(rest[k][k], [rest[i][k] / rest[k][k] for i in n])
             continue
-        # Without a diagonal entry, 2 x y = ((x + y)^2 - (x - y)^2)/2.
+        # If all diagonal entries are zero, 2 x y = ((x + y)^2 - (x - y)^2)/2 is used.
         i, j = next((i, j) for i in n for j in n if rest[i][j])
         rate = rest[i][j] / 2
         for sign in (1, -1):

@@ -17,7 +17,8 @@ from codegen.scene.problem import Problem
 
 
 def _timed(formula: Formula) -> Part | None:
-    """Return a part that depends on the time without flows, and None for any other part. The functions before
+    """If the part depends on the time, return it without flows; return None for any other part. The functions
+    before
     this one accept parts that depend on time: kicks, and flows that the scene gives as formulas."""
     return formula.refused("it depends on the momentum and on t") if formula.timed else None
 

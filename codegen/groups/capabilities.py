@@ -136,7 +136,9 @@ class ClosedFormSeries(Coadjoint):
 
     @abstractmethod
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of the word's functions of ad_x, or of ad*_x if ``dual``, applied to v."""
+        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
+        ad_x.
+        """
 
     @abstractmethod
     def series_sum(
@@ -169,8 +171,9 @@ class MatrixRepresentation(LieGroup):
 
     @abstractmethod
     def element(self, matrix: Vector[S]) -> Vector[S]:
-        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`. It must be a
-        linear map."""
+        """Return the coordinates of an element, given its matrix: the inverse of :meth:`matrix`. The
+        coordinates must be linear in the entries of the matrix.
+        """
 
     @abstractmethod
     def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:

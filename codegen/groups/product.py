@@ -54,7 +54,7 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
     def offers(self, capability: type[C]) -> C | None:
         """Return this product as a group with a capability; None if a factor lacks the capability."""
         own = super().offers(capability)
-        if issubclass(DirectProduct, capability):  # the product has this capability, whatever its factors are
+        if issubclass(DirectProduct, capability):  # the product has this capability for all factors
             return own
         return own if all(f.offers(capability) is not None for f in self.factors) else None
 

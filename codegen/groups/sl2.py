@@ -11,7 +11,8 @@ from codegen.ir.domain import Domain
 class SL2(MatrixGroup, Projection):
     """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H.
 
-    The basis is that of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]], H =
+    The basis is the basis of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]],
+    H =
     [[1, 0], [0, -1]]; [X, Y] = H, [H, X] = 2X, [H, Y] = -2Y. A traceless matrix A has A^2 = -det A, so exp A
     = c_0(det A) + c_1(det A) A with the Stumpff functions, which are hyperbolic functions for det A < 0.
     """

@@ -60,7 +60,8 @@ def simplified(word: Word) -> Word:
         else:
             key = (f.function, f.scale, f.order)
             powers[key] = powers.get(key, 0) + f.power
-    # The loop runs over a copy, because the rule adds keys. The rule is applied at most once, because it
+    # The loop runs over a copy of the table, because the rule adds keys to the table. The rule is applied at
+    # most once, because it
     # removes the only exponential.
     for (function, scale, order), n in list(powers.items()):
         # exp(-s t) dexp(s t) = (1 - e^{-s t})/(s t) = dexp(-s t): one function replaces two.
@@ -68,7 +69,7 @@ def simplified(word: Word) -> Word:
             powers[function, scale, order] -= 1
             powers[function, -scale, order] = powers.get((function, -scale, order), 0) + 1
             rate = Fraction(0)
-    # Factors are sorted, so that the operation does not depend on the order in which the word was collected.
+    # Factors are sorted, so that equal products become equal words, whatever the order of their factors.
     factors = [Factor("exp", rate)] if rate else []
     for (function, scale, order), n in sorted(powers.items()):
         # Higher powers become repeated factors, because the evaluation of a word supports only phi and 1/phi.

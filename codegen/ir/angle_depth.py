@@ -30,7 +30,8 @@ def chain(kernel: Kernel) -> int:
     # rounding errors.
     if kernel.loops or kernel.deferred is not None:
         return 1
-    # A kernel is single assignment and ordered, so the depth of a name is known before the name is read.
+    # In a kernel each name is assigned once and before it is read, so the depth of a name is known when the
+    # name is read.
     depths: dict[str, int] = {}
     for statement in kernel.body:
         if isinstance(statement, Let):

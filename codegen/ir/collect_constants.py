@@ -38,7 +38,7 @@ def gathered(roots: Sequence[Expr], kept: Iterable[Expr] = ()) -> tuple[Expr, ..
     work = _Gathering(_powers(roots, bare))
     for node in bare:
         if node.args:
-            # A kept node is an atom: its linear combination is 1 times the node itself.
+            # A node in ``kept`` is an atom: its linear combination is 1 times the node itself.
             work.sums[node.id], work.written[node.id] = {node.id: (Number.rational(1), node)}, node
     # These are the numbers of the kept nodes, recorded before whole() adds other nodes to sums. Kept nodes
     # are not counted, because they cost the same in both forms.
@@ -59,7 +59,7 @@ def _bare(node: Expr) -> Expr:
 
 def _operations(roots: Sequence[Expr], still: set[int]) -> int:
     nodes = [node for node in walk(roots, stop=lambda n: n.id in still) if node.id not in still]
-    # A sign costs nothing, because the sum that contains the node becomes a difference.
+    # A change of sign costs nothing, because the sum that contains the node becomes a difference.
     products = sum(int(node.payload) - 1 for node in nodes if node.op == "pow")
     return products + sum(node.op not in ("const", "sym", "neg", "pow") for node in nodes)
 
@@ -117,7 +117,8 @@ class _Gathering:
         # Arguments come first, so the combinations of a node's arguments are known when it is visited.
         for node in walk([root], stop=lambda n: n.id in self.sums):
             if node.id not in self.sums:
-                # Each node is expanded only once, and all nodes that contain it use the same combination.
+                # Each node is expanded only once, and all expressions that contain the node use the same
+                # combination.
                 self.sums[node.id] = self._sum(node)
         return self._spell(root)
 
@@ -134,9 +135,10 @@ class _Gathering:
         """Return c (1/y) as d (e/y), where e is |c| of the first term that reads 1/y."""
         if not _is_inverse(atom):
             return c, atom
-        # A numerator other than 1 costs nothing, and it replaces the first reader's product. Later readers
-        # share the division: they multiply d by the ratio of their coefficient to the first one, which is
-        # often 1.
+        # A numerator other than 1 costs no more than the numerator 1, and saves the product of the first
+        # reader. Later readers
+        # share the division: they multiply d by the ratio of their coefficient to the coefficient of the
+        # first reader, which is often 1.
         numerator = self.numerators.setdefault(atom.id, _size(c))
         return c / numerator, atom.space.const(numerator) / atom.args[1]
 
@@ -203,7 +205,7 @@ class _Gathering:
         """Return (c, x) such that the node equals c x; c is 1 unless the node is a multiple of one
         expression."""
         total = self.sums[node.id]
-        # A number is not taken out of a sum, because other expressions may also contain the sum.
+        # A common factor of a sum is not taken out, because other expressions may also contain the sum.
         if len(total) != 1:
             return Number.rational(1), self._spell(node)
         ((c, atom),) = total.values()

@@ -53,7 +53,8 @@ def partials(node: Expr) -> list[Expr]:
         case "mul":
             return [args[1], args[0]]
         case "div":
-            inverse = space.one / args[1]  # both derivatives share this division
+            # the derivatives with respect to both arguments share this division
+            inverse = space.one / args[1]
             return [inverse, -(node * inverse)]
         case "neg":
             return [-space.one]

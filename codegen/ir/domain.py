@@ -82,7 +82,7 @@ def stumpff(k: int, z: float) -> float:
         return math.cos(math.sqrt(z))
     # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule begins with the smallest term. For z < 4 the first omitted term is below 1e-27.
+        # Horner's rule begins with the smallest term. If z < 4, the first omitted term is below 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -158,8 +158,8 @@ class FloatDomain:
         scale = max(map(abs, old), default=0.0)
         before = previous or 0.0
         # With the rate of convergence change/before, the remaining error is about change^2/before, which must
-        # be below half a unit in the last place. The rate is measured only once and may be wrong, so the
-        # change itself must also be small.
+        # be below half a unit in the last place. The rate is computed from only two changes and may be wrong,
+        # so the change itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
         # Changes that no longer decrease are rounding errors if they are small, and a sign of divergence if
@@ -219,7 +219,8 @@ class PreciseDomain:
             return closed[k] if k < 3 else (root - sine) / (root * z)
         total, j = self.context.mpf(0), 0
         term = self.context.mpf(1) / math.factorial(k)
-        # The limit is ten bits below the precision, so that the omitted terms do not change the sum.
+        # Terms are omitted below a limit that is ten bits smaller than the precision, so that they do not
+        # change the sum.
         while abs(term) > self.context.eps / 1024:
             total += term
             j += 1
@@ -364,7 +365,8 @@ class ExprDomain:
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
         self.h = self.space.sym("h")
-        # The node number of the time is the key of its samples, because equal times are the same node.
+        # The table of samples has the node number of the time as key, because equal times are the same
+        # expression node.
         self.samples: dict[int, tuple[Expr, dict[str, Expr]]] = {}
 
     def number(self, value: Number) -> Expr:

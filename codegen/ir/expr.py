@@ -295,8 +295,8 @@ def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> I
                     continue
                 seen.add(arg)
                 if arg.args and (stop is None or not stop(arg)):
-                    # The user of this node goes back to the stack: its remaining arguments are visited after
-                    # this one.
+                    # The expression that contains this node is put back on the stack, because its other
+                    # arguments are visited after this node.
                     users.append((node, args))
                     node, args = arg, iter(arg.args)
                     break
@@ -321,7 +321,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
 
     With an expression domain the evaluation is substitution.
     """
-    # The roots are read twice below, and an iterator would be empty the second time.
+    # The roots are copied to a list, because they are read twice below, and an iterator would be empty at the
+    # second time.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
     for node in walk(roots):

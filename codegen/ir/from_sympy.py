@@ -30,7 +30,7 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     import sympy
 
     try:
-        formula = sympy.sympify(expression, strict=True)  # strict: sympify must not parse a string
+        formula = sympy.sympify(expression, strict=True)  # with strict=True, sympify does not parse strings
     except sympy.SympifyError:
         what = f"{type(expression).__name__} {expression!r}"
         raise SceneError(what, where=where, expected="a sympy formula or a number") from None
@@ -61,7 +61,7 @@ class _Reader:
         # A rational number stays exact. A float fails this test and is refused below.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
-        # A sum is read as a chain of binary additions in sorted order, so its rounding errors also depend
+        # A sum is read as a chain of binary additions in sorted order, so that its rounding errors depend
         # only on the formula.
         if isinstance(e, sympy.Add):
             return _fold(self.space.add, [self.node(a) for a in _sorted(e)])
@@ -84,7 +84,7 @@ class _Reader:
 
         above, below = [], []
         for a in _sorted(e):
-            # sympy writes a/b as a b^-1.
+            # A quotient a/b is the product a b^-1 in sympy.
             if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
                 below.append(self._power(self.node(a.base), -a.exp, a))
             else:
@@ -109,7 +109,8 @@ class _Reader:
 def _sorted(e: sympy.Basic) -> list[sympy.Basic]:
     import sympy
 
-    # The order of args depends on hashes, which Python randomises in each process.
+    # The arguments are sorted, because sympy's order of ``args`` depends on hashes, which Python randomises
+    # in each process.
     return sorted(e.args, key=sympy.default_sort_key)
 
 

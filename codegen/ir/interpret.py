@@ -111,8 +111,8 @@ def _fixed_point_first(
 
 def inward(problem: Problem, domain: Domain, state: Mapping[str, Value]) -> tuple[Scalar, ...]:
     """Return Ad*_q mu, the momentum of the body."""
-    # The operation Ad*_q of step programs computes the result, so this function needs no formula for the
-    # group.
+    # The result is computed by the operation Ad*_q of step programs, so this function contains no formula of
+    # the group.
     (m,) = TO_BODY.evaluate(problem, domain, (state["q"], state["mu"]))
     return tuple(m)
 
@@ -236,8 +236,8 @@ def _correct(
         new = [u + d for u, d in zip(now, _solved(columns, residual), strict=True)]
         done, size = domain.settled(now, new, size)
         if near is not None:
-            # A change below the increment, which is about the square root of the rounding unit, is small
-            # enough, because the next correction squares the error.
+            # It is enough that the change is below the increment of the difference quotients, which is about
+            # the square root of the rounding unit: the next correction squares the error.
             done = all(abs(a - b) <= domain.increment(a) for a, b in zip(now, new, strict=True))
         now = new
         if done or sharp:

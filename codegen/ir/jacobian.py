@@ -71,7 +71,7 @@ class _Graph:
             self._add(root.id, -1 - i, root.space.one)
 
     def _add(self, u: int, v: int, factor: Expr) -> None:
-        # A vertex u that is not in the table depends on no variable.
+        # A vertex u is in the table only if it depends on a variable.
         if u not in self.after:
             return
         old = self.before[v].get(u)
@@ -90,13 +90,14 @@ class _Graph:
         return len(self.before[v]) * len(self.after[v])
 
     def eliminate(self) -> None:
-        """Eliminate every inner vertex, the cheapest first; among equal costs the vertex nearest to the
-        results."""
+        """Eliminate every inner vertex, the cheapest first; among vertices of equal cost the vertex nearest
+        to the results comes first.
+        """
         # The queue contains -v, so that among vertices of equal cost the vertex with the largest number comes
         # first: it is nearest to the results.
         queue = [(self._cost(v), -v) for v in self.inner]
         heapq.heapify(queue)
-        # A vertex may have several entries in the queue, of which the first valid entry counts.
+        # A vertex may have several entries in the queue; only the first valid entry is used.
         gone: dict[int, bool] = {}
         while queue:
             cost, negative = heapq.heappop(queue)

@@ -33,7 +33,8 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 
 SLOWEST = 2.0**-12
 """The least contraction factor of a sweep that is trusted. Rounding errors make a smaller measured factor
-unreliable, so it is replaced by this one."""
+unreliable, so a smaller factor is replaced by this value.
+"""
 
 UNIT = 2.0**-53
 """Half the distance from 1 to the next larger double: the largest relative rounding error."""
@@ -115,8 +116,8 @@ class Loop:
     starts: tuple[Expr, ...]
     body: tuple[Let, ...]
     images: tuple[Expr, ...]
-    # 512 rounding units. One unit is too small, because the rounding errors of all terms of a sweep change
-    # the unknowns.
+    # The tolerance is 512 rounding units. One unit would be too small, because the rounding errors of all
+    # terms of a sweep change the unknowns.
     tolerance: float = 2.0**-44
     limit: int = 100
     newton: Newton | None = None
@@ -154,13 +155,13 @@ class Start:
     extrapolated by one step. With the solutions u1, u2, ... (latest first) the values are u1, 2 u1 - u2, 3 u1
     - 3 u2 + u3 and so on. At most ``depth`` solutions are kept. The degree grows while the differences of the
     solutions decrease. The first change of the loops is the error of the extrapolation. If it exceeds
-    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. The unknowns
-    are those of all loops of the kernel, in order.
+    ``ROUGH`` times the change of the unknowns in the step, only u1 is kept for the next step. These are the
+    unknowns of all loops of the kernel, in order.
 
     If the loops do not converge, earlier solutions are dropped; then the step is halved until the loops
     converge. The solution of each step is the start of a longer step (continuation in h), until the whole
-    step is solved. The search fails after ``TRIES`` steps, or when even a step longer by the fraction
-    ``SHORTEST`` does not converge.
+    step is solved. The search fails after ``TRIES`` steps, or if a step that is longer only by the fraction
+    ``SHORTEST`` does not converge either.
     """
 
     unknowns: tuple[str, ...]
@@ -333,7 +334,7 @@ class Kernel:
         return next((s for s in self.body if isinstance(s, Start)), None)
 
     def lets(self) -> Iterator[Let]:
-        """Yield every assignment, including those inside loops."""
+        """Yield every assignment, including the assignments inside loops."""
         for statement in self.body:
             if isinstance(statement, Let):
                 yield statement

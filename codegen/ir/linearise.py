@@ -63,7 +63,7 @@ class FirstOrder:
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
-        # The coefficients v_0 and v_1 are kept apart until the end; the result is the expression v_0 + v_1 h.
+        # The coefficients v_0 and v_1 remain separate until the end, when the result v_0 + v_1 h is formed.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
@@ -81,7 +81,8 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
             if node.payload == STEP:
                 # The symbol h has the expansion 0 + 1 h.
                 return _Dual((zero, one), {})
-            # Unknowns have no term of order h: the expansion is at fixed unknowns.
+            # Unknowns have no term of order h, because the expansion in h is for fixed values of the
+            # unknowns.
             slopes = {place[node.payload]: (one, zero)} if node.payload in place else {}
             return _Dual((node, zero), slopes)
         case "add":
@@ -109,7 +110,7 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
 
 
 def _times(a: Pair, b: Pair) -> Pair:
-    # The product modulo h^2.
+    # The product of two expansions, without the term in h^2.
     return a[0] * b[0], a[0] * b[1] + a[1] * b[0]
 
 

@@ -70,7 +70,8 @@ class NormalForms:
         try:
             return self.expression(self.polynomial(root))
         except TooLong:
-            # The given expression is a valid result: the caller compares or emits it.
+            # The given expression is a valid result, too, because the caller only compares or emits the
+            # result.
             return root
 
     def polynomial(self, root: Expr) -> Polynomial:
@@ -93,7 +94,8 @@ class NormalForms:
                 case "neg":
                     value = _scaled(args[0], -ONE)
                 case "mul":
-                    # Only products can form the left side of a rule; sums of reduced polynomials are reduced.
+                    # Only products can contain the left side of a rule, so sums of reduced polynomials need
+                    # no reduction.
                     value = self._reduced(self._times(args[0], args[1]))
                 case "pow":
                     value = args[0]
@@ -116,7 +118,7 @@ class NormalForms:
 
     def expression(self, polynomial: Mapping[Monomial, Number]) -> Expr:
         """Return a polynomial as an expression; the most frequent factor is taken out first."""
-        # The terms are copied, because the polynomial may be needed for later expressions.
+        # The terms are copied, because the loop removes terms, and the polynomial may be needed again.
         terms = dict(polynomial)
         count: dict[int, int] = {}
         for monomial in terms:
@@ -179,7 +181,8 @@ class NormalForms:
     def _reduced(self, polynomial: Polynomial) -> Polynomial:
         """Return a polynomial without the left side of any relation."""
         done: Polynomial = {}
-        # popitem removes the latest entry. The order is that of insertion, so it does not depend on hashes.
+        # popitem removes the latest entry. The entries are in the order of insertion, which does not depend
+        # on hashes.
         waiting = dict(polynomial)
         # Each pass of the loop replaces one leading product. The loop ends, because the class
         # accepts only relations whose repeated replacement ends.

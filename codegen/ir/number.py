@@ -24,7 +24,8 @@ _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
 
 def is_normal(value: Fraction) -> bool:
-    """Whether a double represents this number to its full precision: it is neither too large nor denormal.
+    """Whether a double represents this number to the full precision of doubles: the number is neither too
+    large nor denormal.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
@@ -42,7 +43,7 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """The key that decides equality: equal numbers have equal keys."""
+        """The key by which numbers are compared: equal numbers have equal keys."""
         # Keys make equality decidable also for balls: coefficients with the same name in a file have equal
         # keys.
         return tuple(self.ring.key(self.element))
@@ -120,7 +121,7 @@ class Number:
         # which take time to compute.
         if self.ring is other.ring is QQ:
             return Number(QQ, self.element + other.element)
-        # For balls the sum would be a ball around 0, which no simplification recognises.
+        # The difference of equal balls would be a ball around 0, which no simplification recognises as zero.
         if self == -other:
             return Number.rational(0)
         ring, x, y = self._join(other)

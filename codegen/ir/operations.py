@@ -40,7 +40,9 @@ class Problem(Protocol):
         """Return the state after the exact flow of a part for the time tau."""
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Value, v: Value) -> Value:
-        """Return the product of a word's functions of ad_x, or of ad*_x if ``dual`` is true, applied to v."""
+        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
+        ad_x.
+        """
 
     def dimension(self) -> int:
         """Return the dimension of the Lie algebra."""
@@ -51,7 +53,9 @@ class Operation(ABC):
 
     takes: ClassVar[Kinds] = NONE
     gives: ClassVar[Kinds] = NONE
-    """The kinds of the arguments and of the results of an operation whose parameters do not change them."""
+    """The kinds of the arguments and of the results, for an operation whose kinds do not depend on its
+    parameters.
+    """
     # Passes use linearity to move factors and sums out of an operation, for example ad_x(c v + w) = c ad_x v
     # + ad_x w.
     linear_in_last: ClassVar[bool] = False
@@ -156,7 +160,8 @@ class Linear(Operation):
             for x in vectors[1:]:
                 part = tuple(a + b for a, b in zip(part, x, strict=True))
             if not c.is_one:
-                # A product by 1 is omitted, because over power series it would be a full multiplication.
+                # A product by 1 is omitted, because in power series it would cost as much as any other
+                # product.
                 factor = c.evaluate(domain)
                 part = tuple(factor * a for a in part)
             total = part if total is None else tuple(a + b for a, b in zip(total, part, strict=True))
@@ -275,8 +280,8 @@ class Adjoint(OfGroup):
 
     def opposite(self) -> Adjoint:
         """Return the inverse operation, with the same g."""
-        # Ad_g Ad_{g^-1} = 1. The plain duals are inverse to each other, too, although they reverse the order
-        # of products: Ad*_{gk} = Ad*_k Ad*_g.
+        # Ad_g Ad_{g^-1} = 1. The same holds for the duals, although they reverse the order of products:
+        # Ad*_{gk} = Ad*_k Ad*_g.
         return Adjoint(self.dual, not self.inverse)
 
 

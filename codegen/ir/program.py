@@ -50,7 +50,7 @@ class Assign:
             return ()
         return tuple(zip(self.operation.coefficients, self.args, strict=True))
 
-    # Some passes move the coefficient of c x out of a linear map: L(c x) = c L(x).
+    # This test is for passes that move the coefficient of c x out of a linear map: L(c x) = c L(x).
     @property
     def is_multiple(self) -> bool:
         """Whether the operation is a combination of one term: one coefficient times one value."""
@@ -125,7 +125,7 @@ class Program:
     frame: str = SPACE
 
     def assigns(self) -> Iterator[Assign]:
-        """Yield every assignment in order, including those inside blocks."""
+        """Yield every assignment in order, including the assignments inside blocks."""
         for statement in self.body:
             if isinstance(statement, Assign):
                 yield statement
@@ -226,8 +226,8 @@ class Builder:
     def lin(self, target: str, kind: Kind, terms: list[tuple[Coefficient, Var]]) -> Var:
         """Append target = sum of coefficient * variable; an empty sum is ``zero``."""
         var = self.fresh(target, kind)
-        # Terms with coefficient zero are omitted, because passes read the dependences between stages from the
-        # arguments.
+        # Terms with coefficient zero are omitted, because passes regard a stage as dependent on each argument
+        # of its sums.
         terms = [(c, v) for c, v in terms if not c.is_zero]
         operation = Linear(tuple(c for c, _ in terms)) if terms else Zero(kind)
         self.body.append(Assign((var,), operation, tuple(v for _, v in terms)))

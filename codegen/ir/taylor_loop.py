@@ -43,8 +43,8 @@ class OrderLoop:
 
     ``first`` are the values of ``names``, which later orders read. ``start`` are the coefficients 1 of the
     coordinates, ``following`` the coefficients n + 1; they read the coefficients n, called ``coordinates``,
-    and the inner sums, called ``sums``. Inner sum k is that of the coefficients of ``left[k]`` and
-    ``right[k]``, whose coefficients of order n are given.
+    and the inner sums, called ``sums``. Inner sum k is formed from the coefficients of two series;
+    ``left[k]`` and ``right[k]`` are the coefficients n of these series.
     """
 
     names: tuple[str, ...]

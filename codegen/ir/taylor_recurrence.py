@@ -195,7 +195,7 @@ class _Builder:
                 self.shared[key] = Logarithm(domain, a)
             case "sin" | "cos":
                 # The recurrence of the sine contains coefficients of the cosine, and the recurrence of the
-                # cosine those of the sine.
+                # cosine contains coefficients of the sine.
                 sine, cosine = (
                     Circular(domain, "sin", a, slope, False),
                     Circular(domain, "cos", a, slope, True),

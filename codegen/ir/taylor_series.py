@@ -55,7 +55,7 @@ class Given(Series):
         self.closed = closed
 
     def following(self, n: int) -> Coefficient:
-        """Return None, because all further coefficients are zero."""
+        """Return None for a coefficient that was not given: all further coefficients are zero."""
         assert self.closed, f"coefficient {n} is not known yet"
         return None
 

@@ -9,7 +9,8 @@ from codegen.ir.domain import Domain, Scalar
 from codegen.ir.number import Number
 
 
-# The dual is a separate kind: Ad and Ad* differ, and a pairing needs an element of each space.
+# The dual of the algebra is a separate kind, because Ad and Ad* differ, and because a pairing needs an
+# element of each space.
 class Kind(StrEnum):
     """The type of a value: ``Alg`` is the Lie algebra, ``Dual`` its dual, ``Point`` the manifold acted on."""
 

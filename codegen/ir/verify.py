@@ -39,7 +39,8 @@ class _Verifier:
         inputs = {v.name: v.kind for v in self.program.inputs}
         for name, var in self.program.outputs:
             self.use(var, f"output {name}")
-            # The embedded solution has its own name, but its kind must be the kind of the input y.
+            # The output with the embedded solution has another name than the input y, but must have the same
+            # kind.
             if inputs.get("y" if name == EMBEDDED else name) != var.kind:
                 raise IllFormed(f"{self.program.name}: output {name} replaces no input of kind {var.kind}")
 
@@ -73,7 +74,8 @@ class _Verifier:
         _shape(self.program.name, block)
         for start in block.starts:
             self.use(start, f"the starts of {block.label}")
-        # Starts are checked before the unknowns are defined, because starts cannot depend on the solution.
+        # Starts are checked before the unknowns are recorded as defined, because starts must not depend on
+        # unknowns.
         for unknown in block.unknowns:
             self.define(unknown, block.label)
         for assign in block.body:

@@ -38,8 +38,8 @@ class Assignments:
 
     def run(self) -> tuple[Let | Start | Loop, ...]:
         """Return the kernel's body and set ``outputs``."""
-        # Uses and levels are counted for all roots together: a value that two blocks share must get a single
-        # name.
+        # Uses and levels are computed for all roots together, because a value that two blocks share must get
+        # a single name.
         self._prepare()
         if self.blocks and self.remembers:
             self.body.append(self._start())
@@ -48,7 +48,8 @@ class Assignments:
             # If the kernel remembers solutions, one statement before all loops starts all of them.
             own = () if self.remembers else block.starts
             starts = tuple(self._place(x, self.body, [], -1) for x in own)
-            # The leading matrix comes before the body, because it is computed outside the sweeps and must not
+            # The matrix to leading order in h comes before the body, because it is computed outside the
+            # sweeps and must not
             # read body values.
             before = self._newton(block) if block.leading else None
             images = tuple(self._place(x, self.body, inside, k) for x in block.images)
@@ -60,8 +61,8 @@ class Assignments:
                     inside.append(Let(name, value))
             # An exact matrix comes after the body, because it depends on the unknowns and reads body values.
             matrix = self._newton(block) if block.matrix and not block.leading else before
-            # Newton's last correction changes the unknowns after the body; body values belong to the unknowns
-            # before it.
+            # After the body, Newton's method corrects the unknowns once more. The values of the body belong
+            # to the unknowns before this correction.
             recomputed = matrix is not None and (matrix.residuals or self._is_short(k))
             if recomputed:
                 self._forget(k)
@@ -97,8 +98,8 @@ class Assignments:
                 self.uses[arg.id] = self.uses.get(arg.id, 0) + 1
             levels = [self.level[a.id] for a in node.args]
             own = owner.get(node.payload, -1) if node.op == "sym" else -1
-            # The latest block counts: a value cannot be computed before all unknowns that it depends on are
-            # known.
+            # The level of a node is the latest block on which it depends, because a value cannot be computed
+            # before all of its unknowns are known.
             self.level[node.id] = max([own, *levels])
 
     def _start(self) -> Start:
@@ -134,10 +135,12 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Whether computing all later values that depend on block k costs less than half of its sweep."""
+        """Whether computing all later values that depend on block k costs less than half a sweep of block
+        k.
+        """
         rest = [*self._later(k), *self.roots]
-        # Recomputed values belong to the corrected unknowns: they replace a last sweep at less than half its
-        # cost.
+        # Recomputed values belong to the corrected unknowns. They replace an additional sweep, at less than
+        # half of its cost.
         return self._work(rest, k) < self._work(self.blocks[k].images, k) / 2
 
     def _work(self, roots: Iterable[Expr], k: int) -> int:
@@ -148,7 +151,8 @@ class Assignments:
 
     def _forget(self, k: int) -> None:
         """Forget the names of body values of block k: later statements compute them again."""
-        # Once its entry is deleted, ``_place`` computes a value again, from the corrected unknowns.
+        # After the entry of a value is deleted, ``_place`` computes the value again, from the corrected
+        # unknowns.
         nodes = walk([x for b in self.blocks for x in b.targets()] + list(self.roots))
         for node in nodes:
             if self.level[node.id] == k and node.args:
@@ -167,12 +171,12 @@ class Assignments:
             # expression.
             rebuilt = node.space._make(node.op, args, node.payload) if node.args else node
             size = 1 + sum(self.size.get(a.id, 0) for a in args) if node.args else 0
-            # A value from outside the loop needs a name even with one reader, else it would be computed
-            # inside.
+            # A value from outside the loop needs a name even if it has one reader. Without a name it would be
+            # computed inside the loop.
 
             crosses = loop >= 0 and target is outer
             shared = self.uses[node.id] > 1 or size >= INLINE or crosses
-            # The negative of a symbol is free in every target, so a name would only add a line.
+            # The negative of a symbol costs nothing in any target, so a name for it would only add a line.
             trivial = not node.args or (node.op == "neg" and not args[0].args)
             if shared and not trivial:
                 symbol = self._let(node, rebuilt, target)

@@ -32,13 +32,13 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """Whether the program and the emitted code use the same frame."""
+        """Whether the program and the emitted code use the same frame for momenta."""
         # If both use space, or both the body, the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 
     @property
     def _size(self) -> int:
-        """The number of components before the momentum."""
+        """The number of components of the state before the momentum."""
         group = self.scene.body_group or self.scene.group
         return int(group.size)
 
@@ -56,7 +56,8 @@ class Frames:
 
     def end(self, domain: ExprDomain, state: State, start: State, new: State) -> State:
         """Return the kernel's new state, computed from the program's; ``start`` is ``begin`` of ``state``."""
-        # Without an embedded solution the second state is empty.
+        # The second state belongs to the embedded solution; it is empty for a method without an embedded
+        # solution.
         if self._alike or not new:
             return new
         q = new[: self._size]
@@ -81,7 +82,9 @@ class Frames:
         )
 
     def carried(self, domain: ExprDomain) -> Carried | None:
-        """Return how a run transforms the momentum at its beginning and end; None if it does not."""
+        """Return how a run transforms the momentum at its beginning and end; None if a run does not transform
+        it.
+        """
         # A run transforms nothing if the state contains momenta of the body, or if each step transforms them.
         if self._alike or self.whole or self.scene.body_group is not None:
             return None

@@ -20,15 +20,18 @@ from codegen.kernel.translate import AS_WRITTEN, COMBINED, ORDERED, SHORTENED, t
 from codegen.scene.problem import Problem
 
 CALL = 10
-"""A function call counts as this many operations; chosen with ``benchmarks/emitted.py``.
+"""A function call counts as this many operations. The number was chosen with ``benchmarks/emitted.py``.
 
-With 20, all emitted files stay the same. With 5, the files of five explicit methods change. To repeat this
+With 20 in place of 10, all emitted files stay the same. With 5, the files of five explicit methods change. To
+repeat this
 comparison, edit the value and type ``orderconds regenerate --check``."""
 
 WIDTH = 8
 """The number of independent operations that a processor completes during one addition.
 
-Chosen with ``benchmarks/emitted.py``. With 16, all emitted files stay the same. With 4, the files of
+The number was chosen with ``benchmarks/emitted.py``. With 16 in place of 8, all emitted files stay the same.
+With 4, the
+files of
 ``rkmk:rk4`` on free_rigid_body and of one splitting change. Repeat the comparison as for :data:`CALL`."""
 
 
@@ -40,17 +43,20 @@ def fastest(program: Program, scene: Problem) -> Kernel:
     if not all(isinstance(statement, Assign) for statement in program.body):
         return to_kernel(program, scene)
     flows = any(isinstance(assign.operation, FLOWS) for assign in program.assigns())
-    # Without flows all variants give the same columns; only the order of constant factors is tried.
+    # In a program without flows all variants of the group give the same kernel, so only the order of constant
+    # factors is tried.
     if not flows and scene.group.offers(CotangentBundle) is None:
         return _shortest([to_kernel(program, scene, chains=chains) for chains in (AS_WRITTEN, COMBINED)])
-    # Run-time inputs are sampled in every step, so no flow is deferred if the scene has any. The core is the
+    # Run-time inputs are sampled in every step, so no flow is deferred if the scene has run-time inputs. The
+    # core is the
     # step without its deferred flows; only the core is computed in every step, so only the core is compared.
     parted = None if scene.inputs else part(program, scene)
     core = program if parted is None else parted.core
     # All variants are compiled and compared, because the common subexpressions of the scene decide which is
     # shortest.
     candidates: list[tuple[Kernel, Problem, int]] = []
-    # Each variant is compiled twice: with reordering alone, and with the critical path shortened.
+    # Each variant is compiled twice: with products and assignments in another order only, and with a
+    # shortened critical path.
     for group in scene.group.variants():
         problem = replace(scene, group=group)
         for chains in (ORDERED, SHORTENED):
@@ -72,5 +78,6 @@ def time(kernel: Kernel) -> tuple[float, int]:
     """Return a step's estimated time, in additions, and its number of operations, which decides ties."""
     nodes = walk(kernel.expressions())
     work = sum(CALL if n.op == "call" else int(n.op not in ("const", "sym", "neg")) for n in nodes)
-    # A simple model of the time of a step is the sum of a latency bound and a throughput bound.
+    # The time of a step is estimated by the sum of two lower bounds, from the latency and from the throughput
+    # of operations.
     return chain(kernel) + work / WIDTH, work

@@ -2,7 +2,8 @@
 
 A processor executes several products at a time, but a step of flows is one chain of dependent operations. The
 chain leads from an angle through its sine and cosine, the rotated attitude and the kicked momentum to the
-next angle. Values c of functions are computed late in this chain. An expression that is linear in such
+next angle. The values c of the sine and the cosine are known late in this chain. An expression that is linear
+in such
 values, k (m - g (d + c_1 v + c_2 w)), is rewritten as k (m - g d) - c_1 (k g v) - c_2 (k g w). Three
 operations then follow c instead of six. The rewriting is exact, but adds a few products, so only the longest
 chain is rewritten.
@@ -19,8 +20,8 @@ from codegen.ir.kernel import Kernel, Let
 TIMES = {"const": 0, "sym": 0, "neg": 0, "add": 1, "sub": 1, "mul": 1, "pow": 1, "div": 4, "call": 6}
 """Latency of operations, in units of an addition.
 
-On x86 processors additions and products of doubles take about four cycles, a division about 14. The latency
-of a function is that of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
+On x86 processors additions and products of doubles take about four cycles, a division about 14. A function
+has the latency of its polynomial. ``benchmarks/emitted.py`` times the resulting steps. The values
 matter little: with a division of 2 or 8, none of five explicit methods of the gallery changes. With a call of
 3 or 12, only splitting:blanes_moan_rkn4 on fast_heavy_top changes, and keeps its number of operations."""
 
@@ -28,7 +29,7 @@ ATOMS = frozenset({"call", "div"})
 """Operations with a long latency."""
 
 SLACK = 1
-"""A chain is rewritten if it is at most this much shorter than the longest chain, in units of an addition.
+"""Besides the longest chain, chains are rewritten that are shorter by at most this number of additions.
 
 A chain of nearly the longest length would otherwise become the critical path. The value hardly
 matters: with 0, 2 or 4 all emitted files stay the same; without a limit the splittings of fast_heavy_top
@@ -138,7 +139,8 @@ class _Chains:
             # late value.
             if node.id in ends and node.op in ("add", "sub", "mul"):
                 short = self._expression(self._sum(node, self.level[node.id]), node.space)
-                # The sum over late values has more products, so it is used only if it is ready earlier.
+                # The sum over late values has more products than the given expression, so it is used only if
+                # it is ready earlier.
                 if self.ready[short.id] < self.ready[plain.id]:
                     self.new[node.id] = short
         return tuple(self.new[r.id] for r in self.roots)
@@ -148,8 +150,8 @@ class _Chains:
         ends = set()
         for node in self.nodes:
             for arg in node.args:
-                # The chain through this argument is much shorter than the longest: shortening it gains
-                # nothing.
+                # The chain through this argument is much shorter than the longest chain, so shortening it
+                # would gain nothing.
                 if self.longest - self.ready[arg.id] - TIMES[node.op] - self.follow[node.id] > SLACK:
                     continue
                 others = [a for a in node.args if a is not arg]
@@ -213,7 +215,8 @@ class _Chains:
             product = self._product(steps, rest)
             terms.append((sign, product if atom is None else self._known(atom * product)))
         while len(terms) > 1:
-            # Adding the two earliest terms first gives the earliest sum, as in Huffman coding.
+            # Always adding the two terms that are ready first gives the sum that is ready earliest, as in
+            # Huffman coding.
             terms.sort(key=lambda term: self.ready[term[1].id])
             (p, x), (q, y), *others = terms
             # A subtraction includes the sign at no cost; only a sum of two negative terms needs a negation at

@@ -1,4 +1,4 @@
-"""Flows deferred across steps: the leading flow of a step, and flows that commute with all others.
+"""Flows deferred across steps: the leading flow of a step, and flows that commute with all other flows.
 
 If a step of a splitting ends with the flow that the next step begins with, these two flows are joined. The
 leading flow is then applied once before the first step. A part that commutes with every other part is applied
@@ -43,21 +43,23 @@ def part(program: Program, scene: Problem) -> Parted | None:
     letters = word(program)
     if letters is None:
         return None
-    # Commuting is tested at sample points, because the bracket of two commuting formulas need not simplify to
-    # zero.
+    # Whether flows commute is tested at sample points, because the formula of a bracket that is zero need not
+    # simplify to zero.
     commute = commuting(scene)
-    # If a flow has a duration other than h, or a stage time, its place in the step matters.
+    # A flow with another duration than h, or with a stage time, cannot be moved, because its result depends
+    # on its place in the step.
     bound = {letter.part for letter in letters if letter.time or not _is_h(letter)}
     free = [name for name in apart(letters, commute) if name not in bound]
-    # A free part commutes with all other parts, so removing it does not affect the order of the others.
+    # A free part commutes with all other parts, so removing the free part does not change the order of the
+    # other parts.
     kept = [letter for letter in letters if letter.part not in free]
     spun = [letter for letter in letters if letter.part in free]
     joined = _joined(kept, commute, program)
-    # If all flows of a step were free, the core would be empty.
+    # If all flows of a step were free, no flow would remain for the core of the step.
     if not kept or not (joined or spun):
         return None
     lead, elapsed = Var(LEAD, Kind.REAL), Var(ELAPSED, Kind.REAL)
-    # All joined flows have the same pair of durations, because ``_joined`` keeps only flows with the same
+    # All joined flows have the same pair of durations, because ``_joined`` returns only flows with the same
     # durations.
     last, later = joined[0][2:] if joined else (Number.rational(0), Number.rational(0))
     heads, tails = {i for i, _, _, _ in joined}, {j for _, j, _, _ in joined}
@@ -86,13 +88,13 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 def _is_h(letter: Letter) -> bool:
     """Whether a flow has duration h, as each part of a consistent splitting does, proved or not."""
-    # The duration is compared in doubles, because a ball around one cannot prove equality, but is rounded to
-    # one.
+    # The comparison rounds the duration to a double. A ball around one cannot prove that the duration is one,
+    # but the ball is rounded to one.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0
 
 
 Timed = tuple[Letter, Var | None]
-"""A flow, and the variable that replaces its duration; None keeps the duration of the program."""
+"""A flow, and the variable that replaces its duration; None if the flow keeps its duration in the program."""
 
 JoinedFlows = tuple[int, int, Number, Number]
 """The index of a first flow, the index of a last flow, the duration of the last flow, and the duration of
@@ -110,7 +112,7 @@ def _joined(
     pairs: list[JoinedFlows] = []
     for i, head in enumerate(kept[:begin]):
         for k, tail in enumerate(kept[::-1][:end]):
-            # i < j, because a flow cannot be joined with itself.
+            # The condition i < j excludes joining a flow with itself.
             j = len(kept) - 1 - k
             timely = not head.time or (head.time[0].name == "t" and tail.time == last)
             if head.part == tail.part and i < j and timely:

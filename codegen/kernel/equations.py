@@ -39,7 +39,8 @@ as its emitted header states. A limit of 6000 gives the same kernels."""
 WEIGHT = {"call": 10, "div": 4, "neg": 0}
 """Costs of operations in additions or products; other operations cost one.
 
-These are rough latencies. They only decide whether one cost is below half of another, so exact values do not
+These are rough latencies. They only decide whether one cost is below half of another cost, so exact values do
+not
 matter."""
 
 
@@ -90,7 +91,8 @@ def compared(
     changes = tuple(name(f"d_{u}") for u in entered.unknowns)
     kept: list[tuple[str, Expr]] = []
     for var in (target for assign in block.body for target in assign.targets):
-        # Group elements and points are not vectors: adding a derivative would leave the manifold.
+        # Group elements and points are not vectors: the sum of a point and a derivative would not be on the
+        # manifold.
         if var.kind not in (Kind.ALG, Kind.DUAL) or (many and var not in later):
             continue
         try:
@@ -152,7 +154,8 @@ def with_matrix(block: Block, solver: str) -> Block:
     """Return the block with the matrix of Newton's method, exact or to first order."""
     leading = solver == SIMPLIFIED_NEWTON
     rows = (newton.leading_matrix if leading else newton.matrix)(block.images, block.unknowns)
-    # With the first-order matrix the error shrinks by O(h^2) a sweep: more sweeps, but each is far shorter.
+    # With the first-order matrix each sweep reduces the error by a factor O(h^2). More sweeps are necessary,
+    # but each sweep is far shorter.
     if not leading and _own(rows, block.images) > LONGEST_MATRIX:
         rows = newton.leading_matrix(block.images, block.unknowns)
     inverted = len(rows) <= newton.SMALL
@@ -163,7 +166,7 @@ def with_matrix(block: Block, solver: str) -> Block:
 
 def _own(rows: Iterable[Iterable[Expr]], images: Sequence[Expr]) -> int:
     """Return the number of operations of a matrix that do not also occur in the images."""
-    # The images are computed anyway, so common subexpressions with them are free.
+    # The images are computed anyway, so subexpressions that the matrix shares with the images cost nothing.
     shared = {n.id for n in walk(images)}
     return sum(1 for n in walk([x for row in rows for x in row]) if n.args and n.id not in shared)
 
@@ -188,7 +191,7 @@ class Solved:
             if node.id not in self.known:
                 args = tuple(self.known[a.id] for a in node.args)
                 same = all(a is b for a, b in zip(args, node.args, strict=True))
-                # If no argument changed, the old node is kept, which preserves the sharing of equal nodes.
+                # If no argument has changed, the old node is returned, so that equal nodes remain shared.
                 self.known[node.id] = node if same else self._rebuilt(node, args)
         return self.known[root.id]
 

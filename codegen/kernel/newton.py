@@ -32,7 +32,7 @@ AT_ZERO = {
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
     **{name: function.at_zero for name, function in ELEMENTARY.items()},
 }
-"""Values of functions at zero; None for a pole."""
+"""The values of functions at zero; None for a function with a pole at zero."""
 
 
 def matrix(images: Sequence[Expr], unknowns: Sequence[str]) -> Rows:
@@ -74,8 +74,8 @@ class _AtZero(ExprDomain):
 
 def _at_zero(space: Space, roots: Sequence[Expr]) -> list[Expr]:
     """Return the roots at h = 0."""
-    # The roots are evaluated and not substituted, so that expressions that become constant at h = 0 are
-    # simplified.
+    # The roots are evaluated at h = 0, because a mere substitution would not simplify expressions that become
+    # constant.
     names = {n.payload for n in walk(roots) if n.op == "sym"}
     # The names are sorted, so that node numbers do not depend on hashes.
     values = {name: space.zero if name == "h" else space.sym(name) for name in sorted(names)}
@@ -87,7 +87,8 @@ def inverse(rows: Rows) -> Rows:
     space = rows[0][0].space
     n = len(rows)
     cofactors = [[_cofactor(rows, i, j) for j in range(n)] for i in range(n)]
-    # Cofactors need no pivots, so no branches on data. An inaccurate inverse only slows the iteration down.
+    # Cofactors need no pivots, and therefore no branches that depend on data. An inaccurate inverse only
+    # slows the iteration down.
     determinant = space.zero
     for entry, cofactor in zip(rows[0], cofactors[0], strict=True):
         determinant = determinant + entry * cofactor

@@ -30,7 +30,8 @@ def operations(arrangement: Arrangement) -> dict[str, dict[str, int]]:
     Further keys count one sweep of each block, and the entries of the block's Newton matrix without the
     inversion. Changes of sign, comparisons, extrapolation and the stopping rule are not counted.
     """
-    # The operations of a function count at each of its calls, so totals are comparable with unoutlined steps.
+    # The operations of an outlined function count at each call, so that totals can be compared with steps
+    # without outlined functions.
     inside = {function.name: operations(inner)[STEP] for function, inner in arrangement.outlined}
 
     def count(statements: Iterable[Simple], more: Iterable[Expr]) -> dict[str, int]:
@@ -137,7 +138,7 @@ def _counted(
             roots += statement.arguments
         elif isinstance(statement, SharedCall):
             total = _plus(total, {statement.function: 1})
-            # A call that returns several orders counts as one call.
+            # A call that returns several Stumpff functions counts as one call.
             roots.append(statement.argument)
         else:
             roots.append(statement.value)

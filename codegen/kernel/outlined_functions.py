@@ -30,7 +30,8 @@ class _Inputs:
     def take(self, words: Sequence[str]) -> Values:
         """Return the next inputs, named after the function and these words."""
         first = len(self.symbols)
-        # A constant argument is replaced by its value, which may be combined with other constants.
+        # A constant argument is replaced by its value, so that the value can be combined with other
+        # constants.
         for word, constant in zip(words, self.fixed[first:], strict=False):
             self.symbols.append(self.space.sym(f"{self.name}.{word}") if constant is None else constant)
         return tuple(self.symbols[first:])
@@ -52,7 +53,7 @@ def function(
 ) -> tuple[Function, list[int], list[str]]:
     """Return the function for a tree, and its arguments: positions of inputs of the tree, then parameters.
 
-    The parameters are those of the scene that operations of the tree read at run time.
+    The parameters are the scene's parameters that operations of the tree read at run time.
     ``read`` are the indices of the results that the function computes. ``fixed`` has, for each input
     (:meth:`codegen.kernel.repeated_trees.Trees.inputs`), the constant that is the same in every call, or
     None.
@@ -95,10 +96,10 @@ def function(
             results += own
             texts += [f"{assign.operation.text()}({', '.join(names)})"] * len(own)
     targets = trees.executions[tree.root].assign.targets
-    # The last results are the root's, and only the root's results are read outside the tree.
+    # The last results are the results of the root. Only they are read outside the tree.
     ends = [x for v, y in zip(targets, results[-len(targets) :], strict=True) for x in flatten(v.kind, y)]
     outputs = tuple(ends[k] for k in read)
-    # An argument may be read by unused results only; such arguments are dropped.
+    # An argument that only unused results read is dropped.
     taken = inputs.read(outputs)
     own_inputs = [inputs.symbols[p].payload for p in taken]
     parameters = sorted({n.payload for n in walk(outputs) if n.op == "sym"} - set(own_inputs))
@@ -120,7 +121,8 @@ def calls(kernel: Kernel) -> dict[str, int]:
     for node in walk(kernel.expressions()):
         name = node.payload.partition(".")[0] if node.op == "call" else ""
         if name in places:
-            # A call has several results, each with its own expression; equal arguments mean the same call.
+            # A call has several results, and each result has its own expression. Expressions with equal
+            # arguments belong to the same call.
             places[name][tuple(a.id for a in node.args)] = None
     return {name: len(calls_of_it) for name, calls_of_it in places.items()}
 
@@ -142,7 +144,8 @@ class WithFunctions:
         function = self.functions[name]
         values = dict(zip(function.inputs, args, strict=True))
         for let in function.body:
-            # The body is evaluated in this domain, because functions may call other functions.
+            # The body of a function is evaluated in the same domain, because a function may call other
+            # functions.
             (values[let.name],) = evaluate([let.value], self, values)
         (value,) = evaluate([function.outputs[int(k)]], self, values)
         return value
@@ -169,8 +172,8 @@ def rewritten(
     """Return the roots with nodes replaced by calls; the arguments of the calls are rewritten, too."""
     new: dict[int, Expr] = {}
     for root in roots:
-        # Arguments of replaced nodes are rewritten as well. An explicit stack, because recursion would be too
-        # deep.
+        # Arguments of replaced nodes are rewritten as well. The traversal uses an explicit stack, because
+        # recursion would be too deep.
         waiting = [root]
         while waiting:
             node = waiting[-1]
@@ -178,7 +181,8 @@ def rewritten(
                 waiting.pop()
                 continue
             call = calls.get(node.id)
-            # A replaced node depends on the arguments of its call; its old operands may be unused.
+            # After a node is replaced by a call, it depends on the arguments of the call only; its old
+            # operands may be unused.
             below = node.args if call is None else call[2]
             missing = [a for a in below if a.id not in new]
             if missing:

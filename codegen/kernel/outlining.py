@@ -5,7 +5,7 @@ differ only in their operands and in the coefficients of their sums. Both become
 (:mod:`codegen.kernel.outlined_functions`). The function computes only the results that are read, and has only
 the arguments on which these results depend. Separate calls cannot share common subexpressions, such as the
 sine and cosine of one angle, and compute them again. Smaller code is worth this cost only for long steps, so
-only these are outlined.
+only long steps are outlined.
 
 The rewriting is exact. To verify it, the old and the new expressions are evaluated at one point.
 """
@@ -30,14 +30,16 @@ LONG, LONG_EXPLICIT = 700, 500
 """Steps with fewer assignments are not outlined; the limits are for implicit steps and for explicit steps.
 
 An explicit step has no loop, so its code fills the instruction cache sooner: with outlining cg:cg5 on the
-dipole has 545 lines, not 2345, and takes a third less time. Doubling either limit gives the same kernels for
-nine methods of the gallery. To choose the numbers again, set both to 0 and compare ``orderconds bench
+dipole has 545 lines, not 2345, and takes a third less time. If either limit is doubled, the kernels of nine
+methods of the gallery do not change. To choose the numbers again, set both to 0 and compare ``orderconds
+bench
 dipole`` for methods near these lengths."""
 
 WORTH = 0.85
 """The outlined step is used if it has at most this fraction of the assignments.
 
-Calls cost time, too. The exact limit hardly matters: the fraction is between 0.23 and 0.5 for ``cg:cg5``,
+Calls cost time, too, so the step must become much shorter. The exact limit hardly matters: the fraction is
+between 0.23 and 0.5 for ``cg:cg5``,
 ``vcg:gauss3`` and ``rkmk(4):butcher6`` on dipole and for ``vcg:gauss4`` on heavy_top. It is 0.86 for one
 variant of ``cg:cg5`` on heavy_top. :mod:`codegen.kernel.translate` computes the fraction."""
 
@@ -71,7 +73,8 @@ class Outline:
 
         ``owners`` maps the unknowns of blocks to the number of their block.
         """
-        # The levels come first, because a call must be before or in the loop to which its operands belong.
+        # The levels are computed first, because a call must come before, or be in, the loop to which its
+        # operands belong.
         self._levels(roots, owners)
         trees = [t for t in self.trees.joined() if self.trees.useful(t)]
         while True:
@@ -79,8 +82,8 @@ class Outline:
             if not chosen:
                 return None
             rewritten_roots, shapes = self._called(roots, chosen)
-            # Calls are counted in the rewritten roots, because simplification may remove some of the chosen
-            # calls.
+            # Calls are counted in the rewritten roots, because simplification may remove some of the calls
+            # that were chosen.
             calls: dict[str, int] = {}
             for node in walk(rewritten_roots):
                 # All results of a call share their arguments; counting result 0 counts each call once.
@@ -119,8 +122,8 @@ class Outline:
             for tree, flat in zip(trees, inputs, strict=True):
                 results = self.trees.results(tree)
                 for k, out in enumerate(key[1]):
-                    # Two trees may share a result, because equal expressions are one node; the first call
-                    # computes it.
+                    # Equal expressions are one node, so two trees may share a result. The first call then
+                    # computes the result.
                     calls.setdefault(results[out].id, (name, k, [*(flat[p] for p in places), *constant]))
         return rewritten(roots, calls, self.domain.space), shapes
 
@@ -139,7 +142,7 @@ class Outline:
         while True:
             read = self._read(roots, trees)
             groups: dict[Shape, list[int]] = {}
-            # The order is that of execution, so that functions are numbered by their first call.
+            # The trees are in the order of execution, so that functions are numbered by their first call.
             for t in sorted(read):
                 if self._even(trees[t], read[t]):
                     groups.setdefault((self.trees.key(trees[t]), tuple(sorted(read[t]))), []).append(t)
@@ -178,7 +181,7 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Whether those results of a tree that are read depend on the same blocks as its inputs.
+        """Whether all results of a tree that are read depend on the same blocks as the inputs of the tree.
 
         The results must also be newer than the inputs: an older node is the result of another operation.
         """
@@ -186,7 +189,8 @@ class Outline:
         # A result that depends on fewer blocks than the inputs would wait, inside a loop, for values it does
         # not need.
         deepest = max(self._level.get(x.id, -1) for x in inputs)
-        # Node numbers increase, so a node older than an input cannot have been computed from that input.
+        # Later nodes have larger numbers, so a node with a smaller number than an input was not computed from
+        # this input.
         youngest = max((x.id for x in inputs if x.args), default=-1)
         return all(self._level[results[k].id] == deepest and results[k].id > youngest for k in read)
 
@@ -196,8 +200,8 @@ class Outline:
         names = sorted({n.payload for n in walk(before) if n.op == "sym"})
         for attempt in range(1, 1 + 2 * ATTEMPTS):
             values = {x: 0.3 + 0.2 * math.sin(7.0 * k + attempt) for k, x in enumerate(names)}
-            # Roots of negative numbers or overflow at one point prove nothing, so each attempt has a shorter
-            # step.
+            # If evaluation fails at one point, by the root of a negative number or by overflow, nothing is
+            # proved. Each further attempt therefore has a shorter step.
             values |= {x: 0.5**attempt for x in names if x == "h"}
             domain: FloatDomain | PreciseDomain = FloatDomain(0.1)
             if attempt > ATTEMPTS:
@@ -208,7 +212,7 @@ class Outline:
                 new = evaluate(after, WithFunctions(domain, self.outlined), values)
             except (ArithmeticError, ValueError):
                 continue
-            # abs(x) < inf is false for NaN as well, in both domains.
+            # The comparison abs(x) < inf is false for infinities and for NaN, in both domains.
             if not all(abs(x) < math.inf for x in old):
                 continue
             scale = max(1.0, *map(abs, old))

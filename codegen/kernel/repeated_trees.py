@@ -19,12 +19,15 @@ from codegen.ir.scene_operations import FLOWS
 from codegen.ir.values import Coefficient, Var
 
 NEVER = (Advance, Zero, Identity, *FLOWS)
-"""Operations that are not outlined: they cost next to nothing, or are flows, which are scheduled together."""
+"""Operations that are not outlined, because they cost next to nothing, or because they are flows, which are
+scheduled together.
+"""
 
 NODES = 3
 """The average number of operations on a line of emitted code, over the gallery.
 
-It converts operations to lines. With 2 or 5, all emitted files stay the same (edit it and type
+It converts operations to lines. With 2 or 5 in place of 3, all emitted files stay the same (to repeat this,
+edit the value and type
 ``orderconds regenerate --check``). Among longer steps, cg:cg5 on dipole has 6611, 6155 and 6467 operations
 with 2, 3 and 5, and 471, 454 and 394 assignments."""
 
@@ -137,7 +140,8 @@ class Trees:
                     # The key of the joined tree is included: equal parts may be connected in different ways.
                     joined = self.key(self._join(trees[i], trees[j]))
                     pairs.setdefault((keys[i], keys[j], joined), []).append((i, j))
-            # The choice is greedy: the kind of pair that saves most lines is joined wherever it occurs.
+            # The choice is greedy: the kind of pair that saves the most lines is joined first, wherever it
+            # occurs.
             best, saved = None, 0
             for key, places in pairs.items():
                 gain = self._gain(key, places, count)
@@ -145,7 +149,7 @@ class Trees:
                     best, saved = key, gain
             if best is None:
                 return list(trees.values())
-            # A tree may belong to two pairs of one kind; it is joined only once a round.
+            # A tree that belongs to two pairs of one kind is joined only once in a round.
             used: set[int] = set()
             for i, j in pairs[best]:
                 if i in used or j in used:
@@ -166,7 +170,7 @@ class Trees:
         # If a shape also occurs elsewhere, its own function remains, and the joined function repeats its
         # lines.
         copies = self._size(i) * (count[first] > k) + self._size(j) * (count[second] > k)
-        # One call less saves about three lines of text in each place.
+        # After joining, each place contains one call less, which saves about three lines of text.
         return k * 3 - copies
 
     def _size(self, i: int) -> int:
@@ -199,7 +203,7 @@ class Trees:
 
     def _only_user(self, i: int) -> int | None:
         """Return the only reader of an assignment's results, if it is in the same block."""
-        # The readers form a set, because an operation may read one value twice.
+        # The readers are collected in a set, because an operation may read one value twice.
         users = {u for v in self.executions[i].assign.targets for u in self._users.get(v, [])}
         if len(users) != 1:
             return None
@@ -219,7 +223,8 @@ class Trees:
             places = []
             for v in self.executions[i].assign.args:
                 if v in targets:
-                    # Results are numbered from -1 downwards, because 0 is the first input variable.
+                    # Results have the negative numbers -1, -2, ..., because 0 is the number of the first
+                    # input variable.
                     places.append(-targets[v])
                 else:
                     places.append(given.setdefault(v, len(given)))
@@ -284,6 +289,8 @@ def _pattern(coefficients: Sequence[Coefficient]) -> tuple[tuple[int, int], ...]
 
 
 def distinct(assign: Assign) -> list[Coefficient]:
-    """Return the distinct coefficients of a sum without those that are one, by first appearance."""
+    """Return the distinct coefficients of a sum, except coefficients equal to one, in the order of their
+    first appearance.
+    """
 
     return list(dict.fromkeys(c for c, _ in assign.terms if not c.is_one))

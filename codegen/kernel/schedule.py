@@ -41,7 +41,7 @@ class SharedCall:
 
     @property
     def function(self) -> str:
-        """The name of the function that computes these orders, for example ``stumpff_12``."""
+        """The name of the function that computes c_k for all k in ``orders``, for example ``stumpff_12``."""
         return "stumpff_" + "".join(map(str, self.orders))
 
 
@@ -141,14 +141,14 @@ class Arrangement:
 
 def arrange(kernel: Kernel) -> Arrangement:
     """Return the printable statements of a kernel, in the kernel's order and with the same roundings."""
-    # One counter of names for the step and all its loops, because a target may have a single scope.
+    # The step and all its loops share one counter of names, because a target may have a single scope.
     scope = _Scope(
         _taken(kernel), outlined={function.name: len(function.outputs) for function in kernel.outlined}
     )
     # Errors are computed together with the outputs, so that they share calls.
     ends = [*kernel.outputs, *(kernel.estimate.errors if kernel.estimate is not None else ())]
-    # The orders are recorded before all statements, because the first call for an argument computes every
-    # order that a later statement needs.
+    # The required Stumpff functions c_k are recorded before all statements, because the first call for an
+    # argument computes every c_k that a later statement needs.
     scope.expect([*(e for s in kernel.body for e in _outside(s)), *ends])
     statements: list[Statement] = []
     loops = 0
@@ -163,7 +163,7 @@ def arrange(kernel: Kernel) -> Arrangement:
         # Starts are computed before the loop, in the scope around it.
         starts = tuple(scope.rewrite(e) for e in statement.starts)
         statements += scope.take()
-        # Body values that are read after the loop need variables outside of it.
+        # Body values that are read after the loop need variables outside of the loop.
         later = _read_later(kernel, position)
         loops += 1
         statements.append(_iteration(statement, loops, starts, scope, later))
@@ -172,7 +172,8 @@ def arrange(kernel: Kernel) -> Arrangement:
     # Outputs and errors are rewritten as one list in one scope; the list is split below.
     states = len(kernel.outputs)
     repeated = max(1, len(kernel.substeps))
-    # Calls inside a function are shared only inside that function, never with its callers.
+    # A function shares calls of library functions only between its own statements, and never with its
+    # callers.
     functions = tuple((function, arrange(_alone(function))) for function in kernel.outlined)
     return Arrangement(tuple(statements), rewritten[:states], rewritten[states:], repeated, functions)
 
@@ -192,7 +193,8 @@ def _outside(statement: Let | Start | Loop) -> Sequence[Expr]:
 def _iteration(
     loop: Loop, number: int, starts: tuple[Expr, ...], scope: _Scope, later: Collection[str]
 ) -> Iteration:
-    # Stumpff orders of the loop body are collected apart from those before the loop: the arguments in the
+    # The Stumpff functions of the loop body are recorded separately from the Stumpff functions before the
+    # loop: the arguments in the
     # body depend on the unknowns, so no call before the loop computes these values.
     inner = scope.inside([*(let.value for let in loop.body), *loop.images])
     body = [s for let in loop.body for s in inner.assign(let, let.name in later)]
@@ -203,7 +205,7 @@ def _iteration(
     matrix: tuple[Expr, ...] = ()
     if loop.newton is not None:
         entries = tuple(x for row in loop.newton.matrix for x in row)
-        # A leading matrix is computed before the loop and must not read body values.
+        # A matrix to leading order in h is computed before the loop and must not read body values.
         entering, matrix = (scope if loop.newton.leading else inner).nested(loop.newton.body, entries)
     return Iteration(loop, number, starts, tuple(body), images, kept, entering, matrix)
 
@@ -216,7 +218,7 @@ def _values(statement: Simple) -> tuple[Expr, ...]:
 
 def _taken(kernel: Kernel) -> dict[str, int]:
     """Return the counter of fresh names; its keys are all names of the kernel."""
-    # Every name of the kernel counts as used, so that fresh names differ from all of them.
+    # Every name of the kernel counts as used, so that fresh names differ from all names of the kernel.
     names = [s for f in kernel.state for s in f.symbols] + list(kernel.scalars)
     names += [s for sample in kernel.samples for s in sample.symbols]
     names += [let.name for let in kernel.lets()]
@@ -234,7 +236,9 @@ def _read_later(kernel: Kernel, position: int) -> frozenset[str]:
 
 @dataclass
 class _Scope:
-    """Rewrites the expressions of one block; pending statements must come before the next statement."""
+    """Rewrites the expressions of one block. The statements in ``pending`` must come before the next
+    statement.
+    """
 
     taken: dict[str, int]
     known: dict[int, Expr] = field(default_factory=dict)
@@ -267,7 +271,7 @@ class _Scope:
         for node in walk(expressions):
             if node.op == "call" and node.payload in STUMPFF and node.id not in self.known:
                 needed.setdefault(node.args[0].id, []).append(STUMPFF[node.payload])
-        # The orders are sorted, because they form the snippet's name: stumpff_12, whichever order is read
+        # The indices k are sorted, because they form the snippet's name: stumpff_12, whichever c_k is read
         # first.
         self.orders = {argument: tuple(sorted(set(ks))) for argument, ks in needed.items()}
 
@@ -275,14 +279,17 @@ class _Scope:
         """Return the statements of an assignment; a shared call that computes its value replaces it."""
         value = self.rewrite(let.value)
         before = self.take()
-        # The shared call has already named this result; a second name would only be a copy.
+        # The shared call has already given this result a name. A second name would only be a copy of the
+        # value.
         if value.op == "sym" and value.payload in self.results and not kept:
             self.known[value.space.sym(let.name).id] = value
             return before
         return [*before, Assignment(let.name, value)]
 
     def take(self) -> list[Simple]:
-        """Return the pending statements, which must precede the next one, and clear them."""
+        """Return the pending statements, which must precede the next statement, and clear the list of pending
+        statements.
+        """
         pending, self.pending = self.pending, []
         return pending
 
@@ -317,7 +324,7 @@ class _Scope:
         self.pending.append(SharedCall(names, orders, argument))
         for k, name in zip(orders, names, strict=True):
             self.results[name] = k
-            # All orders for this argument are known from now on, so they are never computed again.
+            # All recorded c_k of this argument are known from now on, so they are never computed again.
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
@@ -332,7 +339,7 @@ class _Scope:
 
     def _power(self, base: Expr, n: int) -> Expr:
         space = base.space
-        # A power is written as a product that repeats its base, so the base must be a name.
+        # A power is written as a product that repeats the base of the power, so the base must be a name.
         base = self._named(base)
         # Targets write powers of up to three factors as x * x * x.
         if n <= 3:

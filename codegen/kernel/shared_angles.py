@@ -19,7 +19,8 @@ LONGEST = 64
 
 Equal angles occur between unknowns of implicit stages; on the gallery their arguments have 12 to 42 nodes.
 Arguments of explicit stages have hundreds or thousands of nodes. Limits of 64, 128 and 256 give the same
-kernels for nine methods of the gallery. With 32, one of them changes: vcf:cf4 on dipole, from 301 to 286
+kernels for nine methods of the gallery. With 32, the kernel of one of these methods changes: vcf:cf4 on
+dipole, from 301 to 286
 operations a step."""
 
 

@@ -48,8 +48,9 @@ from codegen.passes.series_sums import SeriesSums
 from codegen.scene.problem import TIME, Problem
 
 AS_WRITTEN, COMBINED, ORDERED, SHORTENED = range(4)
-"""Treatments of the critical path: none; multiply step sizes and constants first; order the assignments;
-apply all of :mod:`codegen.kernel.critical_path`."""
+"""How the critical path is shortened: not at all; by multiplying step sizes and constants first; by ordering
+the assignments; by all methods of :mod:`codegen.kernel.critical_path`.
+"""
 
 
 def to_kernel(
@@ -92,7 +93,7 @@ class _Translation:
     ) -> None:
         self.program, self.scene, self.solvers = program, scene, solvers
         self.variations, self.chains = variations, chains
-        # The domain decides which expressions are shared: equal nodes, and angles that are equal as
+        # In this domain two kinds of expressions are shared: equal nodes, and angles that are equal as
         # polynomials.
         self.domain = SharedArguments()
         self.env: dict[Var, Any] = {}
@@ -137,7 +138,8 @@ class _Translation:
                 hint="add closed forms to the group, or use the group for exact series only",
             ) from error
         if isinstance(assign.operation, BodyForce):
-            # The arguments are not expanded: they already have names, and expansion would lose the sharing.
+            # The arguments are passed by name and not expanded, because expanded arguments would no longer be
+            # shared.
             known = [x for v in assign.args for x in flatten(v.kind, self.env[v])]
             results = tuple(gathered(x, known) for x in results)
         # An outlined function accepts numbers only, so an operation that samples run-time inputs cannot be
@@ -153,7 +155,8 @@ class _Translation:
     def begin(self) -> State:
         """Set the inputs of the program; return its initial state."""
         space = self.domain.space
-        # If the frame transforms the momentum, all that follows reads the transformed momentum.
+        # If the momentum is transformed to another frame, all following statements read the transformed
+        # momentum.
         given = start = self.frames.begin(self.domain, tuple(map(space.sym, self.scene.symbols)))
         starts: dict[str, State] = {}
         for block in self.scene.state:
@@ -173,7 +176,8 @@ class _Translation:
         # Variations differentiate the images u = g(u), so residuals must not replace the images.
         if solver == NEWTON and self.variations is None:
             residuals = compared(statement, entered, self.env, self.name, self.program)
-        # Residuals have a first-order matrix, which costs least, so they are preferred to the exact matrix.
+        # If the block has residuals, they are used with a first-order matrix, because this matrix costs less
+        # than the exact matrix.
         if residuals is not None:
             entered = residuals
         elif solver != FIXED_POINT:
@@ -215,8 +219,8 @@ class _Translation:
             values = tuple(x for v in parts for x in flatten(v.kind, self.env[v]))
             ends.append(self.frames.end(self.domain, state, start, values))
         outputs, lower = ends
-        # Chains are rewritten before expressions are split into assignments, because rewriting needs whole
-        # expressions.
+        # Chains of dependent operations are rewritten before expressions are split into assignments, because
+        # rewriting needs whole expressions.
         if self.chains in (COMBINED, SHORTENED):
             # These symbols are constant in a run of equal steps: a compiler moves products of them out of the
             # loop.
@@ -274,7 +278,8 @@ class _Translation:
         outlined: tuple[Function, ...] = ()
         # Assignments are counted, not operations, because lines of code fill the instruction cache.
         long = _count(body) > (LONG if self.blocks else LONG_EXPLICIT)
-        # After chains are rewritten, results of trees no longer occur, so calls could not replace anything.
+        # After chains have been rewritten, the results of repeated operations no longer occur as nodes, so
+        # calls could not replace them.
         if long and self.variations is None and self.chains in (AS_WRITTEN, ORDERED):
             self.taken.clear()
             self.taken.update(before)
@@ -316,7 +321,8 @@ def _outlined(
     flat = list(roots)
     for block in blocks:
         flat += [*block.starts, *block.images, *(x for row in block.matrix for x in row)]
-    # Corrected values that no root reads are dropped, because their calls would count as used.
+    # Corrected values that no root reads are dropped, because the functions that they call would count as
+    # used.
     read = {n.payload for n in walk(flat) if n.op == "sym"}
     blocks = [replace(b, kept=tuple(pair for pair in b.kept if pair[0] in read)) for b in blocks]
     # All roots are in one flat list, so that trees that occur in several blocks are found.

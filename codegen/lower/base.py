@@ -51,7 +51,7 @@ class Lowering(ABC):
     """Whether the state of the programs is (q, mu) of a Hamiltonian scene, and not the point y of a vector
     field."""
     preference: ClassVar[int] = 0
-    """If a method's name contains no family, families with a higher number have priority."""
+    """If a method's name contains no family, the family with the highest number is preferred."""
     repeats_substeps: ClassVar[bool] = False
     """Whether the step of a composed tableau is, in this family, the composition of shorter steps.
 
@@ -65,7 +65,8 @@ class Lowering(ABC):
     def keeps_manifold(self, scene: Problem) -> bool:
         """Whether the states of a step stay on the manifold of the scene up to rounding.
 
-        A step by group elements stays on it. On an abelian group the coordinates are those of a vector space.
+        A step by group elements stays on the manifold. If the group is abelian, the manifold has the
+        coordinates of a vector space, so every method stays on the manifold.
         """
         from orderconds.families import family_class
 

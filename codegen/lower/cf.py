@@ -66,7 +66,7 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
             own = reduce(add, entries, method.tableau.ring.zero)
             times.append(own if stage.start is None else own + times[stage.start])
             result.append(stages.f(f"f{i + 1}", points[i], times[i]))
-        # The update may also start from a stage.
+        # Like a stage, the update may start from an earlier stage.
         stage_points[:] = points
         return result
 
@@ -77,5 +77,6 @@ def products(problem: Problem, method: Method, tableau: CommutatorFree, lower: S
         more = {} if lower is None else {EMBEDDED: product(lower, "", stage_points)}
         return {"y": product(tableau.update, "", stage_points)} | more
 
-    # All k_i start at f(y0), which is accurate to O(h) and costs one evaluation for all stages.
+    # The initial guess for all k_i is f(y0), which is accurate to O(h) and costs one evaluation for all
+    # stages.
     return stages.program(k, images, lambda: [stages.f("k0", y, None)] * tableau.s, update)

@@ -83,7 +83,7 @@ def _program(scene: Problem, method: Method) -> Program:
         # The bivector is evaluated at the midpoint and not at y, because the order is then two if sum b_i c_i
         # = 1/2.
         middle, end = moved("m", HALF, xi), moved("", ONE.value, xi)
-        # The energies are evaluated in the block, because H(x1) depends on the unknown.
+        # The energies are evaluated inside the block of equations, because H(x1) depends on the unknown.
         energies = [build.add(Energy(), f"H{k}", point) for k, point in enumerate((y, end))]
         eta = build.lin("eta", Kind.ALG, [(stages.times_h(ONE.value), xi)])
         # One operation forms H(x1) - H(x0) - <g, eta> over |eta|^2, because the quotient is 0/0 where eta =

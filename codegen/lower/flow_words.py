@@ -80,7 +80,7 @@ class FlowLowering(Lowering):
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene with the exact flows that the method composes, by name."""
         word = self.read(scene, method).word
-        # Only flows that occur in the word are included, because other flows would be emitted as unused
+        # Only flows that occur in the step are included, because all other flows would be emitted as unused
         # functions.
         flows = {name: flow for summand, _ in word for name, flow in summand.flows}
         # The flows are sorted by name, because the order of emitted functions must not depend on the word.
@@ -114,8 +114,8 @@ class FlowLowering(Lowering):
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
-        # Flows of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}, so neighbouring flows can
-        # be joined exactly.
+        # The flows of one summand form a one-parameter group, phi_a phi_b = phi_{a+b}, so neighbouring flows
+        # of one summand can be joined exactly.
         return Reading(tuple(_joined(word)), _carrier(parts), conditions)
 
     def lower(self, problem: Problem, method: Method) -> Program:
@@ -234,7 +234,7 @@ def _carrier(parts: Parts) -> Summand | None:
         return None
     for summand in parts.summands:
         # The carrier is the first summand without t. Any other summand without t would also be correct,
-        # because the order conditions are those of the extended system.
+        # because the order conditions hold for the extended system with either choice.
         if not summand.timed:
             return summand
     raise MethodError(

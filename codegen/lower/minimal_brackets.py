@@ -63,7 +63,7 @@ def bracket_program(method: Method) -> BracketProgram:
 def lower(scene: Problem, method: Method) -> Program:
     """Return the program of an RKMK method without a cut-off.
 
-    The errors are those of :func:`bracket_program`.
+    The errors are the same as in :func:`bracket_program`.
     """
     tableau, written = method.runge_kutta(), bracket_program(method)
     y = Var("y", Kind.POINT)
@@ -83,7 +83,8 @@ def lower(scene: Problem, method: Method) -> Program:
     def images() -> list[Var]:
         # A bracket may read earlier brackets, in the order of the program.
         for r, (left, right) in enumerate(written.brackets):
-            # Both arguments are combinations: [a + b, c] is one bracket, but [a, c] + [b, c] would be two.
+            # Both arguments are formed as sums before the bracket, because [a + b, c] takes one bracket, but
+            # [a, c] + [b, c] takes two.
             x, z = combination(f"x{r + 1}", left), combination(f"z{r + 1}", right)
             values["B", r] = build.bracket(f"B{r + 1}", x, z)
         result = []

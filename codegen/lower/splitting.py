@@ -99,7 +99,7 @@ def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
     nested = T
     # If T is quadratic in mu, each bracket with V lowers the degree by one, and three brackets give zero.
     for _ in range(3):
-        # The sign of a bracket is not important, because only zero and non-zero results are distinguished.
+        # The sign of a bracket is not important, because the test only asks whether the bracket is zero.
         nested = poisson_bracket(scene.group, qs, mus, nested, V)
     return orbit_of(scene).vanish([nested])
 
@@ -113,8 +113,8 @@ def _as_pairs(steps: Sequence[tuple[int, Number]]) -> list[tuple[Number, Number]
     zero = Number.rational(0)
     joined: list[tuple[int, Number]] = []
     for k, x in steps:
-        # Two consecutive flows of one part are joined, because the recursion requires that the parts
-        # alternate.
+        # Two consecutive flows of one part are joined, because the recursion requires flows of the two parts
+        # in turn.
         if joined and joined[-1][0] == k:
             joined[-1] = (k, joined[-1][1] + x)
         else:

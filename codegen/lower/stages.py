@@ -43,7 +43,7 @@ class Stages:
         return self.builder.lin(target, kind, terms)
 
     def at(self, c: Element | None) -> tuple[Var, ...]:
-        """Return (t + c h,) for a scene that depends on time, else (); None means c = 0."""
+        """Return (t + c h,) for a scene that depends on time, else (); c = None means c = 0."""
         if self.time is None:
             return ()
         # A stage at the beginning of the step reads t itself, so that equal evaluations are equal operations.

@@ -83,7 +83,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
     # A group consists of at least one part and at most half of the parts. Small groups are tried first,
     # because they give the most substeps.
     for wide in (w for w in range(1, len(cuts) - 1) if (len(cuts) - 1) % w == 0):
-        # wide divides the number of parts, so the last end is the last cut.
+        # ``wide`` divides the number of parts, so the end of the last group is the last cut.
         ends = cuts[::wide]
         groups = [range(i, j) for i, j in pairwise(ends)]
         # gamma_k, the length of the substep: a method with weights b advances by h sum b_j.
@@ -108,7 +108,7 @@ def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> boo
     """Whether the stages from k on start from the result of the update by the stages before k."""
     s = len(b)
     # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
-    # depend on later ones.
+    # depend on later stages.
     return all(A[i][j] == b[j] for i in range(k, s) for j in range(k)) and all(
         A[i][j].is_zero for i in range(k) for j in range(k, s)
     )

@@ -123,7 +123,7 @@ class ExpandedStep(ABC):
         """Append Y, -Y, nu_j and mubar."""
         build = self.build
         self.Y = self.stages.combination("Y", Kind.ALG, self.tableau.b, velocities)
-        # -Y is a variable, because the operation dexp*_{-Y} reads -Y as its argument.
+        # -Y gets a variable of its own, because it is an argument of the operation dexp*_{-Y}.
         self.minus = build.lin("y", Kind.ALG, [(MINUS_ONE, self.Y)])
         # n_j is a covector at Q_j. Ad* transports it to q0, where covectors of all stages can be added.
         self.nu = [build.adjoint(f"nu{j + 1}", self.g[j], forces[j]) for j in range(self.s)]

@@ -51,7 +51,7 @@ class _Step(ExpandedStep):
         self.v = [self.build.fresh(f"v{i + 1}", Kind.ALG) for i in range(self.s)]
         self.M = [self.build.fresh(f"M{i + 1}", Kind.DUAL) for i in range(self.s)]
         self.unknowns = [*self.v, *self.M]
-        # by stage: n_i, R*_(r) M_i, and the terms of dexp*_(r) M_i after the first one with opposite sign
+        # by stage: n_i, R*_(r) M_i, and minus the terms of dexp*_(r) M_i after the first term
         self.forces: list[Var] = []
         self.slopes: list[Var] = []
         self.corrections: list[Terms] = []

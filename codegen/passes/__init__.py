@@ -129,7 +129,7 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # When two stages become one, several terms of a sum may refer to the same value, and may cancel.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("joined flows", joined, lambda p: flows.run(p, scene)),
-        # After flows have been joined, nothing may read the stage times of the replaced flows.
+        # After flows have been joined, the stage times of the replaced flows may be unused.
         Pass("unused values", UNUSED, dead.run),
         # This pass follows the pass for zeros, because terms that cancel would keep a composition in one
         # large block.
@@ -143,8 +143,8 @@ def plain_passes(scene: Problem) -> list[Pass]:
         # Factoring produces sums of a single term, which this pass removes.
         Pass("zeros", ZERO, fold_zeros.run),
         Pass("shared values", SHARED, value_numbering.run),
-        # This pass follows value numbering, which merges equal exponentials: only then are the readers of
-        # exp(x) known.
+        # This pass follows value numbering, which merges equal exponentials. Before equal exponentials are
+        # merged, the number of readers of exp(x) is not known.
         Pass("fused exponentials", "exp(x).y is computed without exp(x)", lambda p: dead.run(fuse.run(p))),
         Pass("unused values", UNUSED, dead.run),
         # Factoring can make values independent of a block's unknowns; this pass moves them out of the block.
@@ -167,7 +167,7 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         # result of its map is removed.
         Pass("inverse maps", inverse, opposites.run),
         # This pass follows the Legendre transform. Before the transform the force of a stage depends on the
-        # momentum of the stage, and this dependence is part of a cycle.
+        # momentum of the stage, and this dependence is part of a cycle, which prevents tearing.
         Pass("fewer unknowns", "the other unknowns determine them", tearing.run),
         # Where tearing removed an unknown, a map may now act directly on the result of its inverse.
         Pass("inverse maps", inverse, opposites.run),
@@ -175,12 +175,12 @@ def body_frame_passes(scene: Problem) -> list[Pass]:
         Pass("shared values", SHARED, value_numbering.run),
         Pass("factored maps", FACTORED, factor_linear.run),
         Pass("maps of shared sums", FACTORED, shared_sums.run),
-        # This pass precedes the pass for functions of ad, which requires that exp(x) has only one reader,
-        # because this pass can remove a second reader.
+        # The pass for functions of ad requires that exp(x) has only one reader. This pass may remove a second
+        # reader of exp(x), and therefore precedes the pass for functions of ad.
         Pass("rows of products", "q exp(x) is computed without exp(x)", lambda p: functions.rows(p, scene)),
         Pass("functions of ad", one_ad, lambda p: functions.run(p, scene)),
-        # This pass follows functions of ad, because only now is it known in which frame momenta need fewer
-        # operations.
+        # This pass follows the pass for functions of ad. Only after that pass is it known in which frame the
+        # momenta need fewer operations.
         Pass("residuals", "momenta are compared", lambda p: legendre.residuals(p, scene)),
         # The residuals contain new inverse maps, so the passes for maps run again.
         Pass("inverse maps", inverse, opposites.run),

@@ -27,7 +27,7 @@ def run(program: Program, abelian: bool) -> Program:
         # dexp^{-1} = 1 - ad/2 + ...: truncated at order 0 it is the identity on every group.
         uncut = isinstance(operation, InverseDexp | InverseDexpSlope) and operation.order == 0
         if isinstance(operation, IDENTITIES) and (abelian or uncut):
-            # The last argument is the value that the map acts on; the other arguments select the map.
+            # The linear map acts on the last argument; the other arguments determine the map.
             return assign.args[-1:]
         if isinstance(operation, ZEROS) and (abelian or uncut):
             # The result is an explicit zero and not an empty sum, because the pass for zeros recognises only

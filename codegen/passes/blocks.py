@@ -2,7 +2,8 @@
 
 The pass is exact. An edge leads from each assignment to every assignment that reads one of its values. An
 unknown is represented by its image, the right-hand side of the unknown's fixed-point equation. A component
-without a cycle becomes plain assignments; a component with a cycle becomes a block with its own unknowns.
+without a cycle becomes assignments outside blocks; a component with a cycle becomes a block with its own
+unknowns.
 Explicit methods therefore need no solver, and a composition tableau is solved stage by stage.
 """
 
@@ -35,7 +36,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # In the statements after a block, and in the starts of later blocks, its image replaces each unknown.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
-    # Graph nodes are positions in the body: integers have an order, so the result does not depend on hashes.
+    # The nodes of the graph are positions in the body and not variables, because the order of integers does
+    # not depend on hashes.
     maker = {target: k for k, assign in enumerate(block.body) for target in assign.targets}
     graph = networkx.DiGraph()
     # Assignments without an edge to other assignments of the block are components, too.
@@ -49,15 +51,18 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
                 graph.add_edge(source, k)
     # Two assignments depend on each other exactly if they are in one strongly connected component.
     condensed = networkx.condensation(graph)
-    # Inside a component the old order is valid, because only reads of unknowns refer to later assignments.
+    # Inside a component the old order of assignments remains valid: an assignment depends on later
+    # assignments only by unknowns.
     members = {c: sorted(condensed.nodes[c]["members"]) for c in condensed}
-    # Among the possible orders, the order of the program is chosen, which keeps emitted text stable.
+    # Several orders may be possible. The order of the program is chosen, so that small changes of a program
+    # cause small changes of emitted text.
     order = networkx.lexicographical_topological_sort(condensed, key=lambda c: members[c][0])
     result: list[Statement] = []
     for component in order:
         inside = set(members[component])
         assigns = [block.body[k] for k in members[component]]
-        # An unknown belongs to the component that computes its image, if the component reads it.
+        # An unknown belongs to the component that computes the image of the unknown, if the component also
+        # reads the unknown.
         own = [
             u for u in block.unknowns if maker.get(image[u]) in inside and any(u in a.args for a in assigns)
         ]
@@ -69,7 +74,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
             continue
         label = _label(own)
         images = tuple(image[u] for u in own)
-        # Residuals need not be kept: :mod:`codegen.passes.legendre` adds them after the last split.
+        # The new blocks have no residuals: :mod:`codegen.passes.legendre` adds residuals after the last
+        # split.
         result.append(Solve(label, tuple(own), tuple(start[u] for u in own), tuple(renamed), images))
     # At the solution an unknown equals its image, and that image may now be computed without a block.
     names.update(image)
@@ -78,14 +84,15 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
 
 def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
     """Return the image of each unknown; an image that is itself an unknown is replaced by the image of that
-    unknown. If this chain is closed, the start is used."""
+    unknown. If the images form a closed chain, the result is the start."""
     result = {}
     for unknown in image:
         var, seen = image[unknown], [unknown]
         while var in image and var not in seen:
             seen.append(var)
             var = image[var]
-        # Any common value solves a closed chain v = w, w = v; the start is a known value.
+        # In a closed chain v = w, w = v any common value is a solution. The start is used, because it is
+        # known.
         result[unknown] = start[unknown] if var in seen else var
     return result
 

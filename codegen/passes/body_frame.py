@@ -80,8 +80,8 @@ class _Framing:
         self.build = Builder({v.name for v in defined(program)})
         inputs = {v.name: v for v in program.inputs}
         self.q = inputs["q"]
-        # The stage at the beginning of the step is q itself: its E is the identity, and no map is emitted for
-        # E.
+        # The position of the stage at the beginning of the step is q itself. Its factor E is the identity,
+        # for which no map is emitted.
         self.relative[self.q] = None
         body: list[Statement] = []
         for statement in program.body:
@@ -89,10 +89,12 @@ class _Framing:
                 self._visit(statement)
                 body += self.build.take()
                 continue
-            # An unknown position has no known factor E, so the frame of the stage would itself be unknown.
+            # If a position is an unknown, its factor E is not known, and the frame of the stage would itself
+            # be unknown.
             if any(u.kind not in (Kind.ALG, Kind.DUAL) for u in statement.unknowns):
                 raise NotFramed
-            # Starts are read before the block, so they are renamed before the block's body adds names.
+            # Starts are evaluated before the block, so they are renamed before the body of the block adds
+            # names.
             starts = self._now(statement.starts)
             for assign in statement.body:
                 self._visit(assign)
@@ -103,7 +105,7 @@ class _Framing:
                 )
             )
         outputs = dict(program.outputs)
-        # The second solution of an embedded method would need a second new frame.
+        # Embedded methods are not supported, because their second solution would need a second new frame.
         if set(outputs) != {"q", "mu"} or outputs["q"] not in self.relative:
             raise NotFramed
         element, (momentum,) = outputs["q"], self._now((outputs["mu"],))
@@ -139,7 +141,7 @@ class _Framing:
         elif isinstance(operation, EQUIVARIANT):
             # An equivariant operation maps transformed arguments to the transformed result: rename them.
             self._emit(replace(assign, args=self._now(args)))
-        # A stage time is a number, the same in every frame.
+        # A stage time is a number, which has the same value in every frame.
         elif isinstance(operation, Advance):
             self._emit(assign)
         else:

@@ -16,11 +16,12 @@ def run(program: Program) -> Program:
     """Return the program without dead assignments, unknowns and blocks."""
     live: set[Var] = {var for _, var in program.outputs}
     kept: list[Statement] = []
-    # The loop runs backwards, so that all readers of a value are visited before its definition.
+    # The loop runs from the last statement to the first, so that all readers of a value are visited before
+    # its definition.
     for statement in reversed(program.body):
         if isinstance(statement, Assign):
-            # All results are kept if one of them is live, because an operation such as the field computes
-            # them together.
+            # If one result of an operation is live, all its results are kept, because an operation such as
+            # the field computes all of them together.
             if live.intersection(statement.targets):
                 live.update(statement.args)
                 kept.append(statement)
@@ -43,7 +44,7 @@ def _trim(block: Solve, live: set[Var]) -> tuple[Statement, ...]:
     # This is a list in program order and not a set, because the order of a set would change from run to run.
     wanted = [v for v in (*block.unknowns, *maker) if v in live]
     needed: set[Var] = set()
-    # A live unknown needs its image, and every value that the image is computed from.
+    # The image of a live unknown is live, and so is every value from which the image is computed.
     while wanted:
         var = wanted.pop()
         # Values of a block may depend on each other in cycles, so the search may reach a value that it has

@@ -24,7 +24,8 @@ def run(program: Program) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             pairs, twins = _distinct(statement)
-            # Later blocks and outputs may read a removed unknown, so ``same`` covers the whole program.
+            # Later blocks and outputs may read a removed unknown, so the table ``same`` is kept for the whole
+            # program.
             same |= twins
             unknowns, starts, images = zip(*pairs, strict=True)
             # Removed unknowns are also renamed in the body. Value numbering can then merge equal stages.

@@ -19,8 +19,8 @@ from codegen.scene.problem import Problem
 STEPS = tuple(2.0**-k for k in (2, 3, 4, 6, 8, 10, 13, 16, 20, 24))
 """Step sizes to try, the largest first, because a wrong rewriting has the largest effect in a long step.
 
-Any other decreasing powers of two are possible. If the first step moves too far along a fast field, all steps
-are shortened."""
+Other decreasing powers of two would also be suitable. If the field is so fast that the first step would move
+the state too far, all steps are shortened."""
 
 TINY_STEPS, DIGITS = (32, 64, 128, 256, 512, 1024), 500
 """Steps of size 2^-k, for k in TINY_STEPS, are computed in DIGITS decimal digits if doubles overflow or do
@@ -32,33 +32,34 @@ REACH = 0.5
 """The largest value of h times the largest component of the field: longer steps would amplify rounding
 errors.
 
-The exact value is not important, because :data:`AGREE` is 2^15 times as large as the rounding errors that
+The value need not be exact, because :data:`AGREE` is 2^15 times as large as the rounding errors that
 occur."""
 
 FAILURES = (NotConverged, ArithmeticError, ValueError)
 """The errors that interpreting a program may raise; ValueError is raised by a root of a negative number."""
 
 SWEEPS = 24
-"""The largest number of sweeps over a block: a step that needs more is too long for a comparison up to
+"""The largest number of sweeps over a block: a step that needs more sweeps is too long for a comparison up to
 rounding.
 
 A contraction by 1/4 a sweep reaches rounding, 2^-48, in 24 sweeps. For slower blocks the next, shorter step
 is tried."""
 
 MORE_SWEEPS, FEW_DIGITS = 400, 60
-"""The number of sweeps and of digits in a step that is repeated to confirm a difference of doubles."""
+"""If results in doubles differ, the step is repeated with this number of sweeps and this number of digits."""
 
 NOT_A_NUMBER = "differs by nan"
-"""The end of the message if a result is not finite: the step is then too long for a comparison."""
+"""A message with this end means that a result is not finite: the step is too long for a comparison."""
 
 APART = 16
 """The smallest ratio of consecutive step sizes at which programs are compared.
 
-Rewritten equations may need smaller steps to converge by iteration; one step in which they converge is
-enough."""
+The iteration for rewritten equations may converge only in smaller steps; a comparison in one step in which
+they
+converge is enough."""
 
 LARGEST = 2.0**512
-"""Results above this number are not compared, because the steps are too long."""
+"""Results above this number are not compared: a step with such a result is too long."""
 
 CLOSE = 2.0**-200
 """Results in DIGITS digits count as equal up to this relative difference, which is above the rounding of ball
@@ -183,7 +184,8 @@ class Reference:
         self, program: Program, domain: Domain, inputs: dict[str, Value], moved: bool, *, tiny: bool = False
     ) -> _Step | None:
         """Return the result of one step, or None if it cannot be computed."""
-        # The interpreter fills this with the solutions of the blocks; compared programs start from them.
+        # The interpreter stores the solutions of the blocks in this list; compared programs start from these
+        # solutions.
         solutions: dict[Var, Value] = {}
         # If the iteration does not converge, or numbers overflow, the step is too long.
         try:
@@ -196,7 +198,9 @@ class Reference:
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Whether a tiny step changes the state little, as it does if h times each coefficient is small."""
+        """Whether a tiny step changes the state only slightly. This is the case if h times each coefficient
+        is small.
+        """
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
             for name in self.kinds.keys() & step.after.keys()
@@ -273,7 +277,8 @@ class Reference:
                 change = max(abs(s - t) for s, t in zip(x, start, strict=True))
                 scale, agree = max(change, scale * step.domain.rational(1, 10 ** (DIGITS - 100))), CLOSE
             gap = max(abs(s - t) for s, t in zip(x, y, strict=True))
-            # The condition is negated on purpose, so that a gap that is not a number counts as a difference.
+            # The condition is negated on purpose: comparisons with NaN are false, so a gap that is NaN counts
+            # as a difference.
             if not gap <= agree * scale:
                 return f"{name} differs by {float(gap / (scale if step.tiny else 1)):.3g}"
         return ""

@@ -31,7 +31,8 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     groups: dict[object, list[tuple[Coefficient, Var]]] = {}
     for k, (c, arg) in enumerate(assign.terms):
         source = rewriter.definitions.get(arg)
-        # If L(x) has a second reader, it is computed anyway, and a map of the sum would be an additional map.
+        # If L(x) has a second reader, L(x) is computed anyway. Applying L to the sum would then take one more
+        # map.
         single = source is not None and rewriter.uses.get(arg) == 1 and source.operation.linear_in_last
         # Terms with equal operation and equal first arguments are values of the same linear map. Other terms
         # get unique keys.
@@ -48,7 +49,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
         # The coefficients move inside: sum c_k L(x_k) = L(sum c_k x_k).
         inner = [(c, rewriter.definitions[v].args[-1]) for c, v in terms]
         total = _lin(rewriter, inner)
-        # The old name shows a reader of emitted code which map was factored out.
+        # The old name tells people who read the emitted code which map was factored out.
         target = rewriter.builder.fresh(terms[0][1].name, terms[0][1].kind)
         moved = Assign((target,), source.operation, (*source.args[:-1], total))
         result.append((ONE, rewriter.emit(moved)[0]))

@@ -91,8 +91,8 @@ def word(program: Program) -> list[Letter] | None:
 
 def with_flows(program: Program, letters: Sequence[Letter]) -> Program:
     """Return the program that applies these flows, with the stage times of the old program."""
-    # All stage times come first, because each of them depends on t alone. The pass for unused values removes
-    # stage times that no flow reads.
+    # All stage times come first, which is possible because each stage time depends on t alone. The pass for
+    # unused values removes stage times that no flow reads.
     body = [a for a in program.assigns() if isinstance(a.operation, Advance)]
     first = state = tuple(v for v in program.inputs if v.kind is not Kind.REAL)
     for number, letter in enumerate(letters):
@@ -111,7 +111,7 @@ def commuting(scene: Problem) -> Callable[[str, str], bool]:
 
     def moved(point: dict[str, Value], parts: Sequence[tuple[str, Value]]) -> tuple[Value, ...]:
         state = tuple(tuple(point[s] for s in block.symbols) for block in scene.state)
-        # The points are on the manifold, because formulas that use the equations of the group agree only
+        # The points are on the manifold, because flows that use the equations of the group may commute only
         # there.
         for part, tau in parts:
             state = scene.flow(d, part, tau, (*state, point["t"]))

@@ -102,7 +102,8 @@ Part = tuple[Var, Word, Var]
 def _function_of(rewriter: Rewriter, var: Var, x: Var) -> tuple[Fraction, Part] | None:
     """Return (s, (y, W, v)) if var is defined as W(ad_y) v and x = s y; None otherwise."""
     source = rewriter.definitions.get(var)
-    # A function with another reader is computed anyway; joined with this reader, it would be computed twice.
+    # If this function of ad has a second reader, it is computed anyway. Joined with one of its readers, it
+    # would be computed twice.
     if source is None or not isinstance(source.operation, AdSeries) or rewriter.uses.get(var, 0) > 1:
         return None
     scale = ratio(rewriter.definitions, x, source.args[0])

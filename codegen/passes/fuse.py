@@ -22,7 +22,7 @@ def run(program: Program) -> Program:
             if (
                 source is not None
                 and isinstance(source.operation, Exp)
-                # If exp(x) has a second reader, it is formed anyway, and applying it is cheap.
+                # If exp(x) has a second reader, exp(x) is formed anyway, and its action on y is cheap.
                 and rewriter.uses[assign.args[0]] == 1
             ):
                 fused = Assign(assign.targets, ActExp(), (source.args[0], assign.args[1]))

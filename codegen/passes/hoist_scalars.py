@@ -39,7 +39,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     if not operation.linear_in_last or source is None or not source.is_multiple:
         return rewriter.emit(assign)
     (target,) = assign.targets
-    # Without the number, value numbering can merge the maps of different multiples of x.
+    # After the number has been removed, value numbering can merge the maps of different multiples of x.
     mapped = rewriter.builder.fresh(target.name, target.kind)
     rewriter.emit(replace(assign, targets=(mapped,), args=(*assign.args[:-1], source.args[0])))
     return rewriter.emit(Assign((target,), source.operation, (mapped,)))
@@ -88,13 +88,13 @@ def _together(body: tuple[Assign, ...], builder: Builder) -> tuple[Assign, ...]:
         relative = tuple((k, Coefficient(c.value / unit.value, c.power - unit.power)) for k, c in places)
         # A value that occurs twice in one sum is skipped, because it would have to be removed twice.
         distinct = len({k for k, _ in places}) == len(places)
-        # A negative power of h in the quotient is not allowed, because h may be zero.
+        # The quotient must not contain a negative power of h, because h may be zero.
         if len(places) > 1 and distinct and all(c.power >= 0 for _, c in relative):
             groups.setdefault((v.kind.value, relative), []).append((v, unit))
     totals: list[Assign] = []
     for (_, relative), members in groups.items():
         _, unit = members[0]
-        # The common sum contains no powers of h, so all its members need the same power.
+        # The power of h is factored out of the common sum, so all terms must have the same power of h.
         if len(members) < 2 or any(c.power != unit.power for _, c in members):
             continue
         terms = [(Coefficient(c.value / unit.value), v) for c, v in ((c, v) for v, c in members)]

@@ -80,7 +80,8 @@ def residuals(program: Program, scene: Problem) -> Program:
     for statement in program.body:
         if isinstance(statement, Solve):
             paths = [path(statement, u) for u in statement.unknowns]
-            # A block has a residual for every unknown or for none, because Newton's matrix is square.
+            # A block has residuals for all of its unknowns or no residuals, because Newton's matrix is
+            # square.
             if all(p is not None for p in paths):
                 compared = [_residual(statement, p, build) for p in paths if p is not None]
                 statement = replace(
@@ -129,7 +130,8 @@ def _undone(build: Builder, assign: Assign, value: Var) -> Var:
         # The reciprocal of a function of ad is a function of ad, for which the group has a closed form.
         opposite = tuple(factor.inverse() for factor in operation.word)
         return build.add(AdSeries(opposite, value.kind is Kind.DUAL), "a", assign.args[0], value)
-    # The coefficient can be inverted, because an earlier pass has removed all terms with coefficient zero.
+    # The coefficient is not zero and can be inverted, because an earlier pass has removed all terms with
+    # coefficient zero.
     ((c, _),) = assign.terms
     return build.lin("s", value.kind, [(Coefficient(Number.rational(1) / c.value), value)])
 
@@ -152,13 +154,14 @@ def _values(build: Builder, route: Path) -> tuple[dict[Var, Var], Var]:
 
 
 def _residual(block: Solve, route: Path, build: Builder) -> Var:
-    """Append the difference of the two momenta, in the one of the frames in which it needs fewer
-    operations."""
+    """Append the difference of the two momenta, in the frame in which this difference needs fewer
+    operations.
+    """
     replaced, computed = _values(build, route)
     # Any two momenta on the path may be compared: an invertible map between them does not change the zeros.
     given = route.base
-    # In this case P is a sum of functions of one ad_x, which costs less than the momentum before the adjoint
-    # map.
+    # If P is Ad*_{exp x} of a sum of functions of one ad_x, then P is such a sum, too. It costs less than the
+    # momentum before the adjoint map.
     if _function_of_one(block, route):
         given = route.velocity.args[1]
     elif route.inward and route.inward[0].terms:

@@ -24,7 +24,8 @@ class PassReport:
 
     name: str
     because: str
-    # Whole programs are stored, because ``emit --explain`` prints the program after each pass.
+    # Whole programs are stored and not only counts, because ``emit --explain`` prints the program after each
+    # pass.
     earlier: Program
     program: Program
 

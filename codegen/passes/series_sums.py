@@ -76,7 +76,8 @@ class SeriesSums:
         groups: list[list[Term]] = []
         for c, v in assign.terms:
             source = self.definitions.get(v)
-            # A function with another reader is computed anyway, so nesting it here saves nothing.
+            # If a function of ad has a second reader, it is computed anyway, so nesting it in this sum saves
+            # nothing.
             if source is None or not isinstance(source.operation, AdSeries) or self.uses.get(v) != 1:
                 continue
             term = Term(v, c, source.operation, *source.args)
@@ -87,7 +88,8 @@ class SeriesSums:
                     break
             else:
                 groups.append([term])
-        # A single function needs two brackets with and without nesting, so at least two functions are needed.
+        # A single function needs two brackets with or without nesting, so only sums of two or more functions
+        # are nested.
         return [group for group in groups if len(group) > 1]
 
     def _nested(

@@ -34,7 +34,8 @@ def run(program: Program) -> Program:
         values: dict[Share, Var] = {}
 
         def rule(
-            # The sets are default arguments, because a closure would use the sets of a later round.
+            # The sets are passed as default arguments, because a closure would read the sets of a later
+            # round.
             rewriter: Rewriter,
             assign: Assign,
             wanted: set[Share] = wanted,
@@ -71,8 +72,8 @@ def _worthwhile(program: Program) -> set[Share]:
     """Return the combinations that are worth factoring: a map has fewer combinations than values."""
     worthwhile: set[Share] = set()
     for statement in program.body:
-        # Only blocks are searched, because a map in a block is evaluated in every sweep, and a map outside
-        # only once in a step.
+        # Only blocks are searched: a map in a block is evaluated in every sweep, but a map outside blocks is
+        # evaluated only once in a step.
         body = statement.body if isinstance(statement, Solve) else ()
         definitions = {target: a for a in body for target in a.targets}
         shares: dict[Key, dict[Share, None]] = {}

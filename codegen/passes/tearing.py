@@ -31,8 +31,8 @@ def run(program: Program) -> Program:
         # Momenta and forces are tried first. The remaining unknowns are then velocities, whose extrapolation
         # from earlier steps is the most accurate.
         for unknown in sorted(block.unknowns, key=lambda u: u.kind is Kind.ALG):
-            # The search is greedy and has a fixed order, because finding the smallest set of unknowns (a
-            # minimum feedback vertex set) is NP-hard.
+            # The search is greedy and has a fixed order. It does not look for the smallest set of unknowns, a
+            # minimum feedback vertex set, because this problem is NP-hard.
             smaller = _without(block, unknown)
             if smaller is not None:
                 names[unknown] = dict(zip(block.unknowns, block.images, strict=True))[unknown]
@@ -43,10 +43,10 @@ def run(program: Program) -> Program:
 
 
 def _without(block: Solve, unknown: Var) -> Solve | None:
-    """Return the block with an unknown replaced by its image; None if that closes a cycle."""
+    """Return the block with an unknown replaced by its image; None if the replacement closes a cycle."""
     image = dict(zip(block.unknowns, block.images, strict=True))[unknown]
-    # A single unknown is never replaced, because it is in a cycle: an earlier pass has replaced blocks
-    # without cycles by plain assignments.
+    # A single unknown is never replaced, because its image depends on the unknown itself: an earlier pass has
+    # replaced blocks without cycles by plain assignments.
     if len(block.unknowns) == 1 or image in block.unknowns:
         return None
 
@@ -71,8 +71,8 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
     their order. The result is None if there is a cycle."""
     maker = {target: k for k, assign in enumerate(body) for target in assign.targets}
     result: list[Assign] = []
-    # The state is False while an assignment waits for its arguments. If it is reached in this state, there is
-    # a cycle.
+    # The state is False while an assignment waits for its arguments. If the assignment is reached again in
+    # this state, there is a cycle.
     state: dict[int, bool] = {}
 
     def place(k: int) -> bool:

@@ -33,7 +33,7 @@ def run(program: Program) -> Program:
         # operation with results of different kinds.
         key = (assign.operation, assign.args, assign.targets[0].kind.value)
         if key not in known:
-            # The first computation keeps its place, before all of its readers.
+            # The first computation of a value keeps its place, which is before all readers of the value.
 
             known[key] = rewriter.emit(assign)
         return known[key]

@@ -19,7 +19,9 @@ SUM, PRODUCT, ATOM = 1, 2, 3
 
 @dataclass(frozen=True)
 class Rendering:
-    """Text of |x| and its precedence; ``negative`` is the sign of x. Lines may break between ``segments``."""
+    """The text of |x| and its precedence; ``negative`` is true if x has a minus sign. Lines may break between
+    ``segments``.
+    """
 
     segments: tuple[str, ...]
     precedence: int
@@ -89,7 +91,8 @@ def render(root: Expr, names: dict[str, str], style: Style = DOUBLES) -> tuple[s
             case "pow":
                 if node.args[0].op != "sym" or node.payload > 3:
                     raise ValueError("the printer received a power that the schedule has not rewritten")
-                # Products are rounded alike in every target, but the last bit of a library's pow may differ.
+                # Powers are printed as products, because products are rounded alike in every target, but
+                # results of ``pow`` may differ in the last bit.
                 rendered[node.id] = Rendering((" * ".join([args[0].text] * node.payload),), PRODUCT)
             case _:
                 inner = ", ".join(" ".join(signed(a)) for a in args)

@@ -38,7 +38,8 @@ class Text:
 
     def within(self, level: int) -> tuple[str, ...]:
         """Return the segments, in parentheses if the precedence is below ``level``."""
-        # An equal level needs no parentheses, because callers pass a higher level where grouping matters.
+        # If the precedence is equal to ``level``, no parentheses are needed, because callers pass a higher
+        # level where grouping matters.
         if self.level >= level:
             return self.segments
         return closed("(", self.segments, ")")
@@ -52,7 +53,7 @@ def closed(start: str, segments: tuple[str, ...], end: str) -> tuple[str, ...]:
 
 
 SHORT, LONG = 48, 80
-"""The longest operand, and the longest comparison, in which no line breaks."""
+"""No line breaks inside an operand of at most SHORT characters or a comparison of at most LONG characters."""
 
 
 def joined(segments: tuple[str, ...], most: int = SHORT) -> tuple[str, ...]:

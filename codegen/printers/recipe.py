@@ -41,7 +41,8 @@ def entry(word: str, sentences: Sequence[str], width: int) -> list[str]:
             initial_indent=start,
             subsequent_indent=indent,
             break_long_words=False,
-            # A command or a name that is broken at a hyphen could not be copied.
+            # Lines are not broken at hyphens, because a command or a name with a line break could not be
+            # copied.
             break_on_hyphens=False,
         )
     return lines
@@ -55,7 +56,8 @@ def header(
     stack: str = "",
     inputs: Sequence[str] = (),
 ) -> list[str]:
-    """Return the recipe's lines up to the usage example, none longer than ``width`` unless a word is longer.
+    """Return the recipe's lines up to the usage example. A line is longer than ``width`` only if it is a
+    single long word.
 
     ``stack`` states the bound on the stack of a call, if the bound is known. ``inputs`` describes the
     run-time inputs.

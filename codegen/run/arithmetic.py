@@ -23,8 +23,8 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
     """Return the statements of a kernel, in order, with ``after_loops`` after the last loop."""
     sequence: list[Statement] = []
     statements = plan.arrangement.statements
-    # All unknowns are final after the last loop, so this is the earliest place to store the
-    # solution.
+    # All unknowns have their final values after the last loop, so this is the first point at which the
+    # solution can be stored.
     last = max((k for k, s in enumerate(statements) if isinstance(s, Iteration)), default=-1)
     for place, statement in enumerate(statements):
         if isinstance(statement, Iteration):
@@ -39,7 +39,7 @@ def computed(plan: Plan, after_loops: Sequence[Statement] = (), *, counting: boo
 
 def loaded(symbols: Sequence[str], array: Term, read: Iterable[str]) -> list[Statement]:
     """Return the statements that load those entries of an array whose symbols are in ``read``."""
-    # C compilers warn of unused variables.
+    # Entries that are not read are not loaded, because C compilers warn of unused variables.
     wanted = frozenset(read)
     return [Assign(own(s), array[i]) for i, s in enumerate(symbols) if s in wanted]
 
@@ -81,11 +81,11 @@ def outlined(function: Outlined, arrangement: Arrangement) -> Function:
     """Return an outlined function of a kernel; it returns a single result, or fills an array with several."""
     body: list[Statement] = []
     for statement in arrangement.statements:
-        # Outlined functions contain no loops: their inputs are values that are already known.
+        # Outlined functions contain no loops, because their inputs are known before the call.
         assert isinstance(statement, Simple)
         body += simple(statement)
     parameters = tuple(map(own, function.inputs))
-    # A returned scalar stays in a register, an array would be written to memory and read again.
+    # A returned scalar stays in a register, but an array would be written to memory and read again.
     if len(arrangement.outputs) == 1:
         body.append(Return(value(arrangement.outputs[0])))
         return Function(function.name, function.about, parameters, tuple(body), Kind.REAL)
@@ -101,5 +101,5 @@ def filling(plan: Plan, name: str, about: str, result: Term) -> Function:
     body = loaded(plan.symbols, state, arrangement.symbols())
     body += computed(plan)
     body += stored(result, [value(x) for x in arrangement.outputs])
-    # NaNs in the result need no status: the tests of the complete state find them.
+    # The function returns no status, because tests of the complete state find NaNs in the result.
     return Function(name, about, (state, result), tuple(body), guard=RAISES_NAN, often=True)

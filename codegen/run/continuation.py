@@ -66,7 +66,8 @@ def continued(plan: Plan, core: str) -> Function:
 class _Continuation:
     """Builds the function; the attributes are the variables of the function."""
 
-    # Fractions of h: the longest step that succeeded, and the step that is tried now. The factor is the
+    # Two steps as fractions of h: the longest step that succeeded, and the step that is tried now. The factor
+    # is the
     # ratio of consecutive fractions.
     solved, part, factor = real("solved"), real("part"), real("factor")
     tries, done = count("tries"), flag("done")
@@ -86,8 +87,8 @@ class _Continuation:
         parameters += (*plan.remembering(plan.memory), *plan.counted)
         # A step of length zero is the identity, and there is no shorter step to try.
         nothing = select(all_finite(state), code(OK), code(NOT_FINITE))
-        # With a factor near 1 there is no progress: the branch of solutions probably ends before the whole
-        # step.
+        # If the factor is near 1, there is no progress, probably because the branch of solutions ends before
+        # the full length of the step.
         going_on = both(
             negated(self.done),
             self.tries < (Start.TRIES if plan.tries is None else plan.tries),
@@ -107,9 +108,10 @@ class _Continuation:
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
             If(negated(self.done), (Return(self.cause()),)),
-            # Only the whole step changes the state: shorter steps only provide initial guesses.
+            # Only the step of full length changes the state; shorter steps only provide initial guesses.
             Assign(state, self.trial),
-            # The earlier solutions belong to shorter steps; a polynomial through them would be wrong.
+            # The earlier solutions belong to steps of other lengths, so a polynomial through these solutions
+            # would be a bad initial guess.
             Assign(plan.memory.field("known", Kind.COUNT), whole(1)),
             no_failure(plan),
             Return(code(OK)),
@@ -137,8 +139,8 @@ class _Continuation:
         """Return the statements that try one step, from the solution of the last successful one."""
         plan, memory = self.plan, self.plan.memory
         rates = [memory.field(f"rate_{k}") for k in range(1, len(plan.kernel.loops) + 1)]
-        # Begin at the solution of the shorter step. Its rate of convergence does not apply to a longer step;
-        # the rate 1 requires a second sweep.
+        # Begin at the solution of the shorter step. The rate of convergence of the shorter step does not
+        # apply to a longer step. With the rate 1 in its place, the stopping rule requires a second sweep.
         from_guess: list[Statement] = [
             Assign(memory.field("known", Kind.COUNT), whole(1)),
             Assign(memory.field("guess", Kind.REAL, (self.n,)), self.guess),
@@ -146,7 +148,8 @@ class _Continuation:
         ]
         arguments = (*plan.moment(h=self.part * STEP), *plan.parameters, *plan.sampled(INPUTS))
         arguments += (*plan.remembering(memory), *plan.counted)
-        # Only step-size control reads the error estimate, and it uses no continuation in h.
+        # The error estimate is not needed: only step-size control reads it, and step-size control uses no
+        # continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
             # Each attempt starts at the original state, because h is the parameter of the
@@ -165,7 +168,8 @@ class _Continuation:
         assert plan.start is not None
         values = plan.memory.field("values", Kind.REAL, (2 * plan.start.depth, self.n))
         latest = values[plan.memory.field("place", Kind.COUNT)]
-        # Squaring undoes one square root: after a failure, one success restores the factor.
+        # A failure replaces the factor by its square root, and a success squares the factor, so one success
+        # restores the factor after a failure.
         succeeded = (Assign(self.guess, latest), Assign(solved, part), Assign(factor, factor * factor))
         failed = (
             Assign(self.failure, STATUS),
@@ -173,8 +177,8 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Halve the step until its equations converge. They do so for a short enough step, because they
-            # are then a contraction. Afterwards increase the last successful length by the factor.
+            # Halve the step until its equations converge. They converge for a short enough step, because the
+            # iteration is then a contraction. Afterwards increase the last successful length by the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

@@ -1,10 +1,11 @@
 """Runs of a splitting that defer flows: the last flow of a step and the first flow of the next step are
-computed as one flow, and flows that commute with all others are applied once for many steps.
+computed as one flow, and flows that commute with all other flows are applied once for many steps.
 
 Both changes are exact (:class:`codegen.ir.kernel.Deferred`). A state is complete, and may be observed, only
 after the deferred flows have been applied. They are applied when a row is due, after the last step, and after
-:data:`codegen.ir.kernel.LONGEST` steps. A NaN persists through later steps, so the next complete state shows
-it. The run is then repeated with the deferred flows applied in every step, to find the last good state.
+:data:`codegen.ir.kernel.LONGEST` steps. A NaN remains in the state in all later steps, so it is found in the
+next complete state. The run is then repeated with the deferred flows applied in every step, to find the last
+good state.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
-"""The names of the functions for the leading flow, for the flows that commute with all others, and for one
+"""The names of the functions for the leading flow, for the flows that commute with all other flows, and for one
 step with all its flows."""
 
 LATE = count("late")
@@ -70,7 +71,7 @@ def functions(plan: Plan) -> tuple[Function, ...]:
             _core(_plan(plan, deferred.begin), BEGIN, "Leading flow, applied once before the first step.")
         )
     if deferred.finish is not None:
-        about = "Flows that commute with all others, applied once for many steps."
+        about = "Flows that commute with all other flows, applied once for many steps."
         sequence.append(_core(_plan(plan, deferred.finish), FINISH, about))
     deferring = _Deferring(plan, deferred)
     return (
@@ -98,7 +99,8 @@ def _core(plan: Plan, name: str, about: str) -> Function:
 
 
 def _scalars(plan: Plan) -> Sequence[str]:
-    # Durations come last, so that all functions of the unit take their arguments in one order.
+    # Durations are the last arguments, so that all functions of the unit have their arguments in the same
+    # order.
     return ("t", "h", *(s for s in plan.kernel.scalars if s not in ("t", "h", LEAD, ELAPSED)), LEAD, ELAPSED)
 
 
@@ -155,7 +157,7 @@ class _Deferring:
             Assign(self.moving, state),
             *begin,
             *self.call(ADVANCE, kernel, TIME, STEP),
-            # A single step defers nothing: its caller sees the complete state.
+            # A single step defers no flow, because its caller reads the state, which must be complete.
             *self.call(FINISH, deferred.finish, TIME, STEP),
             If(negated(all_finite(self.moving)), (Return(code(NOT_FINITE)),)),
             Assign(state, self.moving),
@@ -181,8 +183,8 @@ class _Deferring:
             Array(self.complete),
             Assign(self.careful, truth(False)),
             Assign(DONE, whole(0)),
-            # At most three attempts: a fast one, a careful one that counts the good steps, and one that
-            # makes only these.
+            # There are at most three attempts: a fast attempt, a careful attempt that counts the good steps,
+            # and an attempt that makes only the good steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
             *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
@@ -199,7 +201,8 @@ class _Deferring:
         """
         state = self.plan.state()
         failed = (
-            # The next attempt makes exactly the steps that were good, and is therefore the last.
+            # The next attempt makes exactly the steps that were good. It cannot fail and is therefore the
+            # last attempt.
             If(self.careful, (Assign(STATUS, code(NOT_FINITE)), Assign(self.asked, DONE))),
             Assign(self.careful, truth(True)),
         )
@@ -227,7 +230,9 @@ class _Deferring:
         # ``DONE`` is the number of steps before the current step.
         last = (DONE + 1).equals(self.asked)
         t = exact_time(TIME, DONE, STEP)
-        # One product instead of a sum over steps makes one rounding error, however many steps were deferred.
+        # The elapsed time is one product and not a sum over steps, because a product makes a single rounding
+        # error,
+        # however many steps were deferred.
         elapsed = narrow(wide(LATE) * wide(STEP))
         sequence: list[Statement] = [
             Assign(self.shown, rows.due(DONE + 1)),

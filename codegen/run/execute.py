@@ -1,7 +1,8 @@
 """An executor of the run representation over any ordered scalars, for example floats or a ring.
 
 It executes the same statements as emitted code, so it takes the same sweeps, matrices and steps; only the
-arithmetic is that of a domain (:mod:`codegen.ir.domain`). Each function is compiled to closures once, so that
+arithmetic differs, because the scalars belong to a domain (:mod:`codegen.ir.domain`). Each function is
+compiled to closures once, so that
 a run of many steps does not traverse the statements again.
 
 >>> from codegen.ir.domain import FloatDomain
@@ -81,8 +82,8 @@ class Machine:
         self.unit, self.domain = unit, domain
         self.tables: Environment = {}
         for table in unit.tables:
-            # Entries of tables are converted once, because converting them at each access would take most of
-            # the time.
+            # The entries of tables are converted only once. Conversion at each access would take most of the
+            # time of a run.
             rows = [[self.number(x) for x in row] for row in table.rows]
             self.tables[table.name.text] = rows if len(table.name.shape) > 1 else rows[0]
         # No word is reserved, because the executor uses identifiers as keys of a dictionary and not as names
@@ -137,7 +138,8 @@ class Machine:
 
     def guarded(self, function: Function, arguments: Sequence[Any]) -> Any:
         """Return the result of a function after an arithmetic error."""
-        # Exact and many-digit scalars raise where IEEE arithmetic computes an infinity or a NaN.
+        # Exact numbers and mpmath numbers raise an exception where IEEE arithmetic computes an infinity or a
+        # NaN.
         if function.guard == RAISES_STATUS:
             return STATUSES.index(NOT_FINITE)
         changed = written(self.unit, function)
@@ -204,7 +206,8 @@ class _Compiler:
         index, number, body = self.identifiers.of(loop.index), self.term(loop.count), self.body(loop.body)
 
         def run(env: Environment) -> bool:
-            # The count is evaluated once, before the loop: no body changes it.
+            # The count is evaluated once, before the loop, because the body of a loop never changes its
+            # count.
             places = range(number(env))
             for k in reversed(places) if loop.reverse else places:
                 env[index] = k
@@ -379,7 +382,7 @@ class _Compiler:
                 return lambda env: getattr(first(env), field)
             case "neg":
                 return lambda env: -first(env)
-            # All numbers of a domain have the same precision, so nothing is converted.
+            # All numbers of a domain have the same precision, so ``wide`` and ``narrow`` convert nothing.
             case "wide" | "narrow":
                 return first
             case "given":
@@ -466,7 +469,7 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     """Replace a matrix, by rows, by its inverse, as emitted code does; return 0 if it is singular, else 1."""
     import numpy
 
-    # The order of operations is that of the emitted code, so that doubles agree in every bit.
+    # The operations have the same order as in the emitted code, so that doubles agree in every bit.
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []

@@ -28,8 +28,9 @@ class EmittedFloats(FloatDomain):
         self.limit = limit(DOUBLE, chain)
 
     def together(self, orders: Sequence[int], z: float) -> list[float]:
-        """Return c_k(z) of some orders, computed together."""
-        # The branches are those of the snippets, because another polynomial would differ in the last bit.
+        """Return c_k(z) for several indices k, computed together."""
+        # The branches are the same as in the snippets, because the result of another polynomial would differ
+        # in the last bit.
         if z <= TINY and len(orders) < 3:
             return [_short(k, z, "tiny") for k in orders]
         if z <= SMALL:
@@ -50,7 +51,7 @@ class EmittedFloats(FloatDomain):
         ratio = sine / half
         closed = {0: math.cos(2.0 * half), 1: ratio * cosine, 2: 0.5 * (ratio * ratio)}
         if 3 in orders:
-            # c_3 needs its polynomial up to a larger z than the others, because 1 - c_1 still cancels
+            # c_3 needs its polynomial up to a larger z than c_0, c_1 and c_2, because 1 - c_1 still cancels
             # there.
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio * cosine) / z
         return [closed[k] for k in orders]
@@ -87,7 +88,7 @@ class EmittedFloats(FloatDomain):
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
         *rest, total = slopes(k)
-        # Horner's rule in the order of the snippet, so that every rounding is the same.
+        # Horner's rule uses the order of the snippet, so that every rounding is the same.
         for term in reversed(rest):
             total = term + z * total
         return total
@@ -104,7 +105,8 @@ def _short(k: int, z: float, name: str) -> float:
     """Return a short polynomial: pairs of terms, added from left to right."""
     terms, w = _terms(k, name), z * z
     total, factor = 0.0, 1.0
-    # The grouping in pairs is that of the template ``stumpff_small``: it determines the roundings.
+    # Terms are grouped in pairs as in the template ``stumpff_small``, because the grouping determines the
+    # roundings.
     for place in range(0, len(terms), 2):
         pair = terms[place] + z * terms[place + 1] if place + 1 < len(terms) else terms[place]
         total = pair if place == 0 else total + factor * pair

@@ -1,4 +1,4 @@
-"""Identifiers of a unit in a target: legal names for the kernel's symbols, distinct from all others.
+"""Identifiers of a unit in a target: legal names for the kernel's symbols, distinct from all other names.
 
 The names of the run representation are legal in every target and are used unchanged. Names of a kernel come
 from scenes and programs. In each function these get identifiers that no other name of the function has.
@@ -22,8 +22,8 @@ class Identifiers:
 
     def of(self, name: Term) -> str:
         """Return the identifier of a name."""
-        # An unknown name of the kernel raises KeyError, because the unchanged name could be an illegal
-        # identifier.
+        # A name of the kernel that is not in the table raises KeyError, because the unchanged name could be
+        # an illegal identifier.
         return self.by_name[name.text] if name.own else name.text
 
     def variable(self, name: Term) -> str:
@@ -48,8 +48,8 @@ def identify(unit: Unit, reserved: Collection[str]) -> dict[str, Identifiers]:
 
 def _identified(function: Function, scalars: Iterable[str], taken: Collection[str]) -> dict[str, str]:
     own = Names(taken)
-    # Arguments come first, because they have the same identifiers in every function, whatever other names it
-    # has.
+    # Arguments get their identifiers first, because they have the same identifiers in every function,
+    # whatever other names the function has.
     own.add_all(scalars)
     entries: dict[str, str] = {}
     for statement in statements(function.body):

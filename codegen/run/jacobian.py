@@ -47,7 +47,7 @@ from codegen.run.terms import (
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions of the derivative, none if it was not requested."""
+    """Return the functions that compute the derivative; no functions if the derivative was not requested."""
     if plan.kernel.vary is None:
         return ()
     # The derivative has a separate plan, because the kernel of variations has other inputs, outputs and loops
@@ -98,9 +98,9 @@ class _Jacobian:
         """Return the function with its parameters and body."""
         plan, dim = self.plan, self.dim
         matrix = real("jacobian", dim * dim)
-        # The derivative is that of one step with constant inputs, as in the public function ``step``.
+        # The differentiated step has constant inputs, as in the public function ``step``.
         given = (self.given,) if plan.held else ()
-        # Each call of ``vary`` yields a column, but callers expect the matrix by rows.
+        # Each call of ``vary`` computes a column, but the result is stored by rows.
         entry = Assign(matrix[dim * self.row + self.column], self.vector[self.row])
         inner: tuple[Statement, ...] = (
             Array(self.vector, zero=True),
@@ -150,7 +150,8 @@ class _Jacobian:
                 If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, point), (STATUS,)),)),
             ]
         inner: tuple[Statement, ...] = (
-            # The variation comes first: it is linearised at the point where the substep begins.
+            # The variation is advanced first, because the linearised substep is evaluated at the state before
+            # the substep.
             Call("vary", (point, self.vector, *moment), (STATUS,)),
             If(STATUS.equals(code(OK)), tuple(moved)),
             # The number of the substep is increased even after a failure: the status ends the loop, and the

@@ -1,6 +1,7 @@
 """The run representation: the code around a kernel as a small imperative program.
 
-Stopping rules, warm starts, continuation, runs and step control are written in it once, one file for each
+Stopping rules, warm starts, continuation, runs and step control are written once in this representation, one
+file for each
 concern. Printers translate it to a target; :mod:`codegen.run.execute` executes it over any scalars.
 
 A :class:`Function` has seven kinds of statement besides notes: :class:`Assign`, :class:`Array`, :class:`For`,
@@ -171,11 +172,11 @@ def blocks(statement: Statement) -> tuple[Body, ...]:
 
 
 def direct(statement: Statement) -> tuple[Term, ...]:
-    """Return the terms of a statement itself, targets first, without those of inner bodies."""
+    """Return the terms of a statement itself, targets first, without the terms of inner bodies."""
     match statement:
         case Assign(target, term):
             return (target, term)
-        # The name comes first, because callers expect targets before the terms that are read.
+        # The target comes first, because callers expect targets before the terms that are read.
         case Array(name, values):
             return (name, *values)
         case For(index, count):
@@ -191,7 +192,7 @@ def direct(statement: Statement) -> tuple[Term, ...]:
 
 
 def statements(body: Iterable[Statement]) -> Iterator[Statement]:
-    """Yield every statement, those of inner bodies included."""
+    """Yield every statement, including the statements of inner bodies."""
     for statement in body:
         yield statement
         for inner in blocks(statement):
@@ -223,7 +224,8 @@ def assigned(statement: Statement) -> tuple[Term, ...]:
             return (target,)
         case Array(name):
             return (name,)
-        # Printers declare the index in the head of the loop, so the loop counts as its assignment.
+        # Printers declare the index in the head of the loop, so the loop counts as an assignment to the
+        # index.
         case For(index):
             return (index,)
         case Call(results=results):

@@ -1,8 +1,8 @@
 """The carried momentum: steps use the momentum in the body frame, states contain the momentum in space.
 
 Converting at the beginning and the end of a run costs less than converting in each step. At the end, the
-increase of the space momentum over the run is added to the momentum of the initial state. So if rounding has
-made q slightly non-orthogonal, the conversion perturbs the increase only.
+increase of the space momentum over the run is added to the momentum of the initial state. If rounding has
+made q slightly non-orthogonal, the conversion therefore perturbs only the increase.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def momentum_before(plan: Plan) -> Term:
 
 
 def turning(plan: Plan) -> tuple[Function, ...]:
-    """Return the functions that convert the momentum, and those that begin and end a run."""
+    """Return the functions that convert the momentum, and the functions that begin and end a run."""
     carried = plan.kernel.carried
     if carried is None:
         return ()
@@ -34,7 +34,7 @@ def turning(plan: Plan) -> tuple[Function, ...]:
     # Only the momentum is converted: the group element is the same in both frames.
     momentum = real("momentum", n)
     to_body = filling(
-        # The conversions are kernels of their own, so they are scheduled and printed like a step.
+        # Each conversion is a separate kernel, so it is scheduled and printed like a step.
         Plan(carried.inward, plan.format),
         "to_body",
         "Convert space momentum to body momentum.",
@@ -51,7 +51,7 @@ def _enter(plan: Plan, carried: Carried) -> Function:
     first, n = carried.first, plan.size - carried.first
     body = (
         Call("to_body", (state, before)),
-        # The conversion needs q, which both frames share.
+        # The conversion needs q, which is the same in both frames.
         Assign(moving.part(0, first), state.part(0, first)),
         Assign(moving.part(first, n), before),
         # Convert back immediately: the rounding error of converting to the body frame and back then cancels

@@ -1,4 +1,6 @@
-"""The number of scalars that a unit holds at once, which bounds the stack of a call."""
+"""The number of scalars that the functions of a unit store at the same time, which bounds the stack of a
+call.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +19,8 @@ def numbers_held(unit: Unit) -> int:
     identifiers = identify(unit, ())
     held = {f.name: _held(unit, f, identifiers[f.name]) for f in unit.functions}
     public = [held[f.name] for f in unit.functions if f.public]
-    # All private functions may be inlined into one frame. Only one public function runs at a time.
+    # All private functions may be inlined into one stack frame, so their scalars are added. Only one public
+    # function runs at a time, so the largest number is taken.
     return sum(held.values()) - sum(public) + max(public)
 
 
@@ -25,15 +28,16 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     arrays, passed, scalars = 0, 0, set()
     for statement in statements(function.body):
         if isinstance(statement, Call):
-            # Compilers that do not optimise give each argument of each such call a place of its own.
+            # Compilers that do not optimise reserve a separate place on the stack for each argument of each
+            # such call.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):
-            # Arrays of one name in different blocks are counted separately: a compiler need not overlap
-            # them.
+            # Arrays of one name in different blocks are counted separately: a compiler need not store them in
+            # the same memory.
             arrays += prod(statement.name.shape) * _size(unit, statement.name)
             continue
-        # A scalar that is assigned several times has one place on the stack.
+        # A scalar that is assigned several times counts once, because it has one place on the stack.
         scalars |= {identifiers.of(t) for t in assigned(statement) if t.op == "name" and not t.shape}
     return arrays + passed + len(scalars) + len(function.parameters)
 

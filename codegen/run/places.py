@@ -20,8 +20,8 @@ class Place:
     @property
     def term(self) -> Term:
         """The entries of the block."""
-        # The stopping rule compares a change with the largest entry of a block, so a block is a single
-        # term.
+        # A block is a single term, because the stopping rule compares a change with the largest entry of a
+        # block.
         return real(self.array, self.whole).part(self.start, self.size)
 
 

@@ -28,13 +28,13 @@ STEPS, STRIDE = count("steps"), count("stride")
 class Plan:
     """A kernel and the floating-point format of its module.
 
-    The continuation tries a step whose equations do not converge up to ``tries`` times (``Start.TRIES`` by
-    default).
+    If the equations of a step do not converge, the continuation makes at most ``tries`` attempts (by default
+    ``Start.TRIES``).
     """
 
     kernel: Kernel
     format: Precision
-    # A trial of a solver sets this limit to one, so that continuation in h does not hide a failure.
+    # In a trial of a solver this limit is one, so that continuation in h does not hide that the solver fails.
     tries: int | None = None
 
     @cached_property

@@ -63,7 +63,7 @@ def _variables(function: Function, identifiers: Identifiers) -> dict[str, Term]:
 
     collect(function.body)
     for parameter in function.parameters:
-        # The head of the function declares parameters, also if the body assigns them.
+        # The head of the function declares the parameters, including parameters that the body assigns.
         result.pop(identifiers.of(parameter), None)
     return result
 
@@ -108,7 +108,7 @@ class _Scopes:
     def deeper(self, body: Body, places: list[int], name: str) -> list[Body]:
         """Return the inner blocks to which a variable belongs; none if the variable belongs to ``body``."""
         result: list[Body] = []
-        # Only statements that mention the variable can contain a block for it.
+        # Only statements that mention the variable can contain a block to which the variable belongs.
         for k in places:
             statement = body[k]
             if name in self.own(statement):  # a statement of ``body`` itself mentions the variable

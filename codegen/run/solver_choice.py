@@ -21,11 +21,11 @@ Without the bound :data:`PRICE`, robust solvers with matrices of 24 and 36 unkno
 the gallery 5 to 14 times as long (``benchmarks/README.md``).
 
 The bound does not apply to linear equations. Newton's method then needs one matrix for all steps of a run,
-and its step size is limited by accuracy only. If fixed-point iteration is not robust, a step that is slower
-by a large factor may be longer by a larger one.
+and its step size is limited by accuracy only. A step by Newton's method may take many times as long to
+compute, but its step size may be larger by a still larger factor.
 
 Kernels of many unknowns take long to build and try. Before a kernel is built, a lower bound of its cost is
-computed. The kernel is not built if a known solver is certain to be preferred to it
+computed. The kernel is not built if a solver that has been tried is certain to be preferred to this kernel
 (:meth:`_Selection.consider`). Trials with more than :data:`LARGE` unknowns make fewer steps.
 """
 
@@ -50,7 +50,7 @@ from orderconds.errors import UnknownName
 
 AUTO = "auto"
 CHOICES = (AUTO, NEWTON, SIMPLIFIED_NEWTON, FIXED_POINT)
-"""The solvers that a caller may request."""
+"""The names of solvers that a caller may request."""
 
 ASKED = "as asked for"
 """The reason for a solver that the caller named."""
@@ -67,7 +67,9 @@ solver.
 """
 
 LARGE = 64
-"""Above LARGE unknowns a trial has FEW_STEPS steps. It omits continuation in h: thousands of sweeps."""
+"""Above LARGE unknowns a trial has FEW_STEPS steps. It omits continuation in h, which may take thousands of
+sweeps.
+"""
 
 
 NONLINEAR = 2
@@ -282,10 +284,10 @@ class _Selection:
         return candidate.kernel, self.choices(candidate.kernel, reasons)
 
     def consider(self, solver: str) -> None:
-        """Build and try the kernel of a solver, unless it cannot be the best.
+        """Build and try the kernel of a solver. A solver that cannot be the best is skipped.
 
-        If Newton's method converges with many unknowns, robust or not, simplified Newton is tried only if it
-        may be faster: it inverts a matrix in each step.
+        If there are many unknowns and Newton's method converges, simplified Newton is tried only if it may be
+        faster: it inverts a matrix in each step.
         """
         least = self.least(solver)
         needed = solver == NEWTON and self.linear and not self.candidates[FIXED_POINT].robust

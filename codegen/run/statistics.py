@@ -24,7 +24,7 @@ def statistics_record(plan: Plan) -> Record:
         # Blocks are numbered from one, so that a record of zeros means no failure.
         (count("failed"), "number of the block that failed, counted from 1; 0 if none"),
     ]
-    # Simplified Newton computes one matrix in each step, so its number of matrices needs no counter.
+    # Simplified Newton computes one matrix in each step, so its matrices are not counted.
     if plan.newton:
         fields.append((count("matrices"), "number of Newton matrices that were computed"))
     about = "Sweeps over the equations, summed over all steps since the caller set all fields to zero."
@@ -38,7 +38,8 @@ def counters(plan: Plan) -> tuple[Function, ...]:
     total = statistics.field("sweeps", Kind.COUNT, (len(plan.kernel.loops),))[block]
     adding = (
         Assign(total, total + sweeps),
-        # The mean hides a single hard step, which is the first sign that h is too large.
+        # The largest number is stored besides the sum: a single step with many sweeps is the first sign that
+        # h is too large, and the mean would hide it.
         If(sweeps > most, (Assign(most, sweeps),)),
         If(failed, (Assign(last, block + 1),)),
     )

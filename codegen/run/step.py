@@ -64,15 +64,15 @@ def kernel_step(plan: Plan) -> Function:
     # All outputs are computed before the first entry of the state is overwritten, because they read the old
     # state.
     ends, new = outputs(plan.arrangement, plan.symbols)
-    # The kernel does not read these entries, because other entries determine them. So the new state does not
-    # show a NaN in them.
+    # The kernel does not read these entries, because other entries determine them. A NaN in one of these
+    # entries would therefore not appear in the new state.
     unread = [state[i] for i, s in enumerate(plan.symbols) if s not in read]
     body: list[Statement] = [
         If(negated(is_finite(STEP)), (Return(code(BAD_STEP)),)),
         *sampled(plan),
         *loaded(plan.symbols, state, read),
-        # The extrapolation follows the loops directly: the processor can overlap its arithmetic with the
-        # arithmetic of the outputs.
+        # The extrapolation comes directly after the loops, so that a processor can compute it in parallel
+        # with the outputs.
         *computed(plan, _remembered(plan)),
         *ends,
         # Nothing is written to the state before this last test: a failed step leaves the state unchanged.
@@ -101,7 +101,7 @@ def _errors(plan: Plan) -> list[Statement]:
     if plan.kernel.estimate is None:
         return []
     errors = stored(plan.error, [value(x) for x in plan.arrangement.errors])
-    # A run with constant steps passes no array and skips the estimate.
+    # A run with constant steps passes no array for the estimate, and no estimate is computed.
     return [If(given(plan.error), tuple(errors))]
 
 
@@ -112,7 +112,9 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # Age 0 makes the next step compute a new matrix: after ``period`` steps the old one contracts poorly.
+        # With age 0 the next step computes a new matrix, because after ``period`` steps the iteration with
+        # the old
+        # matrix contracts poorly.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence

@@ -4,7 +4,7 @@ The error norm of a step is the root mean square of its estimate over atol + rto
 the norm is at most one. Let p be the order of the estimate. After an accepted step, the step size is
 multiplied by 0.9 norm^(-0.8/p) before^(0.2/p), where ``before`` is the norm of the previous accepted step;
 this factor is limited to [0.2, 5], and to [0.2, 1] after a rejection. A rejected step is repeated with the
-factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. The limits are those of Hairer, Norsett and Wanner, Solving
+factor 0.9 norm^(-1/p), limited to [0.2, 0.9]. The limits are taken from Hairer, Norsett and Wanner, Solving
 Ordinary Differential Equations I, section II.4; the controller is Gustafsson's (II, section IV.2). With the
 exponents 0.7/p and 0.4/p, which damp more, the sizes follow the solution more slowly: DOP853 needs 15 to 20 %
 more steps on ``heavy_top``. The exponents 0.8/p and 0.2/p are multiples of one power of the norm.
@@ -132,7 +132,8 @@ class _Controlled:
         chosen = (self.t, self.end, self.h, RTOL, ATOL, self.limit)
         passed = (*plan.parameters, *plan.sampled(), *plan.counted)
         parameters = (plan.state(), *chosen, *passed, self.accepted, self.rejected)
-        # Integration backwards in time is allowed, so both signs are tested. For a NaN both tests are
+        # Integration backwards in time is allowed, so the test has a case for each direction. For a NaN both
+        # tests are
         # false.
         moving = either(self.now < self.end, self.now > self.end)
         body: tuple[Statement, ...] = (
@@ -151,14 +152,14 @@ class _Controlled:
     def begin(self) -> tuple[Statement, ...]:
         """Return the statements before the first step."""
         plan = self.plan
-        # The arguments are tested once, before the loop, because the loop only scales step sizes by bounded
-        # factors.
+        # The arguments are tested once, before the loop. This is enough, because the loop only multiplies
+        # step sizes by bounded factors.
         numbers = both(*(is_finite(x) for x in (self.length, self.now, self.end)))
         # The comparisons are false for a NaN, so a NaN is refused as well.
         tolerances = both(RTOL >= 0.0, ATOL >= 0.0)
         memory = [Array(plan.memory, zero=True)] if plan.remembers else []
-        # A crude choice is enough: a rejection shortens it by a factor of up to 5, and the step after it may
-        # be longer by the factor FIRST.
+        # A crude first step size is enough: a rejection shortens the step by a factor of up to 5, and after
+        # an accepted first step the step size may grow by the factor FIRST.
         chosen = size(self.end - self.now) / FIRST
         return (
             Assign(STATUS, code(OK)),
@@ -191,7 +192,7 @@ class _Controlled:
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
                 (Assign(STATUS, select(stuck, code(TOO_SHORT), code(LIMIT))),),
-                # The test is false for a NaN, so an estimate that is not a number rejects the step.
+                # The test is false for a NaN, so a step is rejected if its error estimate is not a number.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),
         )
@@ -202,7 +203,7 @@ class _Controlled:
         known = {"t": self.now, "h": self.taken}
         arguments = (*(known.get(x.text, x) for x in plan.moment()), *plan.parameters, *plan.sampled())
         arguments += (*plan.remembering(plan.memory), *plan.counted, self.error)
-        # The extrapolation assumes solutions at equal distances in time.
+        # The memory is cleared, because the extrapolation assumes solutions at equal distances in time.
         forgotten = [Assign(plan.memory, fresh(plan.memory))] if plan.remembers else []
         measured = Call("weighted", (state, self.trial, self.error, RTOL, ATOL), (self.norm,))
         return (
@@ -231,7 +232,8 @@ class _Controlled:
         """Return the statements after an accepted step."""
         state, most = self.plan.state(), self.rounded(FLOOR ** (-SHARE / self.order))
         square = self.root * self.root
-        # ``root`` is norm^(-SHARE/p), and ``previous`` is that of the previous step, at most that of FLOOR.
+        # ``root`` is norm^(-SHARE/p), and ``previous`` is the value of ``root`` for the previous step, at
+        # most its value for the norm FLOOR.
         # The previous error damps the controller: step sizes oscillate less where stability limits them. The
         # first step has no previous error.
         trend = select(self.starting, self.root, number(1.0) / self.previous)
@@ -259,9 +261,10 @@ class _Controlled:
     def refuse(self) -> tuple[Statement, ...]:
         """Return the statements after a rejected step.
 
-        The status of a failed step is reset to OK as long as a shorter step still changes the time.
+        The status of a failed step is reset to OK if adding the shorter step still changes the time.
         """
-        # If even the shorter step leaves the time unchanged, the status of the failure is the result.
+        # If adding even the shorter step does not change the time, the run returns the status of the failed
+        # step.
         following = real("next")
         changes = either(following > self.now, following < self.now)
         return (

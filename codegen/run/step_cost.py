@@ -80,8 +80,8 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     True
     """
     arithmetic, divisions = counts.get("add", 0) + counts.get("mul", 0), counts.get("div", 0)
-    # All calls cost the same: nearly all are Stumpff functions of small arguments, which are short
-    # polynomials.
+    # All calls count alike, because nearly all calls are Stumpff functions of small arguments, which are
+    # computed by short polynomials.
     calls = sum(counts.values()) - arithmetic - divisions
     return Amounts(arithmetic=arithmetic, divisions=divisions, calls=calls)
 
@@ -96,7 +96,8 @@ def of_step(kernel: Kernel, work: Work) -> Amounts:
 
 def of_sweep(loop: Loop, work: Work) -> Amounts:
     """Return the amounts of one sweep."""
-    # The next sweep reads the corrected unknowns, so it cannot overlap with this product.
+    # The next sweep reads the corrected unknowns, so a processor cannot begin it before this product is
+    # computed.
     corrected = loop.newton is not None and not loop.newton.residuals
     return of_operations(work[loop.label]) + Amounts(swept=len(loop.unknowns), corrections=int(corrected))
 
@@ -106,7 +107,7 @@ def of_matrix(loop: Loop, work: Work) -> Amounts:
     if loop.newton is None:
         return Amounts()
     return of_operations(work[matrix_of(loop.label)]) + inversion(
-        # An inverse by formula is part of the counted operations.
+        # The operations of an inverse by formula have been counted with the operations of the kernel.
         0 if loop.newton.inverted else len(loop.unknowns)
     )
 

@@ -16,7 +16,8 @@ All tests are relative, so the number of sweeps does not depend on the units of 
 diverging iteration is never accepted on the grounds that its values are still small. A change that is not
 finite ends a loop with NOT_FINITE.
 
-A stopping test by rate times change is that of Hairer and Wanner, Solving Ordinary Differential Equations II,
+The stopping test by rate times change is taken from Hairer and Wanner, Solving Ordinary Differential
+Equations II,
 section IV.8.
 """
 
@@ -54,8 +55,8 @@ from codegen.run.terms import (
 )
 
 LEAST_RATE = 2.0**-13
-"""This number is added to the rate, because the last change is applied, too, and its relative error is about
-this large.
+"""This number is added to the rate of convergence. The loop also applies the last change to the unknowns, and
+the relative error of this change is about as large as this number.
 """
 
 FOUR_ROUNDINGS = 2.0**-50
@@ -182,7 +183,7 @@ class Stopping:
         The matrix is exact to first order in h, so the rate of the step before is valid in the first sweep. A
         loop that contracts ends if the predicted next change is below four roundings of the sum of the
         unknowns. A loop that does not contract ends after the second sweep or later, if the change is below
-        the tolerance or below the rounding of the state.
+        the tolerance or below the rounding errors of the state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))

@@ -143,7 +143,8 @@ class _Loop:
             unsolved = both(STATUS.differs(code(OK)), singular)
             sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
-            # Count before the guard returns: the statistics must name the block that failed.
+            # The sweeps are counted before the guard returns, because the statistics must name the block that
+            # failed.
             sequence.append(count_sweeps(self.plan, self.number - 1))
         sequence.append(If(STATUS.differs(code(OK)), (Return(STATUS),)))
         return [*sequence, *self.rule.after()]
@@ -243,14 +244,16 @@ class _Newton(_Loop):
         if self.kept:
             sequence.append(Assign(self.making, negated(self.age > 0)))
             sequence.append(Assign(flag("astray"), truth(False)))
-            # A matrix computed from unknowns that are not finite would replace a good matrix in the memory.
+            # No matrix is computed from unknowns that are not finite, because it would replace a good matrix
+            # in the memory.
             body.append(If(both(self.making, is_finite(finite)), tuple(self.renewed())))
         else:
             sequence += self.prepared()
         body += self.product(changes, residuals)
         body += rule.measured([size(x) for x in changes], self.unknowns)
         body += rule.rates()
-        # Measure the scale before the correction: relative to an initial guess of zero, no change is small.
+        # The scale is measured before the correction. If the initial guess is zero, no change then counts as
+        # small.
         body += self.corrected(changes)
         body += rule.converged()
         # ``invert`` sets the age to 1 on success and to 0 for a singular matrix. With a singular matrix, even
@@ -347,7 +350,7 @@ class _Newton(_Loop):
     def cell(self, place: int) -> Term:
         """Return an entry of the inverse; it is a variable if the inverse is computed in each step."""
         if self.iteration.loop.solver == SIMPLIFIED_NEWTON and self.newton.inverted:
-            # This inverse is used in one step only. Its entries are scalars, which can stay in registers.
+            # This inverse is used in one step only, so its entries can be scalars, which stay in registers.
             return real(f"inverse_{self.number}_{place}")
         return self.inverse[place]
 
@@ -356,8 +359,7 @@ class _Newton(_Loop):
         n = len(changes)
         if n <= WIDE:
             rows = [[self.cell(i * n + j) * r for j, r in enumerate(residuals)] for i in range(n)]
-            # The latency of this sum is on the critical path of every sweep. Adding pairs first halves the
-            # latency.
+            # Every sweep waits for this sum. If pairs are added first, the latency of the sum is halved.
             return [Assign(c, paired(row)) for c, row in zip(changes, rows, strict=True)]
         i, j, partial = count("i"), count("j"), real("sum")
         right, left = real(f"residuals_{self.number}", n), real(f"changes_{self.number}", n)

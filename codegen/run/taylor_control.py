@@ -1,4 +1,5 @@
-"""Step control by Taylor coefficients: no step is rejected, because its size follows from its polynomial.
+"""Step control by Taylor coefficients: each step size is computed from the coefficients before the step, so
+no step is rejected.
 
 Let c_k be coefficient k of the solution at the state y, and p the degree. With the maximum norm and
 epsilon = atol + rtol |y|, the step size is the smaller one of (epsilon/|c_k|)^(1/k) for k = p - 1 and k = p,
@@ -66,7 +67,7 @@ LEAST = 1e-30
 """The least size of a coefficient: smaller coefficients permit steps beyond every span."""
 
 ROWS = 4
-"""Products of a sum that are added at once."""
+"""The number of rows whose products are added to each inner sum in one pass."""
 
 RTOL, ATOL = real("rtol"), real("atol")
 
@@ -74,7 +75,9 @@ ORDER_TERM = own(ORDER)
 
 
 def functions(plan: Plan) -> tuple[Function, ...]:
-    """Return the adaptive run and those of its functions that are not in :func:`polynomial_step`."""
+    """Return the adaptive run and its functions, without the functions that :func:`polynomial_step`
+    returns.
+    """
     expansion = plan.kernel.expansion
     if expansion is None or not expansion.controlled:
         return ()
@@ -95,7 +98,7 @@ def inner_sums(k: Term, width: int, left: Term, right: Term, sums: Term) -> list
     j, lane, first, last = count("j"), count("lane"), count("first_row"), count("last_row")
 
     def products(i: int) -> Term:
-        """Return the product of the rows i after the first and i before the last."""
+        """Return the product of row ``first + i`` of ``left`` and row ``last - i`` of ``right``."""
         return left[(first + i) * width + lane] * right[(last - i) * width + lane]
 
     def together(rows: int) -> Term:
@@ -141,13 +144,15 @@ class _Controlled:
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
-        # Where the coordinates are those of the state, no arrays are copied.
+        # If the polynomial is in the coordinates of the state, no arrays are copied.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
         self.series = real("series", self.degree * self.size)
 
     def polynomial(self) -> tuple[Function, ...]:
-        """Return the functions that compute and evaluate the polynomial, and those of its coordinates."""
+        """Return the functions that compute and evaluate the polynomial, and the functions that convert its
+        coordinates.
+        """
         enter, leave = self.expansion.enter, self.expansion.leave
         listed = []
         if enter is not None:
@@ -200,7 +205,9 @@ class _Controlled:
         )
 
     def is_sound(self) -> Term:
-        """Return the test of both states: the new one may not depend on some entries of the old one."""
+        """Return the test that both states are finite. Both are tested, because the new state need not depend
+        on all entries of the old state.
+        """
         return both(all_finite(self.trial), all_finite(self.state))
 
     def expand_in_loop(self) -> Function:
@@ -248,7 +255,7 @@ class _Controlled:
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 
     def numbers(self, symbols: frozenset[str]) -> list[Statement]:
-        """Return the statements that compute the numbers of one order which its code reads."""
+        """Return the statements that compute the numbers that the code of one order reads."""
         one, linear = number(1.0), select(ORDER_TERM < 1.5, number(1.0), number(0.0))
         known = {INVERSE: one / ORDER_TERM, NEXT: one / (ORDER_TERM + 1.0), LINEAR: linear}
         return [Assign(own(name), x) for name, x in known.items() if name in symbols]
@@ -336,7 +343,8 @@ class _Controlled:
         return (
             *self.entered(),
             Call(EXPAND, (self.start, *moment, self.series)),
-            # An infinity or NaN in a coefficient reaches the later ones, and no shorter step removes it.
+            # If a coefficient is infinite or NaN, so are later coefficients, and a shorter step does not
+            # help.
             Assign(self.finite, all_finite(self.series.part((p - 1) * n, n))),
             Call(ADVISE, (self.start, self.series, RTOL, ATOL), (self.advised,)),
             If(bounded, (Assign(self.advised, self.length),)),

@@ -126,7 +126,7 @@ class Term:
 
     def part(self, start: int, size: int) -> Term:
         """Return ``size`` entries of an array of reals, from ``start`` on."""
-        # The whole array needs no offset in C and no slice in Python.
+        # If the part is the whole array, it is printed without an offset in C and without a slice in Python.
         if start == 0 and self.shape == (size,):
             return self
         return Term("part", (self,), self.kind, number=start, shape=(size,))
@@ -138,7 +138,7 @@ class Term:
 
 Operand = Term | float | int
 
-# A Python number gets the kind of the other operand; with this count as other operand, an index becomes a
+# A Python number gets the kind of the other operand. The other operand is this count, so an index becomes a
 # count.
 _COUNT = Term("name", kind=Kind.COUNT)
 
@@ -228,13 +228,13 @@ INFINITY = Term("infinity")
 
 
 def both(*tests: Term) -> Term:
-    """Return the conjunction of tests; evaluation ends at the first that is false."""
+    """Return the conjunction of tests; evaluation ends at the first test that is false."""
     # The tests are joined from the left, because all targets print this form without parentheses.
     return reduce(lambda a, b: Term("and", (a, b), Kind.FLAG), tests)
 
 
 def either(*tests: Term) -> Term:
-    """Return the disjunction of tests; evaluation ends at the first that is true."""
+    """Return the disjunction of tests; evaluation ends at the first test that is true."""
     return reduce(lambda a, b: Term("or", (a, b), Kind.FLAG), tests)
 
 
@@ -244,7 +244,9 @@ def negated(test: Term) -> Term:
 
 
 def select(test: Term, yes: Operand, no: Operand) -> Term:
-    """Return one of two values; unlike a branch, an array language computes both of them."""
+    """Return one of two values. In array languages a select computes both values, and a branch computes only
+    one.
+    """
     # A Python number beside a term gets the kind of the term; two Python numbers are reals.
     like = yes if isinstance(yes, Term) else no if isinstance(no, Term) else number(0.0)
     first, second = _term(yes, like), _term(no, like)
@@ -264,7 +266,8 @@ def size(x: Term) -> Term:
 def greatest(terms: Iterable[Term]) -> Term:
     """Return the greatest of some reals."""
     listed = tuple(terms)
-    # A single term is returned without a call, because ``max`` of a single number is an error in Python.
+    # If there is only one term, it is returned without a call, because ``max`` of a single number is an error
+    # in Python.
     return listed[0] if len(listed) == 1 else call("greatest", *listed)
 
 
@@ -285,7 +288,7 @@ def all_finite(*terms: Term) -> Term:
 
 def total(terms: Iterable[Term]) -> Term:
     """Return a sum from left to right."""
-    # The order is fixed, so that all targets round alike.
+    # The order of additions is fixed, so that all targets have the same rounding errors.
     return reduce(lambda a, b: a + b, terms)
 
 
@@ -332,8 +335,8 @@ def narrow(x: Term) -> Term:
 
 def names(terms: Iterable[Term]) -> Iterator[Term]:
     """Yield every name in terms, including names in expressions of the kernel."""
-    # The terms are reversed, because the stack is read from its end, and names must appear in the order of
-    # the text.
+    # The stack is read from its end, so the terms are pushed in reverse order: names are then yielded in the
+    # order of the text.
     waiting = list(terms)[::-1]
     while waiting:
         term = waiting.pop()
@@ -351,7 +354,7 @@ def _read(name: str) -> Term:
 
 
 def symbols(root: Expr) -> Iterator[str]:
-    """Yield the symbols of an expression, in the order in which it reads them."""
+    """Yield the symbols of an expression, in the order in which the expression reads the symbols."""
     # Expressions share nodes: without this set, the walk could take exponential time.
     seen: set[int] = set()
     waiting = [root]

@@ -58,9 +58,11 @@ LOOP = "loop"
 
 
 def is_looped(plan: Plan) -> bool:
-    """Whether the kernel is inlined in a run: it has a small state, and no other function contains it."""
+    """Whether the kernel is inlined in a run: the kernel has a small state, and no other function contains
+    the kernel.
+    """
     kernel = plan.kernel
-    # A function call in each step would force the state to memory.
+    # If each step were a function call, the state would have to be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
     plain = bool(kernel.outputs) and kernel.estimate is None
     return alone and plain and not (plan.counting or plan.time or _may_raise(kernel))
@@ -68,7 +70,7 @@ def is_looped(plan: Plan) -> bool:
 
 def _may_raise(kernel: Kernel) -> bool:
     """Whether a target may raise an exception where C computes an infinity or a NaN."""
-    # Only a function that contains the kernel alone can turn an exception into a status.
+    # An exception can become a status only in a function that contains nothing but the kernel.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 
 
@@ -97,7 +99,7 @@ class Rows:
 
     def due(self, step: Term = DONE) -> Term:
         """Return the test that the state after ``step`` steps is a row."""
-        # The flag comes first, because a remainder by a stride of zero is undefined.
+        # The flag is tested first, because the remainder of a division by a stride of zero is undefined.
         return both(self.recording, (step % STRIDE).equals(0))
 
     def add(self, state: Term) -> list[Statement]:
@@ -233,7 +235,7 @@ def _looped(plan: Plan, rows: Rows) -> list[Statement]:
     unread = [x for x in numbers if x.text not in read]
     row = [Assign(rows.written, rows.written + 1)]
     row += [Assign(rows.trajectory[rows.written][k], x) for k, x in enumerate(numbers)]
-    # All new values have names of their own, so the order of these copies is arbitrary.
+    # Each new value has a separate name, so the copies may be made in any order.
     taken: list[Statement] = [Assign(x, y) for x, y in zip(numbers, new, strict=True)]
     taken += [Assign(DONE, DONE + 1), If(rows.due(), tuple(row))]
     inner: list[Statement] = [

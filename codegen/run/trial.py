@@ -66,14 +66,14 @@ class Trials:
         number, loops = len(self.plan.kernel.inputs), self.plan.kernel.loops
         counts, state = self.machine.record(STATISTICS), list(self.initial)
         time = [float(first)] if self.plan.time else []
-        # The signals of the user are not known, and a system without control is the usual first test.
+        # The run-time inputs of the user are not known, and zero inputs are the usual first test.
         signals = [lambda t: (0.0,) * number] if number else []
         # The step size is computed from exact rationals and rounded once, as in the usage example.
         h = float(longer * (last - first) / PARTS)
         # No rows of a trajectory are stored, because only the counts are read.
         arguments = [state, *time, h, steps, *self.values, *signals, None, 0, counts, None]
         status = self.machine.call("run", *arguments)
-        # The record counts the matrices of all blocks together, so each block gets the mean.
+        # The record counts the matrices of all blocks together, so each block is assigned the mean number.
         newton = [loop.solver for loop in loops].count(NEWTON)
         of_solver = {
             NEWTON: counts.matrices / steps / newton if newton else 0.0,

@@ -24,7 +24,7 @@ def unit_of(plan: Plan) -> Unit:
     else:
         functions += _steps(plan)
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
-    # t and h are included even if no expression reads them: no other name may get these identifiers.
+    # t and h are included even if no expression reads t or h, so that no other name gets these identifiers.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
     return Unit(scalars, _records(plan), _tables(plan), tuple(functions))
 

@@ -18,6 +18,7 @@ def simple(statement: Simple) -> list[Statement]:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)
         return [Array(results), Call(statement.function, (*given, results))]
-    # One call computes all orders, because they share a square root, a sine and a cosine.
+    # One call computes all Stumpff functions of an argument, because they share a square root, a sine and a
+    # cosine.
     names = tuple(map(own, statement.names))
     return [Call(statement.function, (value(statement.argument),), names)]

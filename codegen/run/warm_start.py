@@ -64,8 +64,8 @@ def begun(plan: Plan, statement: Beginning) -> If:
         cold += simple(inner)
     cold += [Assign(u, value(x)) for u, x in zip(unknowns, statement.values, strict=True)]
     warm = tuple(Assign(u, guess[k]) for k, u in enumerate(unknowns))
-    # This is a branch and not a select: the cold start evaluates parts of the kernel, and a run needs it
-    # only once.
+    # This is a branch and not a select, because the start without stored solutions evaluates parts of the
+    # kernel and is needed only once in a run.
     return If(plan.memory.field("known", Kind.COUNT) > 0, warm, tuple(cold))
 
 
@@ -222,7 +222,7 @@ class WarmStart:
         """Return the function that stores a solution."""
         solution, place = real("solution", self.n), count("place")
         body: list[Statement] = [
-            Note("with fewer than three stored solutions, the guess is the last one, and is not tested"),
+            Note("with fewer than three stored solutions, the guess is the last solution and is not tested"),
             If(self.known > 2, tuple(self.judged(solution))),
         ]
         body += [
@@ -257,7 +257,7 @@ class WarmStart:
         def added(k: Term) -> Statement:
             return Assign(moved, moved + size(solution[k] - self.values[self.place][k]))
 
-        # The matrix of Newton's method is kept: it has a test of its own.
+        # The matrix of Newton's method is kept, because a separate test decides when it is computed again.
         forgotten = (Assign(self.known, whole(0)), Assign(self.degree, whole(0)))
         return [
             Assign(moved, number(0.0)),

@@ -15,8 +15,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 def ambient(problem: Problem) -> Problem:
     """Return a problem as a field on R^n without its group.
 
-    Numerical solutions of the returned problem leave the manifold: their distance from it is of the size of
-    the error.
+    Numerical solutions of the returned problem leave the manifold: their distance from the manifold is of the
+    size of the error.
     """
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
     state = tuple(domain.space.sym(s) for s in problem.symbols)

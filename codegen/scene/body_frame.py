@@ -35,7 +35,7 @@ must agree."""
 
 @dataclass(frozen=True)
 class BodyField:
-    """Formulas in the coordinates of q and of P; the symbols of P are those of mu.
+    """Formulas in the coordinates of q and of P; P has the same symbols as mu.
 
     ``velocity`` is W, ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
     inverse matrix (rows of numbers); otherwise it is None.
@@ -124,7 +124,7 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        kinetic = space.zero  # the potential is singular at the neutral element
+        kinetic = space.zero  # the potential may be singular at the neutral element
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
 

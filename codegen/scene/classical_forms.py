@@ -68,7 +68,8 @@ class ClassicalForm:
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
     """Return the forms of a scene: the equations as printed first, then each form that its group offers.
 
-    For the coordinates of the scene and for those of covers, the frame with fewer operations is chosen: the
+    For the coordinates of the scene and for the coordinates of covers, the frame with fewer operations is
+    chosen: the
     body frame for inertia that is fixed in the body, and the space frame for inertia that is fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
@@ -107,7 +108,8 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # Without a change of the frame or of the coordinates, the equations would be those of the first form.
+        # Without a change of the frame or of the coordinates, the equations would be the equations of the
+        # first form.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
@@ -290,7 +292,7 @@ class _Change:
         return "; ".join(dict.fromkeys(parts))
 
     def moving(self, leaf: _Leaf) -> bool:
-        """Whether the velocity of a factor is that of the body frame."""
+        """Whether the velocity of a factor is its velocity in the body frame."""
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:

@@ -38,8 +38,8 @@ from codegen.scene.problem import TIME, Problem, StateField
 class Evolution:
     """Coordinates with their own equations: ``inner`` is the problem on R^m, ``outer`` the scene as a field.
 
-    ``body`` is the group in whose body frame the momentum is; it is None if the momentum is that of the
-    state. ``missing`` are the indices of the coordinates that are omitted.
+    ``body`` is the group in whose body frame the momentum is; it is None if the coordinates contain the
+    momentum of the state. ``missing`` are the indices of the coordinates that are omitted.
     """
 
     inner: Problem
@@ -50,7 +50,7 @@ class Evolution:
     def enter(self, domain: Domain, y: Vector[S], frame: Coadjoint | None = None) -> Vector[S]:
         """Return the coordinates of a state.
 
-        If ``frame`` is given, the momentum of the state is that of the body, and ``frame`` is the group.
+        If ``frame`` is given, the state contains the momentum of the body, and ``frame`` is the group.
         """
         if self.body is not None and frame is None:
             q, mu = self._split(y)
@@ -64,7 +64,7 @@ class Evolution:
     ) -> Vector[S]:
         """Return the state with given coordinates on the manifold that contains the state y.
 
-        If ``frame`` is given, the momentum of both states is that of the body, and ``frame`` is the group.
+        If ``frame`` is given, both states contain the momentum of the body, and ``frame`` is the group.
         """
         z = self._completed(domain, moved)
         if self.body is None:
@@ -88,8 +88,9 @@ class Evolution:
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
         for first, *further in rows:
-            # The sum follows the order in which the coefficients become known. The first coefficient is added
-            # last, so that the rounding errors are those of the change in one step.
+            # The sum follows the order in which the coefficients become known. The first coefficient, the old
+            # state, is added last: the sum of all other terms is small, and so are the rounding errors of
+            # this sum.
             change = None
             for x in further:
                 change = x if change is None else change if x is None else change + x

@@ -16,10 +16,14 @@ DISPLACEMENT = 1e-4
 """The distance of a point from the orbit before it is projected."""
 
 REDUCED = 1e-2
-"""A projection reduces the distance to its square; it must be below REDUCED times the distance before."""
+"""A projection reduces a small distance to about its square. The test requires that the distance after the
+projection is below REDUCED times the distance before.
+"""
 
 INDEPENDENT = 1e-8
-"""A vector is a combination of others if its remainder is shorter than INDEPENDENT times its length."""
+"""A vector counts as a combination of other vectors if its part perpendicular to them is shorter than
+INDEPENDENT times the vector.
+"""
 
 
 def reaches_orbit(problem: Problem) -> bool:
@@ -49,7 +53,8 @@ def _orthonormal(
     which is orthonormal."""
     basis: list[list[float]] = []
     for vector in vectors:
-        # The second pass removes the rounding errors of the first.
+        # The projection is made twice, because the second projection removes the rounding errors of the first
+        # projection.
         rest = _remainder(_remainder(vector, [*known, *basis]), [*known, *basis])
         length = math.hypot(*rest)
         if length > INDEPENDENT * max(1.0, math.hypot(*vector)):

@@ -166,7 +166,9 @@ class Problem:
         return self.flows[part].advance(domain, self.group.require(Coadjoint), values, tau, q, mu)
 
     def series(self, domain: Domain, word: Word, dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
-        """Return the product of a word's functions of ad_x, or of ad*_x if ``dual``, applied to v."""
+        """Return the product of the functions of ad_x in ``word`` applied to v; with ``dual``, ad*_x replaces
+        ad_x.
+        """
         return self.group.require(ClosedFormSeries).series(domain, word, dual, x, v)
 
     @property

@@ -75,10 +75,11 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
         if precision is not DOUBLE:
             listed.append(Snippet(name, "stumpff", series, values | {"small": ""}))
             continue
-        # The branch near zero is small enough to be inlined at each call; the other branch is called rarely.
+        # The branch near zero is short enough to be inlined at each call. The branch for larger arguments is
+        # called rarely and is a separate function.
         far, small = f"{name}_far", float(stumpff.SMALL)
         listed.append(Snippet(far, "stumpff", series, values | {"name": far, "small": small}))
-        # Three functions, each in a tiny and in a small form, would be too long for a C compiler to inline.
+        # Three functions, each with two polynomials, would be too long for a C compiler to inline.
         sizes = ("tiny", "small") if len(orders) < 3 else ("small",)
         calls = (*(f"stumpff_{size}_{k}" for size in sizes for k in orders), far)
         tiny = float(stumpff.TINY) if "tiny" in sizes else ""
@@ -159,7 +160,7 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
 
     # C appends "f" to the names of its library functions in single precision.
     values: dict[str, Any] = {"real": precision.c_type, "f": precision.suffix, "number": number}
-    # In C, NAN is a float; the cast avoids the warning of -Wdouble-promotion.
+    # In C, NAN has the type float. The cast to double avoids the warning of -Wdouble-promotion.
     values["nan"] = "(double)NAN" if precision is DOUBLE else "NAN"
     for name, value in (given | snippet.variables).items():
         if isinstance(value, float):

@@ -17,7 +17,9 @@ from math import factorial
 from codegen.ir.precision import DOUBLE, Precision
 
 SWITCH = (1, 1, 1, 4)
-"""c_k is its polynomial up to z = SWITCH[k]; c_1(4) = 0.4546."""
+"""Up to z = SWITCH[k] the polynomial of c_k is evaluated. For c_3 this is z = 4, because c_1(4) = 0.4546 is
+below 1/2.
+"""
 
 SMALL, TINY = Fraction(1, 16), Fraction(1, 256)
 """Shorter polynomials suffice up to these z: angles up to 1/4 and up to 1/16."""
@@ -26,7 +28,7 @@ PI = Fraction("3.14159265358979323846264338327950288")
 
 
 SETS = tuple(orders for n in range(1, 5) for orders in combinations(range(4), n))
-"""Every non-empty set of orders that a kernel may compute for one argument."""
+"""Every non-empty set of indices k for which a kernel may compute c_k of one argument."""
 
 
 LEFT = 10

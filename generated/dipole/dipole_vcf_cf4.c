@@ -451,7 +451,7 @@ static double dipole_vcf_cf4_difference_size(const struct dipole_vcf_cf4_memory 
 static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     const double solution[static 12])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

@@ -325,7 +325,7 @@ static double dipole_vcg_midpoint_difference_size(const struct dipole_vcg_midpoi
 static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);

@@ -352,8 +352,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three stored solutions, the guess is the last one, and is not
-    # tested
+    # with fewer than three stored solutions, the guess is the last solution and is
+    # not tested
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])

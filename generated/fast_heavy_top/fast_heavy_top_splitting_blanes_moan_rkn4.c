@@ -371,7 +371,7 @@ static inline void fast_heavy_top_splitting_blanes_moan_rkn4_begin(double state[
     state[11] = new_mu2;
 }
 
-/* Flows that commute with all others, applied once for many steps. */
+/* Flows that commute with all other flows, applied once for many steps. */
 static inline void fast_heavy_top_splitting_blanes_moan_rkn4_finish(double state[static 12],
     double elapsed_h)
 {

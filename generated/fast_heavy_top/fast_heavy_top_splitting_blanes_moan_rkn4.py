@@ -320,7 +320,7 @@ def _begin(state, h):
 
 
 def _finish(state, elapsed_h):
-    """Flows that commute with all others, applied once for many steps."""
+    """Flows that commute with all other flows, applied once for many steps."""
     try:
         g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
         w1 = (g01 * mu0 + g11 * mu1 + g21 * mu2) * (2.0676923076923077 * elapsed_h)

@@ -54,7 +54,7 @@ def frozen_differential(forest: levels.Forest) -> str:
 def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
     r"""Return the elementary differential of a tree of two colours (HLW III.2.1).
 
-    For y' = f(y, z), z' = g(y, z): black vertices are f, white ones g.
+    For y' = f(y, z), z' = g(y, z): a black vertex denotes f, a white vertex denotes g.
 
     >>> partitioned_differential(b"\0\3\2")
     'f_zy(g, f)'
@@ -78,7 +78,7 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
 def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
     r"""Return the elementary Hamiltonian of an alternating tree, up to its sign (HLW VI.7.2).
 
-    For H = T(p) + V(q): black vertices are T, white ones V.
+    For H = T(p) + V(q): a black vertex denotes T, a white vertex denotes V.
 
     >>> separable_hamiltonian(b"\0\3\3")
     'T_pp(V_q, V_q)'

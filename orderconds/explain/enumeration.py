@@ -46,7 +46,7 @@ class ShownTree:
 
     @property
     def condition(self) -> OrderCondition | None:
-        """The order condition of the tree; None if the family of the kind has none for it."""
+        """The order condition of the tree; None if the family of the kind has no condition for the tree."""
         return self.kind.conditions(self.order).get(self.member)
 
     def drawing(self, *, ascii_only: bool = False) -> str:

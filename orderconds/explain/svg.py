@@ -133,7 +133,7 @@ class _Block:
             at += (right - left + 1) * STEP
         for line, text in enumerate(self.caption, start=1):
             baseline = ground + 1.4 * SIZE * line - 0.4 * SIZE
-            # The first line is the text of a tree; the others are mathematics.
+            # The first line is the text of a tree; the other lines are mathematics.
             font = TEXT_FONT if line == 1 else FORMULA_FONT
             shown = text if line == 1 else _formula(text)
             yield _text(x + self.width / 2, baseline, shown, SIZE, "middle", font)

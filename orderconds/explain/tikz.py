@@ -1,7 +1,7 @@
 r"""Diagrams as TikZ pictures, with the root at the bottom and branches above, for a line of mathematics.
 
 A picture needs the package tikz, for action trees with its library shapes.geometric. Its coordinates are
-those of :mod:`orderconds.explain.svg`.
+computed as in :mod:`orderconds.explain.svg`.
 """
 
 from __future__ import annotations

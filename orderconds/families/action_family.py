@@ -94,7 +94,8 @@ class ActionFamily(Family):
     def dependence_holds(self, order: int) -> bool:
         """Whether the relations of the dependent conditions of this order hold exactly over Q.
 
-        The relations are verified at a random method with two stages more than those of the rank computation.
+        The relations are verified at a random method that has two stages more than the methods of the rank
+        computation.
         """
         from orderconds.series.action_relations import hold_over_rationals, relations
 

@@ -16,7 +16,7 @@ from orderconds.tableau.record import Tableau
 
 @register
 class AmbientFamily(RungeKuttaFamily):
-    """Runge-Kutta methods in ambient coordinates; the conditions are those of ``rk``.
+    """Runge-Kutta methods in ambient coordinates; they have the same conditions as ``rk``.
 
     >>> [str(condition) for condition in AmbientFamily().conditions(2)]
     ['sum_i b_i c_i = 1/2']

@@ -111,8 +111,9 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return self.conditions(order) if order > RANKED else self._of(_essential(self.cutoff, order)[-1])
 
     def remark(self, order: int) -> str:
-        """Return a remark that explains why :meth:`conditions` contains more conditions than there are
-        essential ones."""
+        """Return a remark that explains why :meth:`conditions` contains more conditions than the essential
+        conditions.
+        """
         if order < 3:
             return ""
         counts = ", ".join(str(len(lyndon_forests(n))) for n in range(1, min(order, RANKED) + 1))

@@ -19,7 +19,8 @@ from orderconds.tableau.record import Tableau
 
 @register
 class SymplecticLieGroupFamily(VariationalMuntheKaas):
-    """The family of tableaux (A, b) with all b_i non-zero; the conditions are those of ``vrkmk(0)``.
+    """The family of tableaux (A, b) with all b_i non-zero; the family has the same conditions as
+    ``vrkmk(0)``.
 
     >>> [len(SymplecticLieGroupFamily().conditions(n)) for n in (1, 2)]
     [1, 1]

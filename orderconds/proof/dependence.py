@@ -45,8 +45,9 @@ Residues = Mapping[OrderCondition, Mapping[Monomial, tuple[int, int]]]
 
 @dataclass(frozen=True)
 class Dependences:
-    """The independent conditions, and the dependent ones as combinations of independent ones modulo several
-    primes."""
+    """The independent conditions, and the dependent conditions as combinations of independent conditions
+    modulo several primes.
+    """
 
     pivots: tuple[OrderCondition, ...]
     primes: tuple[int, ...]

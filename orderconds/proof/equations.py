@@ -61,7 +61,7 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The largest letter in words of independent conditions, for Gauss nodes; None: no bound."""
+    """The largest letter in words of independent conditions, for Gauss nodes; None if there is no bound."""
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions for the reduction ``spelling``."""
 

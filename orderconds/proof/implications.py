@@ -40,7 +40,8 @@ def least_order(facts: Iterable[Fact], family: Family) -> int:
 
 
 def consequences(facts: Iterable[Fact]) -> dict[str, int]:
-    """Return the implied orders, by label, in all families whose conditions are a subset of those of a family
+    """Return the implied orders, by label, in all families whose conditions are a subset of the conditions of
+    a family
     in ``facts``.
 
     >>> consequences([("vrkmk(1)", 3)])

@@ -1,6 +1,7 @@
 """Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
-Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of others. They restrict a family to a
+Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of other coefficients. They restrict a
+family to a
 sub-family, in which fewer conditions of the family are independent. A condition is left out if its value is a
 fixed combination of kept conditions of its order and of products of kept conditions of lower order, and this
 combination is valid for every method of the sub-family and for the exact flow. The condition therefore holds

@@ -1,6 +1,7 @@
 """Selection of independent action conditions, by ranks at random tableaux modulo a prime.
 
-A condition of order n depends on others if its value is a fixed combination of other values of order n and of
+A condition of order n depends on other conditions if its value is a fixed combination of other values of
+order n and of
 products of values of lower order, for every method **and for the flow**. Such dependences are computed from
 the values at many random methods and at the flow. Pivots are chosen in the canonical order of the trees, so
 that the simplest trees are selected. The values at the flow must be included. Without them, a condition that

@@ -55,7 +55,7 @@ class Character:
         self._known: dict[bytes, Element] = {b"": ring.one}
 
     def __call__(self, forest: bytes) -> Element:
-        """Return the value on a tree or forest."""
+        """Return the value of the step on a tree or forest."""
         if forest not in self._known:
             self._known[forest] = self._value(forest)
         return self._known[forest]

@@ -29,7 +29,7 @@ class ForestSeries(Protocol):
     """A function that returns the value of a series on an ordered forest."""
 
     def __call__(self, forest: Forest) -> Element:
-        """Return the value on a forest."""
+        """Return the value of the series on a forest."""
 
 
 class ExponentialsSeries:

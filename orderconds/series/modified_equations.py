@@ -43,7 +43,7 @@ class VectorField:
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:
-        """Return the value on a tree or forest."""
+        """Return the value of the field on a tree or forest."""
         if forest not in self._known:
             self._known[forest] = self._value(forest)
         return self._known[forest]

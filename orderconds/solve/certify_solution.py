@@ -125,7 +125,8 @@ def _rounded_free(
 
 
 def _solved_for(problem: Problem, start: Floats, solved: Sequence[int]) -> tuple[Floats, float]:
-    """Solve for the coefficients ``solved``, with the others fixed, and return the solution near ``start``
+    """Solve for the coefficients ``solved``, with all other coefficients fixed, and return the solution near
+    ``start``
     with its residual norm."""
 
     def restricted(points: Floats) -> tuple[Floats, Floats]:

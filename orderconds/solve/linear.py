@@ -1,6 +1,6 @@
 """Linear constraints on the coefficients of a tableau, eliminated exactly, one after another. If a constraint
 contradicts earlier constraints, the error message names this constraint. The result is a set of free
-coefficients; all other coefficients are affine functions of the free ones.
+coefficients; all other coefficients are affine functions of the free coefficients.
 """
 
 from __future__ import annotations
@@ -44,12 +44,13 @@ class Elimination:
         return tuple(name for name in self.names if name not in self.solved)
 
     def cell(self, name: str) -> Affine:
-        """Return a coefficient as an affine function of free ones."""
+        """Return a coefficient as an affine function of the free coefficients."""
         return self.solved.get(name, {name: Fraction(1)})
 
     def impose(self, constraints: Iterable[Constraint]) -> None:
-        """Add constraints; raises :class:`~orderconds.errors.InputError` for one that contradicts the
-        others."""
+        """Add constraints; raises :class:`~orderconds.errors.InputError` for a constraint that contradicts
+        the other constraints.
+        """
         rank = {name: place for place, name in enumerate(self.names)}
         for constraint in constraints:
             form = self._reduced(constraint.form)

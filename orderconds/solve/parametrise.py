@@ -69,7 +69,9 @@ class _Cells:
 
 
 def _row(cells: _Cells, names: Sequence[str], full: bool = False) -> str:
-    """Return the text of a row of coefficients, without zeros at its end unless it is ``full``."""
+    """Return the text of a row of coefficients. Zeros at the end of the row are left out, unless ``full`` is
+    true.
+    """
     texts = [cells.written(name) for name in names]
     while not full and texts and texts[-1] == "0":
         texts.pop()
@@ -174,7 +176,7 @@ def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: 
 
 
 def _fixed(A: Sequence[Sequence[str]], elimination: Elimination) -> dict[str, str]:
-    """Return the entries of A that are constants. Raises InputError if an entry depends on others."""
+    """Return the entries of A that are constants. Raises InputError if an entry depends on other entries."""
     values = {}
     for name in (x for line in A for x in line):
         form = elimination.cell(name)

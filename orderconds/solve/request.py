@@ -24,7 +24,7 @@ class SearchResult:
     no such method; or neither.
 
     ``best_residual`` is the least norm of the residuals of all starts, ``tried`` has one line for each
-    structure that was tried. A result is true if it has a tableau.
+    structure that was tried. The truth value of a result is True if a tableau was found.
     """
 
     tableau: Tableau | None

@@ -34,8 +34,9 @@ POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""Two numbers of solutions of one batch: of those that are kept, and of those whose principal error is
-minimised."""
+"""The number of solutions of one batch that are kept, and the number of solutions of one batch whose
+principal error is minimised.
+"""
 
 
 CHEAP = 4
@@ -205,7 +206,8 @@ def batches(
 ) -> Iterator[Batch]:
     """Yield ``count`` batches 0, 1, ... in order; batches in the checkpoint are not computed again.
 
-    With several processes, the first new batch runs in this process and the others in further processes. With
+    With several processes, the first new batch runs in this process, and all other batches run in further
+    processes. With
     ``cluster``, all new batches run on the dask cluster at this address. Raises
     :class:`~orderconds.errors.InputError` for a cluster that does not answer.
 

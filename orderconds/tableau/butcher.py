@@ -81,7 +81,7 @@ def _entry(value: object) -> str:
 
 
 def _product(rows: Sequence[Row], tableau: Tableau) -> str:
-    """Return exponentials in the order of composition: the first one to act is at the right."""
+    """Return exponentials in the order of composition: the exponential that acts first is at the right."""
     return "".join(rf"\exp\bigl({_exponent(row, tableau)}\bigr)\, " for row in reversed(rows))
 
 

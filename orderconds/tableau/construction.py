@@ -40,7 +40,9 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise an error unless all rows have the same full length, or are those of a triangular array."""
+    """Raise an error unless all rows have the same full length, or the lengths of the rows of a triangular
+    array.
+    """
     lengths = [len(x) for x in rows]
     shapes = ([stages] * stages, list(range(stages)), list(range(1, stages + 1)))
     if len(rows) != stages:

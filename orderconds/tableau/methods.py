@@ -121,7 +121,9 @@ class CommutatorFree:
         return CommutatorFree(tuple(stage.map(convert) for stage in self.stages), self.update.map(convert))
 
     def from_start(self, stage: Stage) -> tuple[Row, ...]:
-        """Return all exponentials between y0 and ``stage``, beginning with those of the earlier stages."""
+        """Return all exponentials between y0 and ``stage``, beginning with the exponentials of the earlier
+        stages.
+        """
         before = () if stage.start is None else self.from_start(self.stages[stage.start])
         return before + stage.exponentials
 

@@ -220,6 +220,7 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                         f"exponent {k + 1} contains a product that is not in the Lie algebra of every "
                         f"quadratic group",
                         where=f"{self.name}: exponents[{k + 1}]",
-                        expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite ones",
+                        expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite "
+                        "coefficients",
                     )
         return method, None

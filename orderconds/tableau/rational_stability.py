@@ -1,6 +1,7 @@
 """A- and L-stability for rational coefficients, with flint's polynomials and certified roots.
 
-The criteria are those of :mod:`orderconds.tableau.stability`. The computation here is fast enough for methods
+The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation here is fast enough for
+methods
 with a hundred stages.
 """
 

@@ -49,7 +49,8 @@ class StabilityFunction(Struct, frozen=True):
 
 
 def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
-    """Return ``a_stable`` and ``l_stable``; None if the ring has no signs (balls).
+    """Return ``a_stable`` and ``l_stable``. Both are None if a sign cannot be decided, for example in a
+    tableau of balls, or if the exact computation would take too long.
 
     >>> half, one = QQ.rational(1, 2), QQ.one
     >>> stability(RungeKutta(((half,),), (one,)), QQ)

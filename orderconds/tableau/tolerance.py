@@ -14,7 +14,8 @@ from orderconds.tableau.record import Tableau
 
 def with_tolerance(tableau: Tableau, units: float | None) -> Tableau:
     """Return the tableau with this uncertainty of its doubles, in units of rounding
-    (:data:`orderconds.tableau.doubles.UNITS`). Other coefficients do not change, and None changes nothing.
+    (:data:`orderconds.tableau.doubles.UNITS`). Other coefficients do not change. If the uncertainty is None,
+    the tableau does not change.
 
     >>> text = 'name = "m"\\nfamily = "rk"\\nA = [["0.1d"]]\\nb = ["1"]'
     >>> wide = with_tolerance(Tableau.loads(text), 2**43)

@@ -2,8 +2,8 @@
 
 A field evaluation is counted for each stage on which the update depends. The first stage of an explicit
 first-same-as-last method counts only in the first step, and an implicit method counts one sweep of its
-iteration. Equal exponents count as one exponential. Brackets are those of dexpinv at each stage, without
-simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
+iteration. Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage,
+without simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
 commutators in its exponents, and a Cayley transform counts as an exponential.
 """
 

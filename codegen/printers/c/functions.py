@@ -1,6 +1,7 @@
 """Prints functions of the run representation as C: types, declarations, statements.
 
-A scalar that is assigned once is ``const``; so is an array parameter that nothing writes to. Arrays are
+A scalar that is assigned once is ``const``, and so is an array parameter that the function does not change.
+Arrays are
 copied by ``memcpy``, and records are cleared by ``memset``.
 """
 
@@ -69,7 +70,9 @@ class FunctionPrinter:
         return f"{'' if self.unit.record(name).public else 'struct '}{self.prefix}{name}"
 
     def parameter(self, function: Function, parameter: Term, header: bool) -> str:
-        """Return the declaration of a parameter; without ``static`` sizes in a ``header``, as in C++."""
+        """Return the declaration of a parameter. In a ``header`` array sizes have no ``static``, which C++
+        does not allow.
+        """
         name = self.identifiers[function.name].of(parameter)
         # ``const`` shows callers which arrays a function does not change, and the compiler checks it.
         const = "" if parameter.text in self.writes[function.name] else "const "
@@ -168,29 +171,30 @@ class _Body:
         whole = statements(self.function.body)
         read = {self.identifiers.variable(x) for s in whole for x in names(direct(s))}
         parameters = [p for p in self.function.parameters if p.kind is not Kind.SIGNAL]
-        # The parameters are fixed by the interface, even if this kernel does not use all; the cast avoids a
-        # warning.
+        # The interface determines the parameters. The cast to void avoids a warning about parameters that
+        # this kernel does not use.
         unread = [self.identifiers.of(p) for p in parameters if self.identifiers.of(p) not in read]
         signals = [p for p in self.function.parameters if p.kind is Kind.SIGNAL and p.text not in read]
         unread += ["input", "context"] if signals else []
         return [*(f"(void){name};" for name in unread), *self.block(self.function.body)]
 
     def block(self, body: Body) -> list[str]:
-        """Return the lines of statements; many consecutive short ones share lines."""
+        """Return the lines of statements; many consecutive short statements share lines."""
         groups: list[tuple[bool, list[str]]] = []
         for statement in body:
-            # A declaration must come between two statements, so it ends a group of short ones.
+            # A declaration must come between two statements, so it ends a group of short statements.
             before = self.before(statement)
             own = list(self.statement(statement))
-            # Only plain copies share lines: a line with several sums would be hard to read.
+            # Only statements that copy a value share lines, because a line with several sums would be hard to
+            # read.
             short = isinstance(statement, Assign) and not before and len(own) == 1 and _is_short(own[0])
             groups += [(False, before)] if before else []
             groups.append((short, own))
         lines: list[str] = []
         for short, group in groupby(groups, key=lambda x: x[0]):
             flat = [line for _, part in group for line in part]
-            # Kernels with many unknowns copy hundreds of scalars, which would fill pages with one copy a
-            # line.
+            # Kernels with many unknowns copy hundreds of scalars. With one copy on each line they would fill
+            # pages.
             lines += together(flat) if short and len(flat) > MANY else flat
         return lines
 
@@ -260,7 +264,7 @@ class _Body:
     def loop(self, statement: While) -> Iterator[str]:
         """Yield the lines of a loop."""
         test = self.terms.text(statement.test).segments
-        # C has a do-while loop, so no flag or break is needed, unlike in Python.
+        # The loop is printed as a do-while loop of C, without a flag or a break.
         if statement.at_least_once:
             yield "do {"
             yield from self.inner(statement.body)

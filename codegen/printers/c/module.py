@@ -26,7 +26,8 @@ from codegen.run.unit import unit_of
 from codegen.snippets.graph import needed, snippets
 from codegen.templates import environment
 
-# -ffp-contract=off: a fused multiply-add rounds once, not twice, so results would depend on the machine.
+# -ffp-contract=off forbids fused multiply-adds, which round once and not twice: with them, results would
+# depend on the machine.
 FLAGS = ("-std=c11", "-O2", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-ffp-contract=off")
 """Emitted C compiles without a warning under these flags."""
 
@@ -34,9 +35,10 @@ FRAMES = 640
 """Bytes for return addresses, saved registers and the frames of helpers."""
 
 EACH, EACH_SOLVING = 8, 10
-"""Bytes of the bound on the stack for each number of a step, in either precision, without and with equations.
+"""The stack bound counts this many bytes for each number of a step: without equations, and with equations.
 
-Single precision needs no less: an optimiser keeps pairs of numbers for vector instructions in 16 bytes. Where
+Single precision needs as many bytes as double precision, because an optimiser keeps pairs of numbers for
+vector instructions in 16 bytes. Where
 equations are solved, an optimiser also needs space for values without a name, which it moves out of a loop.
 The most that was measured with equations were 8.8 bytes in double precision and 8.0 bytes in single
 precision.
@@ -56,8 +58,8 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "c",
         helpers(unit),
         interface.format,
-        # Explicit kernels call each function a few times only; inlining all branches there would only add
-        # code.
+        # Explicit kernels call each function only a few times, so inlining all branches would make the code
+        # longer without making it faster.
         sweeps=bool(interface.blocks),
         wide=inverted(kernel),
         # Arrays of variable size are optional in C11, so ``invert`` reserves space for the largest matrix.
@@ -85,7 +87,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",
         "statistics": ["", *printer.record("statistics")] if interface.blocks else [],
-        # Prototypes come from the same functions as definitions, so the two cannot differ.
+        # Prototypes and definitions are printed by the same functions, so they cannot differ.
         "heads": {name: printer.head(function, header=True) for name, function in public.items()},
         "parts": [*([text] for text in snippets.texts), *_definitions(unit, printer, interface)],
     }
@@ -146,14 +148,15 @@ def stack(unit: Unit, plan: Plan, interface: Interface) -> str:
     compare the bound with ``-fstack-usage`` and with a painted stack.
     """
     inverting = NEWTON in interface.solvers or SIMPLIFIED_NEWTON in interface.solvers
-    # ``invert`` has a row and a permutation of its own; an inlined kernel saves one frame.
+    # ``invert`` has local variables, a row and a permutation. If the kernel is inlined, there is one stack
+    # frame less.
     frames = FRAMES + FRAMES // 2 * (inverting - is_looped(plan))
     size, each = (
         {"double": 8, "float": 4}[interface.format.c_type],
         EACH_SOLVING if interface.blocks else EACH,
     )
     numbers = numbers_held(unit)
-    # Rounded up to 64 bytes, which covers the alignment of vector registers.
+    # The bound is rounded up to 64 bytes, to include the alignment of vector registers.
     bound = -(-(each * numbers + frames) // 64) * 64
     margin = f", {bound - size * numbers - frames} of them as a margin" if each > size else ""
     return f"at most {bound} bytes with {MEASURED}{margin}; functions of the mathematical library add to this"
@@ -224,7 +227,7 @@ def usage(interface: Interface, recipe: Recipe) -> list[str]:
         return literal(real, real.round(float(x)))
 
     initial = ", ".join(map(number, recipe.initial))
-    # The example starts at t = 0; the order of the arguments is that of ``run``.
+    # The example starts at t = 0; the arguments are in the order of ``run``.
     arguments = ["state", *([number(0.0)] if interface.time else []), number(recipe.h), str(recipe.steps)]
     arguments += [number(recipe.defaults.get(p, 0.0)) for p in interface.parameters]
     arguments += ["constant", "NULL"] if interface.inputs else []

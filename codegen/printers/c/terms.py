@@ -39,7 +39,8 @@ def style(precision: Precision, prefix: str = "") -> Style:
     def called(name: str) -> str:
         if name not in LIBRARY:
             return prefix + name
-        # isfinite is a macro for all types. The other functions without suffix would compute in double.
+        # isfinite is a macro for all types and gets no suffix. All other functions get the suffix, because
+        # without it they would compute in double.
         return name + precision.suffix if name != "isfinite" else name
 
     return Style(lambda value: literal(precision, precision.round(value)), called)
@@ -118,7 +119,7 @@ class Terms(Infix):
                 return Text(("NULL",))
             case _:
                 assert term.op == "infinity"
-                # INFINITY is a float; the cast avoids the warning of -Wdouble-promotion.
+                # INFINITY has the type float. The cast to double avoids the warning of -Wdouble-promotion.
                 return Text(("(double)INFINITY" if self.precision is DOUBLE else "INFINITY",))
 
     def name(self, term: Term) -> str:

@@ -18,7 +18,8 @@ def greatest(terms: list[str], name: str = "greater") -> tuple[str, ...]:
     """
     if len(terms) == 1:
         return (terms[0],)
-    # A balanced tree has logarithmic depth; in a linear chain each comparison would wait for the one before.
+    # The depth of a balanced tree is logarithmic. In a linear chain each comparison would wait for the
+    # previous comparison.
     middle = len(terms) // 2
     first, second = greatest(terms[:middle], name), greatest(terms[middle:], name)
     return (*closed(f"{name}(", first, ","), *closed("", second, ")"))
@@ -37,7 +38,8 @@ def closed_call(name: str, arguments: list[str]) -> tuple[str, ...]:
 
 def comment(text: str) -> str:
     """Return the text, changed so that it cannot end a C comment."""
-    # The start of a comment is changed, too: compilers warn about it inside a comment.
+    # The characters that start a comment are changed, too, because compilers warn about them inside a
+    # comment.
     return text.replace("*/", "* /").replace("/*", "/ *")
 
 

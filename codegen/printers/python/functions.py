@@ -46,7 +46,8 @@ class FunctionPrinter:
     def definition(self, function: Function) -> list[str]:
         """Return the lines of a function."""
         own = self.identifiers[function.name]
-        # All functions are private: public ones in the template convert arguments and raise exceptions.
+        # All functions printed here are private. The public functions are in the template; they convert
+        # arguments and raise exceptions.
         head = filled(f"def _{function.name}(", [own.of(p) for p in function.parameters], "):", 0)
         # Text from users must not end the docstring, nor contain an escape sequence.
         about = function.about.replace("\\", "\\\\").replace('"""', "'''")
@@ -99,7 +100,7 @@ class FunctionPrinter:
         lines = [f"class {class_of(record)}:", *docstring(record.about), "", "    def __init__(self):"]
         lines += ["        self.clear()", "", "    def clear(self):", '        """Set all fields to zero."""']
         for field, about in record.fields:
-            # Large arrays have no note, because it would make their lines too long.
+            # A large array is printed without its description, because the line would be too long.
             note = f"  # {about}" if about and prod(field.shape) < 100 else ""
             line = f"        self.{field.text} = {self.zeros(field.shape, field.kind)}"
             lines.append(line + note)
@@ -169,7 +170,9 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Whether a statement reads (or writes) the entry after those of ``group`` and may join the group."""
+        """Whether a statement reads (or writes) the next entry after the entries of ``group`` and may join
+        the group.
+        """
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target
@@ -251,7 +254,8 @@ class _Body:
         yield f"{'    ' * depth}while True:"
         yield from self.block(statement.body, depth + 1)
         yield from self.condition("if", Term("not", (statement.test,), Kind.FLAG), depth + 1)
-        # The rule against leaving a loop in its middle holds for the run representation, not for its text.
+        # A ``break`` is allowed in emitted Python. Only loops of the run representation are never left from
+        # their middle.
         yield f"{'    ' * (depth + 2)}break"
 
     def assign(self, statement: Assign, depth: int) -> Iterator[str]:

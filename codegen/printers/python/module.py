@@ -107,7 +107,7 @@ class _Module:
         plain |= self.called & {"nan", "copysign"}
         if not self.single:
             return sorted(names | plain), []
-        # NumPy's functions keep float32; those of ``math`` return doubles.
+        # NumPy's functions keep float32; functions of ``math`` return doubles.
         return sorted(plain), ["errstate", "float32", *sorted(names - {"isfinite"})]
 
     def parts(self) -> list[list[str]]:

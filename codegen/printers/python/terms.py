@@ -31,10 +31,10 @@ class Constants:
     def text(self, x: float) -> str:
         """Return the text of a number of the format, with its sign."""
         text = self.precision.text(x)
-        # Literals of doubles are constants of the byte code, which need no name.
+        # A literal of a double is a constant of the byte code and needs no name.
         if self.precision is DOUBLE:
             return text
-        # Both signs use one constant, because negation is exact.
+        # A number and its negative use the same constant, because negation is exact.
         size = text.removeprefix("-")
         if size not in self._names:
             place = 1 + len(self._names)
@@ -87,7 +87,8 @@ class Terms(Infix):
                 return Text(self.called(term))
             case "finite":
                 first = term.args[0]
-                # ``all`` and ``map`` loop in C, so the test of many values is not executed as byte code.
+                # The test of many values uses ``all`` and ``map``, whose loops are implemented in C and are
+                # faster than byte code.
                 listed = self.line(first) if first.shape else self.tuple_of(term.args)
                 return Text((f"all(map(isfinite, {listed}))",))
             case "wide" | "narrow":

@@ -47,7 +47,7 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
     """
     space = "    " * depth
     line = f"{space}{start}{' '.join(segments)}"
-    # A single segment gains nothing from parentheses: it cannot be broken.
+    # A single segment is printed without parentheses, because it cannot be broken into lines anyway.
     if len(line) <= WIDTH or len(segments) == 1:
         return [line]
     return [f"{space}{start}(", *packed(segments, depth + 1), f"{space})"]
@@ -56,7 +56,7 @@ def indented(start: str, segments: tuple[str, ...], depth: int) -> list[str]:
 def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
     """Return start and a tuple of terms: on one line without parentheses, else on several in parentheses."""
     space = "    " * depth
-    # The comma makes a single term a tuple.
+    # The comma after a single term makes a tuple of it.
     line = f"{space}{start}{', '.join(terms)}{',' if len(terms) == 1 else ''}"
     if len(line) <= WIDTH:
         return [line]
@@ -66,7 +66,8 @@ def listed(start: str, terms: Sequence[str], depth: int) -> list[str]:
 def unpacked(names: Sequence[str], value: str, depth: int) -> list[str]:
     """Return the lines that unpack a list into names."""
     lines = listed("", names, depth)
-    # Otherwise the names need parentheses, inside which Python allows line breaks.
+    # If the names do not fit on one line, they are printed in parentheses, inside which Python allows line
+    # breaks.
     if len(lines) == 1 and len(f"{lines[0]} = {value}") <= WIDTH:
         return [f"{lines[0]} = {value}"]
     return filled("(", names, f") = {value}", depth)
