@@ -54,8 +54,8 @@ from codegen.run.terms import (
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
 BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
-"""The names of the functions for the leading flow, for the flows that commute with all other flows, and for one
-step with all its flows."""
+"""The names of the functions for the leading flow, for the flows that commute with all other flows, and for
+one step with all its flows."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""

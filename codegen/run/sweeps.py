@@ -262,10 +262,10 @@ class _Newton(_Loop):
         if self.kept:
             # If the change does not decrease although the matrix is exact at the current unknowns, more
             # sweeps cannot help, and the step needs a better initial guess (continuation).
-            astray = both(flag("still"), self.making)
+            stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
-                astray = either(astray, negated(self.age > 0))
-            body.append(Assign(flag("astray"), astray))
+                stalled = either(stalled, negated(self.age > 0))
+            body.append(Assign(flag("astray"), stalled))
             # With an old matrix, the iteration contracts by the relative error of the matrix. A slow
             # contraction shows that the matrix is outdated, and a new matrix costs less than many slow
             # sweeps. In the first sweep ``previous`` is 0, and the contraction is not known yet.
