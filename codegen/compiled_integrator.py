@@ -8,9 +8,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from codegen.integrator import Arrival, Begun, Integrator, Signals, Status, reason
+from codegen.integrator import Arrival, Begun, Integrator, Signals, Status
 from codegen.printers.c.module import prototypes
 from codegen.printers.interface import Interface
+from codegen.run.status import reason
 
 
 class CompiledIntegrator(Integrator):
@@ -44,7 +45,8 @@ class CompiledIntegrator(Integrator):
             status = self._run(*arguments)
         final = self._ffi.unpack(state, size)
         if status != Status.OK:
-            raise begun.failed(status, completed[0], final, reason(status, self._block(counted), h))
+            why = reason(Status(status).name, self._block(counted), h)
+            raise begun.failed(status, completed[0], final, why)
         flat = self._ffi.unpack(rows, row_count * size) if stride else []
         return final, [flat[i : i + size] for i in range(0, len(flat), size)]
 
@@ -60,7 +62,7 @@ class CompiledIntegrator(Integrator):
             status = run(*arguments, accepted, rejected)
         final = self._ffi.unpack(state, self.interface.size)
         if status != Status.OK:
-            why = reason(status, self._block(counted), span[2])
+            why = reason(Status(status).name, self._block(counted), span[2])
             if status == Status.BAD_STEP:
                 given = "t={}, end={}, h={}, rtol={}, atol={}".format(*span, *tolerances)
                 why = f"expected finite numbers and no negative tolerance, found {given}"
@@ -91,7 +93,8 @@ class CompiledIntegrator(Integrator):
         derive = getattr(self._library, f"{self.interface.prefix}jacobian")
         status = derive(begun.numbers, *time, h, *begun.values, *inputs, matrix)
         if status != Status.OK:
-            raise begun.failed(status, 0, begun.numbers, reason(status, "an implicit block", h))
+            why = reason(Status(status).name, "an implicit block", h)
+            raise begun.failed(status, 0, begun.numbers, why)
         flat = self._ffi.unpack(matrix, size * size)
         return [flat[i : i + size] for i in range(0, size * size, size)]
 

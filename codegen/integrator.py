@@ -36,6 +36,9 @@ class Status(IntEnum):
     NOT_FINITE = 2
     BAD_STEP = 3
     LIMIT = 4
+    TOO_FAR = 5
+    SINGULAR = 6
+    TOO_SHORT = 7
 
 
 class StepFailed(ArithmeticError):
@@ -378,19 +381,6 @@ class Integrator(ABC):
         self, begun: Begun, span: tuple[float, float, float], tolerances: tuple[float, float], limit: int
     ) -> Arrival:
         """Run with step control; ``span`` is (t, end, h)."""
-
-
-def reason(status: int, block: str, h: float) -> str:
-    """Return the reason why a step has failed, for an error message."""
-    match status:
-        case Status.BAD_STEP:
-            return f"the step size h = {h} is not finite"
-        case Status.LIMIT:
-            return "the end is not reached: too many steps, or a step too small to change t"
-        case Status.NOT_CONVERGED:
-            return f"{block} did not converge"
-        case _:
-            return f"{block} computed a number that is not finite" if block else "the new state is not finite"
 
 
 def _monotone(t: float, times: Sequence[float]) -> list[float]:

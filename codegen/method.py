@@ -15,9 +15,11 @@ from typing import TYPE_CHECKING
 from codegen.errors import MethodError
 from codegen.ir.number import Number
 from orderconds.families import Family, family_class, get, names
+from orderconds.families.base import all_nonzero
 from orderconds.ring import QQ
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau import CommutatorFree, OrderClaim, RungeKutta, Tableau, find
+from orderconds.tableau.library import available
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -199,6 +201,57 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
     return Method(match["family"], None, number)
 
 
+def _unreadable(text: str, tableau: Tableau, families: Sequence[str]) -> MethodError:
+    """Return the error for a tableau that none of the families can read."""
+    formats = sorted({f for name in families for f in family_class(name).formats})
+    return MethodError(
+        f"the tableau {tableau.name} has the format {tableau.family}; it claims no order under "
+        f"{', '.join(families)}",
+        where=text,
+        expected=f"a tableau of format {' or '.join(formats)}",
+        hint=f"write for example {_example(families)}",
+    )
+
+
+def _unclaimed(
+    match: re.Match[str], tableau: Tableau, text: str, families: Sequence[str], readable: Sequence[str]
+) -> MethodError:
+    """Return the error for a tableau that claims no order under the families that can read it."""
+    family = match["family"]
+    fitting = [f for f in readable if not _divides_by_zero(f, tableau)]
+    # A family that takes a cut-off needs one: a name without it would lead to a second hint.
+    label = _label(fitting[0], match["tableau"]) if fitting else f"for example {_example(families)}"
+    return MethodError(
+        f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
+        where=text,
+        expected="a cut-off in the method's name" if family else "a family in the method's name",
+        hint=f"write {label}",
+    )
+
+
+def _label(family: str, tableau: str) -> str:
+    """Return the label of a method, with a cut-off if the family takes one."""
+    return f"{family}(2):{tableau}" if family_class(family).takes_cutoff else f"{family}:{tableau}"
+
+
+def _divides_by_zero(family: str, tableau: Tableau) -> bool:
+    """Whether the formulas of the family divide by a weight of the tableau that may be zero."""
+    method = tableau.read_as(("rk",))
+    if not family_class(family).needs_nonzero_weights or not isinstance(method, RungeKutta):
+        return False
+    return not all_nonzero(method.b, tableau.ring)
+
+
+def _example(families: Sequence[str]) -> str:
+    """Return the label of a method of the first family that has a tableau in the library."""
+    for name in families:
+        kind = family_class(name)
+        for example in available():
+            if kind.has_tableau and Tableau.load(find(example)).read_as(kind.formats) is not None:
+                return _label(name, example)
+    raise AssertionError(families)
+
+
 def method_of(given: Method | Tableau | str, families: Sequence[str], family: str = "") -> Method:
     """Return the method that an argument of a function in Python denotes: a method, a tableau, or a text.
 
@@ -273,6 +326,9 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
     # its exponents.
     exponentials = isinstance(tableau.method, CommutatorFree)
     readable = [f for f in families if not exponentials or tableau.family in family_class(f).formats]
+    readable = [f for f in readable if tableau.read_as(family_class(f).formats) is not None]
+    if not readable or (family is not None and family not in readable):
+        raise _unreadable(text, tableau, families if family is None else (family,))
     claims = [replace(c, family=c.family.partition("(")[0]) for c in tableau.claims.orders]  # as splitting(3)
     wanted = [c for c in claims if c.family == (family or c.family) and c.family in readable]
     if family is not None and cutoff is not None:
@@ -280,14 +336,7 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
     if family is not None and not family_class(family).takes_cutoff:
         return Method(family, tableau)
     if not wanted:
-        raise MethodError(
-            f"the tableau {tableau.name} claims no order under {family or ', '.join(families)}",
-            where=text,
-            expected="a cut-off in the method's name" if family else "a family in the method's name",
-            hint=f"write {family}(2):{match['tableau']}"
-            if family
-            else f"write {families[0]}:{match['tableau']}",
-        )
+        raise _unclaimed(match, tableau, text, families, readable if family is None else [family])
     best = min(wanted, key=lambda c: (-c.order, families.index(c.family), c.cutoff or 0))
     uncut = Method(best.family, tableau)
     if best.order <= uncut.kind.minimal_brackets and uncut.can_reduce_brackets():

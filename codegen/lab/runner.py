@@ -131,15 +131,16 @@ class Emitted:
         """The initial state of the scene in doubles."""
         return list(self.compiled.scene.initial(FloatDomain(0.0)))
 
-    def final(self, steps: int, statistics: Statistics | None = None) -> tuple[float, ...]:
+    def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
         """Return the final state after ``steps`` equal steps over the span; may raise :class:`RunFailed`.
 
-        ``statistics`` receives the numbers of iterations of implicit blocks.
+        ``statistics`` receives the numbers of iterations of implicit blocks. With ``spans`` the run continues
+        with equal steps over this number of spans.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
         try:
-            return tuple(self.integrator.run(self.initial, h, steps, float(first), statistics))
+            return tuple(self.integrator.run(self.initial, h, spans * steps, float(first), statistics))
         except StepFailed as error:
             raise RunFailed(str(error)) from error
 

@@ -20,6 +20,9 @@ FEWER = 3
 
 LONG = 0.2
 
+LEAST_STEPS = 200
+"""Runs with fewer steps are continued beyond the span while they are timed."""
+
 CONFIRMED, MOST = 0.03, 21
 """The least time is confirmed if a second batch takes at most CONFIRMED longer. Otherwise batches are
 repeated, up to MOST of them."""

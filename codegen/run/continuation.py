@@ -15,10 +15,12 @@ from codegen.run.language import Array, Assign, Call, Function, If, Return, Stat
 from codegen.run.plan import INPUTS, STEP, Plan
 from codegen.run.statistics import no_failure
 from codegen.run.terms import (
+    BAD_STEP,
     NOT_CONVERGED,
     NOT_FINITE,
     OK,
     STATUS,
+    TOO_FAR,
     Kind,
     Term,
     absent,
@@ -50,9 +52,9 @@ def retried(plan: Plan, state: Term, arguments: tuple[Term, ...]) -> list[Statem
     # Without stored solutions there is nothing to follow from a shorter step to a longer one.
     if plan.start is None:
         return []
-    # A diverging iteration may also overflow before it reaches its limit of sweeps. Therefore the step is
-    # repeated after NOT_FINITE as well as after NOT_CONVERGED.
-    failed = either(STATUS.equals(code(NOT_CONVERGED)), STATUS.equals(code(NOT_FINITE)))
+    # A diverging iteration may overflow before it reaches its limit of sweeps, and a singular matrix may be
+    # regular at another initial guess, so the step is repeated after every failure of its equations.
+    failed = both(STATUS.differs(code(OK)), STATUS.differs(code(BAD_STEP)))
     return [If(failed, (Call(CONTINUED, (state, *arguments), (STATUS,)),))]
 
 
@@ -104,7 +106,7 @@ class _Continuation:
             Assign(self.done, truth(False)),
             Assign(self.tries, whole(0)),
             While(going_on, (*self.attempt(), *self.adapted())),
-            If(negated(self.done), (Return(self.failure),)),
+            If(negated(self.done), (Return(self.cause()),)),
             # Only the step of full length changes the state; shorter steps only provide initial guesses.
             Assign(state, self.trial),
             # The earlier solutions belong to steps of other lengths, so a polynomial through these solutions
@@ -120,6 +122,17 @@ class _Continuation:
             "mislead if the motion has changed, then by continuation in h from shorter steps."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
+
+    def cause(self) -> Term:
+        """Return the status of a step that cannot be computed.
+
+        If a shorter step succeeded, numbers that are not finite result from the length of the step.
+        """
+        # A shorter step samples other values of run-time inputs, and these values may be the cause.
+        if self.plan.kernel.inputs:
+            return self.failure
+        too_far = both(self.solved > 0.0, self.failure.equals(code(NOT_FINITE)))
+        return select(too_far, code(TOO_FAR), self.failure)
 
     def attempt(self) -> list[Statement]:
         """Return the statements that try one step, from the solution of the last successful one."""

@@ -14,6 +14,7 @@ from collections.abc import Sequence
 
 from codegen.ir.kernel import ELAPSED, LEAD, LONGEST, Deferred, Kernel
 from codegen.run.arithmetic import computed, loaded, outputs, stored
+from codegen.run.cause import cause, searched
 from codegen.run.language import (
     RAISES_NAN,
     Array,
@@ -52,8 +53,9 @@ from codegen.run.terms import (
 )
 from codegen.run.trajectory import DONE, Rows, completed, run_parameters
 
-BEGIN, FINISH = "begin", "finish"
-"""The names of the functions for the leading flow and for the flows that commute with all other flows."""
+BEGIN, FINISH, COMPLETE = "begin", "finish", "complete_step"
+"""The names of the functions for the leading flow, for the flows that commute with all other flows, and for
+one step with all its flows."""
 
 LATE = count("late")
 """The number of steps since the deferred flows were last applied."""
@@ -71,7 +73,14 @@ def functions(plan: Plan) -> tuple[Function, ...]:
     if deferred.finish is not None:
         about = "Flows that commute with all other flows, applied once for many steps."
         sequence.append(_core(_plan(plan, deferred.finish), FINISH, about))
-    return (*sequence, _Deferring(plan, deferred).step(), _Deferring(plan, deferred).run())
+    deferring = _Deferring(plan, deferred)
+    return (
+        *sequence,
+        deferring.complete_step(),
+        cause(plan, COMPLETE, plan.parameters),
+        deferring.step(),
+        deferring.run(),
+    )
 
 
 def _plan(plan: Plan, kernel: Kernel) -> Plan:
@@ -127,6 +136,13 @@ class _Deferring:
 
     def step(self) -> Function:
         """Return the public function for one step."""
+        plan, state = self.plan, self.plan.state()
+        parameters = (state, *plan.moment(), *plan.parameters)
+        body = (Call(COMPLETE, parameters, (STATUS,)), *searched(plan, state), Return(STATUS))
+        return Function("step", "", parameters, body, Kind.STATUS, public=True)
+
+    def complete_step(self) -> Function:
+        """Return the function for one step with all its flows."""
         plan, state, deferred = self.plan, self.plan.state(), self.deferred
         kernel = plan.kernel
         begin: list[Statement] = []
@@ -149,7 +165,7 @@ class _Deferring:
         )
         # A splitting has no implicit equations, so there is neither a memory nor a record of statistics.
         parameters = (state, *plan.moment(), *plan.parameters)
-        return Function("step", "", parameters, body, Kind.STATUS, public=True)
+        return Function(COMPLETE, "One step with all its flows.", parameters, body, Kind.STATUS)
 
     def run(self) -> Function:
         """Return the public function for a run."""
@@ -171,6 +187,7 @@ class _Deferring:
             # and an attempt that makes only the good steps.
             While(self.again, self.attempt(), at_least_once=True),
             Assign(state, self.complete),
+            *searched(plan, state, t=exact_time(TIME, self.asked, STEP)),
             *completed(),
             Return(STATUS),
         )

@@ -27,6 +27,7 @@ from codegen.run.terms import (
     LIMIT,
     OK,
     STATUS,
+    TOO_SHORT,
     Kind,
     Term,
     both,
@@ -189,7 +190,7 @@ class _Controlled:
             Assign(self.following, select(self.last, self.end, self.now + self.taken)),
             If(
                 either(self.accepted_steps + self.rejected_steps >= self.limit, stuck),
-                (Assign(STATUS, code(LIMIT)),),
+                (Assign(STATUS, select(stuck, code(TOO_SHORT), code(LIMIT))),),
                 # The test is false for a NaN, so a step is rejected if its error estimate is not a number.
                 (*self.tried(), If(self.norm <= 1.0, self.accept(), self.refuse())),
             ),

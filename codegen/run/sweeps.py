@@ -30,6 +30,7 @@ from codegen.run.stopping import CHANGE, Stopping
 from codegen.run.terms import (
     NOT_CONVERGED,
     OK,
+    SINGULAR,
     STATUS,
     Kind,
     Term,
@@ -126,12 +127,21 @@ class _Loop:
                 sequence.append(Assign(image, value(x)))
         return sequence
 
-    def until_converged(self, body: Sequence[Statement], astray: Term | None = None) -> list[Statement]:
-        """Return the loop and the statements after it."""
+    def until_converged(
+        self, body: Sequence[Statement], astray: Term | None = None, singular: Term | None = None
+    ) -> list[Statement]:
+        """Return the loop and the statements after it.
+
+        The loop ends if ``astray`` holds. ``singular`` is the test that the last matrix has no inverse; it is
+        made after a failure.
+        """
         # The status ends the loop, because array languages cannot leave a loop from its middle. NOT_CONVERGED
         # is also the result if the loop reaches its limit of sweeps.
         sequence: list[Statement] = [Assign(SWEEPS, whole(0)), Assign(STATUS, code(NOT_CONVERGED))]
         sequence.append(While(self.rule.going_on(astray), tuple(body), at_least_once=True))
+        if singular is not None:
+            unsolved = both(STATUS.differs(code(OK)), singular)
+            sequence.append(If(unsolved, (Assign(STATUS, code(SINGULAR)),)))
         if self.counting:
             # The sweeps are counted before the guard returns, because the statistics must name the block that
             # failed.
@@ -252,17 +262,27 @@ class _Newton(_Loop):
         if self.kept:
             # If the change does not decrease although the matrix is exact at the current unknowns, more
             # sweeps cannot help, and the step needs a better initial guess (continuation).
-            astray = both(flag("still"), self.making)
+            stalled = both(flag("still"), self.making)
             if not self.newton.inverted:
-                astray = either(astray, negated(self.age > 0))
-            body.append(Assign(flag("astray"), astray))
+                stalled = either(stalled, negated(self.age > 0))
+            body.append(Assign(flag("astray"), stalled))
             # With an old matrix, the iteration contracts by the relative error of the matrix. A slow
             # contraction shows that the matrix is outdated, and a new matrix costs less than many slow
             # sweeps. In the first sweep ``previous`` is 0, and the contraction is not known yet.
             slow = number(Newton.CONTRACTION) * rule.previous
             body.append(Assign(self.making, both(slow > 0.0, CHANGE > slow)))
         body.append(Assign(rule.previous, CHANGE))
-        return [*sequence, *self.until_converged(body, flag("astray") if self.kept else None)]
+        astray = flag("astray") if self.kept else None
+        eliminated = self.kept and not self.newton.inverted
+        return [*sequence, *self.until_converged(body, astray, self.singular() if eliminated else None)]
+
+    def singular(self) -> Term:
+        """Return the test, after a failure, that the matrix in the memory has no inverse.
+
+        Only elimination tests this. The formula for the inverse of a small matrix divides by zero, and then
+        the status is NOT_FINITE.
+        """
+        return both(STATUS.equals(code(NOT_CONVERGED)), negated(self.age > 0))
 
     def by_residuals(self) -> list[Statement]:
         """Return the loop over equations whose images are the residuals."""
@@ -279,7 +299,8 @@ class _Newton(_Loop):
         # A second matrix in the same step costs more than the sweeps that it saves.
         body.append(Assign(self.making, truth(False)))
         body.append(Assign(rule.previous, CHANGE))
-        return [*sequence, *self.until_converged(body, negated(self.age > 0) if inverted else None)]
+        astray = negated(self.age > 0) if inverted else None
+        return [*sequence, *self.until_converged(body, astray, self.singular() if inverted else None)]
 
     def corrected(self, changes: Sequence[Term]) -> list[Statement]:
         """Return the statements that add the changes."""
@@ -307,9 +328,7 @@ class _Newton(_Loop):
             return sequence
         n, inverted = len(self.unknowns), count(f"inverted_{self.number}")
         sequence = [Array(self.inverse), *sequence, Call("invert", (whole(n), self.inverse), (inverted,))]
-        # A singular matrix counts as a failure to converge, so that the continuation tries shorter
-        # steps.
-        sequence.append(Assign(STATUS, code(NOT_CONVERGED)))
+        sequence.append(Assign(STATUS, code(SINGULAR)))
         singular = inverted.equals(0)
         if self.counting:
             sequence.append(If(singular, (count_sweeps(self.plan, self.number - 1, whole(0)),)))

@@ -35,6 +35,8 @@ from codegen.run.terms import (
     NOT_FINITE,
     OK,
     STATUS,
+    TOO_FAR,
+    TOO_SHORT,
     Kind,
     Term,
     all_finite,
@@ -337,6 +339,7 @@ class _Controlled:
         moment = tuple(self.now if x is TIME else x for x in self.moment)
         bounded = both(self.length > 0.0, self.advised > self.length)
         stuck = negated(either(self.following > self.now, self.following < self.now))
+        ended = select(stuck, code(TOO_SHORT), code(LIMIT))
         return (
             *self.entered(),
             Call(EXPAND, (self.start, *moment, self.series)),
@@ -354,7 +357,7 @@ class _Controlled:
             If(
                 negated(self.finite),
                 (Assign(STATUS, code(NOT_FINITE)),),
-                (If(either(self.steps >= self.limit, stuck), (Assign(STATUS, code(LIMIT)),), self.move()),),
+                (If(either(self.steps >= self.limit, stuck), (Assign(STATUS, ended),), self.move()),),
             ),
         )
 
@@ -370,6 +373,7 @@ class _Controlled:
                     Assign(self.now, self.following),
                     Assign(self.steps, self.steps + 1),
                 ),
-                (Assign(STATUS, code(NOT_FINITE)),),
+                # All coefficients are finite, so only the length of the step can be the cause.
+                (Assign(STATUS, select(all_finite(self.state), code(TOO_FAR), code(NOT_FINITE))),),
             ),
         )

@@ -19,7 +19,8 @@ from functools import lru_cache, reduce
 from codegen.ir.expr import Expr
 
 OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT = "OK", "NOT_CONVERGED", "NOT_FINITE", "BAD_STEP", "LIMIT"
-STATUSES = (OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT)
+TOO_FAR, SINGULAR, TOO_SHORT = "TOO_FAR", "SINGULAR", "TOO_SHORT"
+STATUSES = (OK, NOT_CONVERGED, NOT_FINITE, BAD_STEP, LIMIT, TOO_FAR, SINGULAR, TOO_SHORT)
 """The status codes; the number of a code is its index in this tuple."""
 
 

@@ -8,12 +8,13 @@ A small explicit kernel is inlined in the loop of the run, so that its state sta
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import walk
 from codegen.ir.kernel import Kernel
 from codegen.run.arithmetic import computed, outputs
+from codegen.run.cause import cause, searched
 from codegen.run.continuation import retried
 from codegen.run.language import Array, Assign, Call, Function, If, Return, Statement, While
 from codegen.run.momentum import ENTER, LEAVE, MOVING, momentum_before
@@ -24,6 +25,7 @@ from codegen.run.terms import (
     NOT_FINITE,
     OK,
     STATUS,
+    Kind,
     Term,
     absent,
     all_finite,
@@ -50,6 +52,9 @@ DONE = count("step")
 """The number of completed steps."""
 
 COMPLETED = count("completed", 1, optional=True, cell=True)
+
+LOOP = "loop"
+"""The name of the function that contains the loop of a run and the kernel."""
 
 
 def is_looped(plan: Plan) -> bool:
@@ -154,7 +159,9 @@ def step(plan: Plan) -> Function:
     for copy in plan.held:
         body += [Array(copy), Assign(copy, held)]
     inputs = holding(*plan.held) if plan.held else INPUTS
-    body += advanced(plan, moving if carried else state, arguments(plan, inputs))
+    begun = moving if carried else state
+    body += advanced(plan, begun, arguments(plan, inputs))
+    body += searched(plan, begun)
     if carried:
         body.append(If(STATUS.equals(code(OK)), (Call(LEAVE, (moving, before, state), (STATUS,)),)))
     return Function("step", "", parameters, (*body, Return(STATUS)), STATUS.kind, public=True)
@@ -166,6 +173,17 @@ def run_parameters(plan: Plan) -> tuple[Term, ...]:
     time = (TIME,) if plan.time else ()
     counted = (*plan.counted, COMPLETED)
     return (plan.state(), *time, STEP, STEPS, *plan.parameters, *plan.sampled(), *rows, *counted)
+
+
+def looped_runs(plan: Plan) -> tuple[Function, ...]:
+    """Return the functions of a run that contains the kernel: the loop, the cause, and the public run."""
+    # The loop is a separate function, so that the cause of a failure is found by a second, shorter run of it.
+    loop = replace(run(plan), name=LOOP, about="The loop of a run.", public=False)
+    alone = (whole(1), *plan.parameters, absent(Rows(plan).trajectory), whole(0), absent(COMPLETED))
+    parameters = run_parameters(plan)
+    body = (Call(LOOP, parameters, (STATUS,)), *searched(plan, plan.state()), Return(STATUS))
+    public = Function("run", "", parameters, body, Kind.STATUS, public=True)
+    return loop, cause(plan, LOOP, alone), public
 
 
 def run(plan: Plan) -> Function:
@@ -192,6 +210,7 @@ def run(plan: Plan) -> Function:
         # The counter advances after success only, so it is the number of completed steps.
         inner = (*advanced(plan, now, arguments(plan, t=later)), If(STATUS.equals(code(OK)), advance))
         body.append(While(both(STATUS.equals(code(OK)), DONE < STEPS), inner))
+        body += searched(plan, now, later)
     if carried:
         # A momentum that is finite in the body frame may overflow in space. Then no step counts as completed.
         ended = Term("name", (), STATUS.kind, "ended")

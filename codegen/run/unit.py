@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from codegen.run import deferred_flows, jacobian, step_control, taylor_control
 from codegen.run.arithmetic import outlined
+from codegen.run.cause import cause, is_searched, step_arguments
 from codegen.run.continuation import continued
 from codegen.run.language import Function, Record, Table, Unit
 from codegen.run.momentum import turning
 from codegen.run.plan import Plan
 from codegen.run.statistics import counters, statistics_record
-from codegen.run.step import composed_step, core, kernel_step, substep_tables
-from codegen.run.trajectory import is_looped, run, step
+from codegen.run.step import ADVANCE, composed_step, core, kernel_step, substep_tables
+from codegen.run.trajectory import is_looped, looped_runs, run, step
 from codegen.run.warm_start import WarmStart, differences, memory_record
 
 
@@ -38,9 +39,9 @@ def _steps(plan: Plan) -> list[Function]:
     # If the kernel is inlined in ``run``, ``step`` calls ``run``, so ``run`` comes first. Otherwise both
     # call the function that contains the kernel.
     if is_looped(plan):
-        return [*listed, *turning(plan), run(plan), step(plan)]
+        return [*listed, *turning(plan), *looped_runs(plan), step(plan)]
     if not plan.kernel.outputs:
-        return [*listed, *taylor_control.polynomial_step(plan), step(plan), run(plan)]
+        return [*listed, *taylor_control.polynomial_step(plan), *_causes(plan), step(plan), run(plan)]
     listed.append(kernel_step(plan))
     if plan.start is not None:
         # The continuation comes after the kernel, which it calls, and before the composition and the run,
@@ -48,7 +49,12 @@ def _steps(plan: Plan) -> list[Function]:
         listed.append(continued(plan, core(plan)))
     if plan.parts:
         listed.append(composed_step(plan))
-    return [*listed, *turning(plan), step(plan), run(plan)]
+    return [*listed, *_causes(plan), *turning(plan), step(plan), run(plan)]
+
+
+def _causes(plan: Plan) -> list[Function]:
+    """Return the function that searches for the cause of a failure; none if the continuation finds it."""
+    return [cause(plan, ADVANCE, step_arguments(plan))] if is_searched(plan) else []
 
 
 def _records(plan: Plan) -> tuple[Record, ...]:

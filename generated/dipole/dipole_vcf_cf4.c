@@ -451,7 +451,7 @@ static double dipole_vcf_cf4_difference_size(const struct dipole_vcf_cf4_memory 
 static inline void dipole_vcf_cf4_remember(struct dipole_vcf_cf4_memory *memory,
     const double solution[static 12])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -1194,6 +1194,10 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         make_1 = 0;
         previous_1 = change;
     } while (status == DIPOLE_VCF_CF4_NOT_CONVERGED && sweep < 100 && !!(memory->age_1 > 0));
+    if (status != DIPOLE_VCF_CF4_OK && (status == DIPOLE_VCF_CF4_NOT_CONVERGED
+        && !(memory->age_1 > 0))) {
+        status = DIPOLE_VCF_CF4_SINGULAR;
+    }
     dipole_vcf_cf4_count_sweeps(statistics, 0, sweep, status != DIPOLE_VCF_CF4_OK);
     if (status != DIPOLE_VCF_CF4_OK) {
         return status;
@@ -1379,7 +1383,8 @@ static int dipole_vcf_cf4_continued(double state[static 12], double h,
         tries++;
     }
     if (!done) {
-        return failure;
+        return solved > 0.0 && failure == DIPOLE_VCF_CF4_NOT_FINITE ? DIPOLE_VCF_CF4_TOO_FAR
+            : failure;
     }
     memcpy(state, trial, sizeof trial);
     memory->known = 1;
@@ -1466,7 +1471,7 @@ int dipole_vcf_cf4_step(double state[static 12], double h,
     dipole_vcf_cf4_enter_body(state, moving, before);
     struct dipole_vcf_cf4_memory memory = {0};
     int status = dipole_vcf_cf4_advance(moving, h, &memory, statistics);
-    if (status == DIPOLE_VCF_CF4_NOT_CONVERGED || status == DIPOLE_VCF_CF4_NOT_FINITE) {
+    if (status != DIPOLE_VCF_CF4_OK && status != DIPOLE_VCF_CF4_BAD_STEP) {
         status = dipole_vcf_cf4_continued(moving, h, &memory, statistics);
     }
     if (status == DIPOLE_VCF_CF4_OK) {
@@ -1491,7 +1496,7 @@ int dipole_vcf_cf4_run(double state[static 12], double h, size_t steps, double *
     dipole_vcf_cf4_enter_body(state, moving, before);
     while (status == DIPOLE_VCF_CF4_OK && step < steps) {
         status = dipole_vcf_cf4_advance(moving, h, &memory, statistics);
-        if (status == DIPOLE_VCF_CF4_NOT_CONVERGED || status == DIPOLE_VCF_CF4_NOT_FINITE) {
+        if (status != DIPOLE_VCF_CF4_OK && status != DIPOLE_VCF_CF4_BAD_STEP) {
             status = dipole_vcf_cf4_continued(moving, h, &memory, statistics);
         }
         if (status == DIPOLE_VCF_CF4_OK) {

@@ -46,16 +46,18 @@ Use:
 
 from math import cos, fabs, isfinite, nan, sin, sqrt
 
-OK = 0
-NOT_CONVERGED = 1
-NOT_FINITE = 2
-BAD_STEP = 3
+OK = 0  # success
+NOT_CONVERGED = 1  # an implicit block did not converge
+NOT_FINITE = 2  # the new state would contain an infinity or a NaN
+BAD_STEP = 3  # h is infinite or NaN
+TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
+SINGULAR = 6  # the matrix of an implicit block is singular
 
 
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_CONVERGED, NOT_FINITE or BAD_STEP; step: the number of completed steps;
+    status: one of the codes above; reason: its cause; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -448,8 +450,8 @@ def _remember(memory, solution):
     """Store a solution and extrapolate the next one: the polynomial through the last
     solutions, evaluated one step later.
     """
-    # with fewer than three stored solutions, the guess is the last one, and is not
-    # tested
+    # with fewer than three stored solutions, the guess is the last solution and is
+    # not tested
     if memory.known > 2:
         moved = 0.0
         moved += abs(solution[0] - memory.values[memory.place][0])
@@ -1130,6 +1132,8 @@ def _advance(state, h, memory, statistics):
                 and not (not memory.age_1 > 0))
             ):
                 break
+        if status != OK and (status == NOT_CONVERGED and not memory.age_1 > 0):
+            status = SINGULAR
         _count_sweeps(statistics, 0, sweep, status != OK)
         if status != OK:
             return status
@@ -1303,7 +1307,7 @@ def _continued(state, h, memory, statistics):
             part = part if part < 1.0 else 1.0
         tries += 1
     if not done:
-        return failure
+        return TOO_FAR if solved > 0.0 and failure == NOT_FINITE else failure
     state[:] = trial
     memory.known = 1
     if statistics is not None:
@@ -1373,7 +1377,7 @@ def _run(state, h, steps, trajectory, stride, statistics, completed):
     _enter_body(state, moving, before)
     while status == OK and step < steps:
         status = _advance(moving, h, memory, statistics)
-        if status == NOT_CONVERGED or status == NOT_FINITE:
+        if status != OK and status != BAD_STEP:
             status = _continued(moving, h, memory, statistics)
         if status == OK:
             step += 1
@@ -1399,17 +1403,24 @@ def _numbers(state):
     return numbers
 
 
+_REASONS = {
+    NOT_CONVERGED: "{block} did not converge",
+    NOT_FINITE: "the new state is not finite",
+    BAD_STEP: "the step size h = {h} is not finite",
+    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    SINGULAR: "the matrix of {block} is singular",
+}
+
+
 def _failure(status, step, state, h, statistics):
     """Return the error of a failed step."""
-    reason = "the new state is not finite"
-    if status == BAD_STEP:
-        reason = f"the step size h = {h} is not finite"
-    elif statistics is not None and statistics.failed > 0:
-        label = Statistics.labels[statistics.failed - 1]
-        if status == NOT_CONVERGED:
-            reason = f"{label} did not converge"
-        else:
-            reason = f"{label} computed a number that is not finite"
+    reason = _REASONS[status]
+    block = "an implicit block"
+    if statistics is not None and statistics.failed > 0:
+        block = Statistics.labels[statistics.failed - 1]
+        if status == NOT_FINITE:
+            reason = "{block} computed a number that is not finite"
+    reason = reason.format(block=block, h=h)
     return StepFailed(status, reason, step, tuple(map(float, state)))
 
 

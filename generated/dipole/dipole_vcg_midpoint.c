@@ -325,7 +325,7 @@ static double dipole_vcg_midpoint_difference_size(const struct dipole_vcg_midpoi
 static inline void dipole_vcg_midpoint_remember(struct dipole_vcg_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -618,7 +618,8 @@ static int dipole_vcg_midpoint_continued(double state[static 12], double h,
         tries++;
     }
     if (!done) {
-        return failure;
+        return solved > 0.0 && failure == DIPOLE_VCG_MIDPOINT_NOT_FINITE
+            ? DIPOLE_VCG_MIDPOINT_TOO_FAR : failure;
     }
     memcpy(state, trial, sizeof trial);
     memory->known = 1;
@@ -705,8 +706,7 @@ int dipole_vcg_midpoint_step(double state[static 12], double h,
     dipole_vcg_midpoint_enter_body(state, moving, before);
     struct dipole_vcg_midpoint_memory memory = {0};
     int status = dipole_vcg_midpoint_advance(moving, h, &memory, statistics);
-    if (status == DIPOLE_VCG_MIDPOINT_NOT_CONVERGED
-        || status == DIPOLE_VCG_MIDPOINT_NOT_FINITE) {
+    if (status != DIPOLE_VCG_MIDPOINT_OK && status != DIPOLE_VCG_MIDPOINT_BAD_STEP) {
         status = dipole_vcg_midpoint_continued(moving, h, &memory, statistics);
     }
     if (status == DIPOLE_VCG_MIDPOINT_OK) {
@@ -732,8 +732,7 @@ int dipole_vcg_midpoint_run(double state[static 12], double h, size_t steps,
     dipole_vcg_midpoint_enter_body(state, moving, before);
     while (status == DIPOLE_VCG_MIDPOINT_OK && step < steps) {
         status = dipole_vcg_midpoint_advance(moving, h, &memory, statistics);
-        if (status == DIPOLE_VCG_MIDPOINT_NOT_CONVERGED
-            || status == DIPOLE_VCG_MIDPOINT_NOT_FINITE) {
+        if (status != DIPOLE_VCG_MIDPOINT_OK && status != DIPOLE_VCG_MIDPOINT_BAD_STEP) {
             status = dipole_vcg_midpoint_continued(moving, h, &memory, statistics);
         }
         if (status == DIPOLE_VCG_MIDPOINT_OK) {

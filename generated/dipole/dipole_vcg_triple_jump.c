@@ -333,7 +333,7 @@ static double dipole_vcg_triple_jump_difference_size(const struct dipole_vcg_tri
 static inline void dipole_vcg_triple_jump_remember(struct dipole_vcg_triple_jump_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -629,7 +629,8 @@ static int dipole_vcg_triple_jump_continued(double state[static 12], double h,
         tries++;
     }
     if (!done) {
-        return failure;
+        return solved > 0.0 && failure == DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE
+            ? DIPOLE_VCG_TRIPLE_JUMP_TOO_FAR : failure;
     }
     memcpy(state, trial, sizeof trial);
     memory->known = 1;
@@ -651,8 +652,7 @@ static inline int dipole_vcg_triple_jump_advance(double state[static 12], double
     while (status == DIPOLE_VCG_TRIPLE_JUMP_OK && part_number < 3) {
         status = dipole_vcg_triple_jump_substep(next,
             dipole_vcg_triple_jump_fraction[part_number] * h, &memory[part_number], statistics);
-        if (status == DIPOLE_VCG_TRIPLE_JUMP_NOT_CONVERGED
-            || status == DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE) {
+        if (status != DIPOLE_VCG_TRIPLE_JUMP_OK && status != DIPOLE_VCG_TRIPLE_JUMP_BAD_STEP) {
             status = dipole_vcg_triple_jump_continued(next,
                 dipole_vcg_triple_jump_fraction[part_number] * h, &memory[part_number], statistics);
         }

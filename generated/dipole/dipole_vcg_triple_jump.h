@@ -12,7 +12,8 @@ enum {
     DIPOLE_VCG_TRIPLE_JUMP_OK = 0, /* success */
     DIPOLE_VCG_TRIPLE_JUMP_NOT_CONVERGED = 1, /* an implicit block did not converge */
     DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
-    DIPOLE_VCG_TRIPLE_JUMP_BAD_STEP = 3 /* h is infinite or NaN */
+    DIPOLE_VCG_TRIPLE_JUMP_BAD_STEP = 3, /* h is infinite or NaN */
+    DIPOLE_VCG_TRIPLE_JUMP_TOO_FAR = 5 /* the step turns or moves too far for finite numbers; a shorter step is finite */
 };
 
 /* Sweeps over the equations, summed over all steps since the caller set all fields to zero. */

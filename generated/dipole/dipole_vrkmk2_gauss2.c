@@ -429,7 +429,7 @@ static double dipole_vrkmk2_gauss2_difference_size(const struct dipole_vrkmk2_ga
 static inline void dipole_vrkmk2_gauss2_remember(struct dipole_vrkmk2_gauss2_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -801,6 +801,10 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
         previous_1 = change;
     } while (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED && sweep < 100
         && !!(memory->age_1 > 0));
+    if (status != DIPOLE_VRKMK2_GAUSS2_OK && (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED
+        && !(memory->age_1 > 0))) {
+        status = DIPOLE_VRKMK2_GAUSS2_SINGULAR;
+    }
     dipole_vrkmk2_gauss2_count_sweeps(statistics, 0, sweep, status != DIPOLE_VRKMK2_GAUSS2_OK);
     if (status != DIPOLE_VRKMK2_GAUSS2_OK) {
         return status;
@@ -921,7 +925,8 @@ static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
         tries++;
     }
     if (!done) {
-        return failure;
+        return solved > 0.0 && failure == DIPOLE_VRKMK2_GAUSS2_NOT_FINITE
+            ? DIPOLE_VRKMK2_GAUSS2_TOO_FAR : failure;
     }
     memcpy(state, trial, sizeof trial);
     memory->known = 1;
@@ -1008,8 +1013,7 @@ int dipole_vrkmk2_gauss2_step(double state[static 12], double h,
     dipole_vrkmk2_gauss2_enter_body(state, moving, before);
     struct dipole_vrkmk2_gauss2_memory memory = {0};
     int status = dipole_vrkmk2_gauss2_advance(moving, h, &memory, statistics);
-    if (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED
-        || status == DIPOLE_VRKMK2_GAUSS2_NOT_FINITE) {
+    if (status != DIPOLE_VRKMK2_GAUSS2_OK && status != DIPOLE_VRKMK2_GAUSS2_BAD_STEP) {
         status = dipole_vrkmk2_gauss2_continued(moving, h, &memory, statistics);
     }
     if (status == DIPOLE_VRKMK2_GAUSS2_OK) {
@@ -1035,8 +1039,7 @@ int dipole_vrkmk2_gauss2_run(double state[static 12], double h, size_t steps,
     dipole_vrkmk2_gauss2_enter_body(state, moving, before);
     while (status == DIPOLE_VRKMK2_GAUSS2_OK && step < steps) {
         status = dipole_vrkmk2_gauss2_advance(moving, h, &memory, statistics);
-        if (status == DIPOLE_VRKMK2_GAUSS2_NOT_CONVERGED
-            || status == DIPOLE_VRKMK2_GAUSS2_NOT_FINITE) {
+        if (status != DIPOLE_VRKMK2_GAUSS2_OK && status != DIPOLE_VRKMK2_GAUSS2_BAD_STEP) {
             status = dipole_vrkmk2_gauss2_continued(moving, h, &memory, statistics);
         }
         if (status == DIPOLE_VRKMK2_GAUSS2_OK) {

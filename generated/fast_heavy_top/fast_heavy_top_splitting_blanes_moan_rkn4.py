@@ -34,15 +34,16 @@ Use:
 
 from math import cos, isfinite, nan, sin, sqrt
 
-OK = 0
-NOT_FINITE = 2
-BAD_STEP = 3
+OK = 0  # success
+NOT_FINITE = 2  # the new state would contain an infinity or a NaN
+BAD_STEP = 3  # h is infinite or NaN
+TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
 
 
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_FINITE or BAD_STEP; step: the number of completed steps;
+    status: one of the codes above; reason: its cause; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -319,7 +320,7 @@ def _begin(state, h):
 
 
 def _finish(state, elapsed_h):
-    """Flows that commute with all others, applied once for many steps."""
+    """Flows that commute with all other flows, applied once for many steps."""
     try:
         g00, g01, g02, g10, g11, g12, g20, g21, g22, mu0, mu1, mu2 = state
         w1 = (g01 * mu0 + g11 * mu1 + g21 * mu2) * (2.0676923076923077 * elapsed_h)
@@ -345,6 +346,34 @@ def _finish(state, elapsed_h):
         )
     except (ArithmeticError, ValueError):
         state[:] = [nan] * len(state)
+
+
+def _complete_step(state, h):
+    """One step with all its flows."""
+    if not isfinite(h):
+        return BAD_STEP
+    if not all(map(isfinite, state)):
+        return NOT_FINITE
+    next = [0.0] * 12
+    next[:] = state
+    lead = 0.08298440641740487 * h
+    _begin(next, h)
+    _advance(next, h, lead)
+    _finish(next, h)
+    if not all(map(isfinite, next)):
+        return NOT_FINITE
+    state[:] = next
+    return OK
+
+
+def _cause(state, h):
+    """Return the cause of a step without a finite result: does a step of size zero
+    have one?
+    """
+    same = [0.0] * 12
+    same[:] = state
+    status = _complete_step(same, 0.0 * h)
+    return TOO_FAR if status == OK else NOT_FINITE
 
 
 def _run(state, h, steps, trajectory, stride, completed):
@@ -400,6 +429,8 @@ def _run(state, h, steps, trajectory, stride, completed):
         if not again:
             break
     state[:] = complete
+    if status == NOT_FINITE:
+        status = _cause(state, h)
     if completed is not None:
         completed[0] = step
     return status
@@ -413,11 +444,17 @@ def _numbers(state):
     return numbers
 
 
+_REASONS = {
+    NOT_FINITE: "the new state is not finite",
+    BAD_STEP: "the step size h = {h} is not finite",
+    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+}
+
+
 def _failure(status, step, state, h):
     """Return the error of a failed step."""
-    reason = "the new state is not finite"
-    if status == BAD_STEP:
-        reason = f"the step size h = {h} is not finite"
+    reason = _REASONS[status]
+    reason = reason.format(h=h)
     return StepFailed(status, reason, step, tuple(map(float, state)))
 
 

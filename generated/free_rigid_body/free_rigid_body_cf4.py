@@ -29,15 +29,16 @@ Use:
 
 from math import cos, isfinite, sin, sqrt
 
-OK = 0
-NOT_FINITE = 2
-BAD_STEP = 3
+OK = 0  # success
+NOT_FINITE = 2  # the new state would contain an infinity or a NaN
+BAD_STEP = 3  # h is infinite or NaN
+TOO_FAR = 5  # the step turns or moves too far for finite numbers; a shorter step is finite
 
 
 class StepFailed(ArithmeticError):
     """A step failed.
 
-    status: NOT_FINITE or BAD_STEP; step: the number of completed steps;
+    status: one of the codes above; reason: its cause; step: the number of completed steps;
     state: the last good state, as a tuple.
     """
 
@@ -128,7 +129,8 @@ def _stumpff_12(z):
     return _stumpff_12_far(z)
 
 
-def _run(state, h, steps, trajectory, stride, completed):
+def _loop(state, h, steps, trajectory, stride, completed):
+    """The loop of a run."""
     status = OK
     step = 0
     recording = stride > 0 and trajectory is not None
@@ -227,6 +229,23 @@ def _run(state, h, steps, trajectory, stride, completed):
     return status
 
 
+def _cause(state, h):
+    """Return the cause of a step without a finite result: does a step of size zero
+    have one?
+    """
+    same = [0.0] * 3
+    same[:] = state
+    status = _loop(same, 0.0 * h, 1, None, 0, None)
+    return TOO_FAR if status == OK else NOT_FINITE
+
+
+def _run(state, h, steps, trajectory, stride, completed):
+    status = _loop(state, h, steps, trajectory, stride, completed)
+    if status == NOT_FINITE:
+        status = _cause(state, h)
+    return status
+
+
 def _numbers(state):
     """Return a state as a list of numbers; raise ValueError if its length is wrong."""
     numbers = list(map(float, state))
@@ -235,11 +254,17 @@ def _numbers(state):
     return numbers
 
 
+_REASONS = {
+    NOT_FINITE: "the new state is not finite",
+    BAD_STEP: "the step size h = {h} is not finite",
+    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+}
+
+
 def _failure(status, step, state, h):
     """Return the error of a failed step."""
-    reason = "the new state is not finite"
-    if status == BAD_STEP:
-        reason = f"the step size h = {h} is not finite"
+    reason = _REASONS[status]
+    reason = reason.format(h=h)
     return StepFailed(status, reason, step, tuple(map(float, state)))
 
 

@@ -367,7 +367,7 @@ static double free_rigid_body_s3_discrete_gradient_midpoint_difference_size(cons
 static inline void free_rigid_body_s3_discrete_gradient_midpoint_remember(struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
     const double solution[static 3])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -1112,7 +1112,8 @@ static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[
         tries++;
     }
     if (!done) {
-        return failure;
+        return solved > 0.0 && failure == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE
+            ? FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_TOO_FAR : failure;
     }
     memcpy(state, trial, sizeof trial);
     memory->known = 1;
@@ -1128,8 +1129,8 @@ int free_rigid_body_s3_discrete_gradient_midpoint_step(double state[static 4], d
     struct free_rigid_body_s3_discrete_gradient_midpoint_memory memory = {0};
     int status = free_rigid_body_s3_discrete_gradient_midpoint_advance(state, h, &memory,
         statistics);
-    if (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED
-        || status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE) {
+    if (status != FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
+        && status != FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_BAD_STEP) {
         status = free_rigid_body_s3_discrete_gradient_midpoint_continued(state, h, &memory,
             statistics);
     }
@@ -1151,8 +1152,8 @@ int free_rigid_body_s3_discrete_gradient_midpoint_run(double state[static 4], do
     while (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK && step < steps) {
         status = free_rigid_body_s3_discrete_gradient_midpoint_advance(state, h, &memory,
             statistics);
-        if (status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_CONVERGED
-            || status == FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_NOT_FINITE) {
+        if (status != FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_OK
+            && status != FREE_RIGID_BODY_S3_DISCRETE_GRADIENT_MIDPOINT_BAD_STEP) {
             status = free_rigid_body_s3_discrete_gradient_midpoint_continued(state, h, &memory,
                 statistics);
         }

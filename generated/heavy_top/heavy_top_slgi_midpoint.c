@@ -478,7 +478,7 @@ static double heavy_top_slgi_midpoint_difference_size(const struct heavy_top_slg
 static inline void heavy_top_slgi_midpoint_remember(struct heavy_top_slgi_midpoint_memory *memory,
     const double solution[static 6])
 {
-    /* with fewer than three stored solutions, the guess is the last one, and is not tested */
+    /* with fewer than three stored solutions, the guess is the last solution and is not tested */
     if (memory->known > 2) {
         double moved = 0.0;
         moved += fabs(solution[0] - memory->values[memory->place][0]);
@@ -799,6 +799,10 @@ static inline int heavy_top_slgi_midpoint_advance(double state[static 12], doubl
         make_1 = 0.015625 * previous_1 > 0.0 && change > 0.015625 * previous_1;
         previous_1 = change;
     } while (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED && sweep < 100 && !astray);
+    if (status != HEAVY_TOP_SLGI_MIDPOINT_OK && (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED
+        && !(memory->age_1 > 0))) {
+        status = HEAVY_TOP_SLGI_MIDPOINT_SINGULAR;
+    }
     heavy_top_slgi_midpoint_count_sweeps(statistics, 0, sweep,
         status != HEAVY_TOP_SLGI_MIDPOINT_OK);
     if (status != HEAVY_TOP_SLGI_MIDPOINT_OK) {
@@ -918,7 +922,8 @@ static int heavy_top_slgi_midpoint_continued(double state[static 12], double h,
         tries++;
     }
     if (!done) {
-        return failure;
+        return solved > 0.0 && failure == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE
+            ? HEAVY_TOP_SLGI_MIDPOINT_TOO_FAR : failure;
     }
     memcpy(state, trial, sizeof trial);
     memory->known = 1;
@@ -933,8 +938,7 @@ int heavy_top_slgi_midpoint_step(double state[static 12], double h,
 {
     struct heavy_top_slgi_midpoint_memory memory = {0};
     int status = heavy_top_slgi_midpoint_advance(state, h, &memory, statistics);
-    if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED
-        || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
+    if (status != HEAVY_TOP_SLGI_MIDPOINT_OK && status != HEAVY_TOP_SLGI_MIDPOINT_BAD_STEP) {
         status = heavy_top_slgi_midpoint_continued(state, h, &memory, statistics);
     }
     return status;
@@ -954,8 +958,7 @@ int heavy_top_slgi_midpoint_run(double state[static 12], double h, size_t steps,
     }
     while (status == HEAVY_TOP_SLGI_MIDPOINT_OK && step < steps) {
         status = heavy_top_slgi_midpoint_advance(state, h, &memory, statistics);
-        if (status == HEAVY_TOP_SLGI_MIDPOINT_NOT_CONVERGED
-            || status == HEAVY_TOP_SLGI_MIDPOINT_NOT_FINITE) {
+        if (status != HEAVY_TOP_SLGI_MIDPOINT_OK && status != HEAVY_TOP_SLGI_MIDPOINT_BAD_STEP) {
             status = heavy_top_slgi_midpoint_continued(state, h, &memory, statistics);
         }
         if (status == HEAVY_TOP_SLGI_MIDPOINT_OK) {

@@ -221,6 +221,6 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                         f"quadratic group",
                         where=f"{self.name}: exponents[{k + 1}]",
                         expected="x*y*z and z*y*x with equal coefficients, x*y and y*x with opposite "
-                                 "coefficients",
+                        "coefficients",
                     )
         return method, None

@@ -8,13 +8,14 @@ from codegen import scenes
 from codegen.errors import MethodError
 from codegen.ir.domain import ExprDomain
 from codegen.kernel.translate import to_kernel
-from codegen.lower import lower, lowering, names
+from codegen.lower import families_for, lower, lowering, names
 from codegen.lower.flow_words import FlowLowering
 from codegen.lower.variational import VariationalLowering
 from codegen.method import Method, parse
 from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
 from orderconds.families import family_class
 from orderconds.tableau import Tableau
+from orderconds.tableau.library import available
 from tests.strategies import butcher, field_scene, hamiltonian_scene, shipped
 
 FIELD = ("rkmk", "cg", "cf")
@@ -75,6 +76,41 @@ def test_what_cannot_be_read_is_named(spelling, families, error, message):
         parse(spelling, families)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+PLACES = ("driven_spin", "duffing", "heavy_top", "linear_oscillator")
+"""Scenes with different families."""
+
+
+def hint_of(text, families):
+    """Return the method that the hint of a refusal names; '' if the text names a method."""
+    try:
+        parse(text, families)
+    except MethodError as error:
+        return (error.hint or "").partition("write ")[2].removeprefix("for example ")
+    return ""
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize("name", ["magnus4", "strang", "stormer_verlet", "cf4", "bogacki_shampine3"])
+def test_the_hint_of_a_refusal_names_a_method_that_can_be_lowered(place, name):
+    scene = scenes.load(place)
+    families = families_for(scene)
+    for hint in {hint_of(f"{family}:{name}", families) for family in families} | {hint_of(name, families)}:
+        if hint:
+            lower(scene, parse(hint, families))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("place", PLACES)
+def test_every_hint_of_a_refusal_names_a_method_that_can_be_lowered(place):
+    scene = scenes.load(place)
+    families = families_for(scene)
+    prefixes = ("", *(f"{family}:" for family in families))
+    hints = {hint_of(prefix + name, families) for name in available() for prefix in prefixes} - {""}
+    assert hints
+    for hint in sorted(hints):
+        lower(scene, parse(hint, families))
 
 
 def refused(scene, method, error=MethodError):

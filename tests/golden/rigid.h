@@ -11,7 +11,8 @@ extern "C" {
 enum {
     RIGID_OK = 0, /* success */
     RIGID_NOT_FINITE = 2, /* the new state would contain an infinity or a NaN */
-    RIGID_BAD_STEP = 3 /* h is infinite or NaN */
+    RIGID_BAD_STEP = 3, /* h is infinite or NaN */
+    RIGID_TOO_FAR = 5 /* the step turns or moves too far for finite numbers; a shorter step is finite */
 };
 
 /* Make one step of size h. When the status is not RIGID_OK, the state is unchanged. */

@@ -14,6 +14,7 @@ from codegen.scene.classical_forms import PRINTED, classical_forms
 from codegen.scene.problem import Problem
 from orderconds.families import Family, family_class
 from orderconds.tableau import RungeKutta, Tableau, available, find
+from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
 """The search for the fewest brackets takes seconds from order six on, so such methods have a cut-off only."""
@@ -28,7 +29,8 @@ class Recipe:
     """A way to integrate a scene: the name of a method, the form of the equations, the choice of step sizes.
 
     ``order`` is the order that the file of the tableau claims, 0 if it claims none. ``stages`` is the number
-    of stages or factors of the tableau; recipes of one ``tableau`` share it.
+    of stages or factors of the tableau; recipes of one ``tableau`` share it. ``explicit`` says that no stage
+    of the tableau depends on itself or on a later stage.
     """
 
     method: str
@@ -37,6 +39,7 @@ class Recipe:
     tableau: str
     adaptive: bool = False
     form: str = PRINTED
+    explicit: bool = True
 
     @property
     def label(self) -> str:
@@ -113,7 +116,7 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     For each order only the smallest cut-off is used. An order below half the classical order wastes stages:
     other tableaux have this order with fewer stages.
     """
-    stages, name = size(tableau), tableau.name
+    stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
     stated = {claim.label: claim.order for claim in tableau.claims.orders}
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
@@ -126,22 +129,30 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:
-            yield from _both(f"{family}:{name}", order, stages, name, controlled)
+            yield from _both(f"{family}:{name}", order, stages, name, controlled, ordered)
         return
     cheapest = {order: cutoff for cutoff, order in sorted(own.items(), key=lambda c: -(c[0] or 0))}
     for order, cutoff in sorted(cheapest.items()):
         if order >= least:
             method = family if cutoff is None else f"{family}({cutoff})"
-            yield from _both(f"{method}:{name}", order, stages, name, controlled)
+            yield from _both(f"{method}:{name}", order, stages, name, controlled, ordered)
     best = max(cheapest, default=0)
     reducible = best <= min(kind.minimal_brackets, SEARCHED) and Method(family, tableau).can_reduce_brackets()
     if best and None not in own and reducible:
-        yield Recipe(f"{family}:{name}", best, stages, name)
+        yield Recipe(f"{family}:{name}", best, stages, name, explicit=ordered)
 
 
 def size(tableau: Tableau) -> int:
     """Return the number of stages, or of factors of a splitting or composition."""
     return getattr(tableau.read_as(("rk",)) or tableau.method, "s", 1)
+
+
+def is_explicit(tableau: Tableau) -> bool:
+    """Whether each stage depends on earlier stages only; true for tableaux that are not read as A and b."""
+    method = tableau.read_as(("rk",))
+    if not isinstance(method, RungeKutta):
+        return True
+    return explicit(method, tableau.ring) is True
 
 
 def degrees(family: str) -> Iterator[Recipe]:
@@ -150,10 +161,12 @@ def degrees(family: str) -> Iterator[Recipe]:
         yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
 
 
-def _both(method: str, order: int, stages: int, tableau: str, controlled: bool) -> Iterator[Recipe]:
-    yield Recipe(method, order, stages, tableau)
+def _both(
+    method: str, order: int, stages: int, tableau: str, controlled: bool, ordered: bool = True
+) -> Iterator[Recipe]:
+    yield Recipe(method, order, stages, tableau, explicit=ordered)
     if controlled:
-        yield Recipe(method, order, stages, tableau, adaptive=True)
+        yield Recipe(method, order, stages, tableau, adaptive=True, explicit=ordered)
 
 
 def method_of(recipe: Recipe, problem: Problem) -> Method:
@@ -172,6 +185,7 @@ def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Rec
     for label, adaptive in methods:
         method = parse(label, families_for(problem))
         order = certified_order(method, problem).order
-        stages = order if method.coefficients is None else size(method.tableau)
+        bare = method.coefficients is None
+        stages, ordered = (order, True) if bare else (size(method.tableau), is_explicit(method.tableau))
         for form in forms if lowering(method.family).in_coordinates else forms[:1]:
-            yield Recipe(method.label, order, stages, method.name, adaptive, form)
+            yield Recipe(method.label, order, stages, method.name, adaptive, form, ordered)

@@ -24,7 +24,7 @@ from codegen.lab.efficiency.work_precision import (
 )
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
-from codegen.lab.timing import cost, samples
+from codegen.lab.timing import LEAST_STEPS, cost, samples
 from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -90,8 +90,21 @@ class EmittedCandidate:
                 raise RunFailed("the final state is not finite")
         except ArithmeticError as failure:
             return self._row(control, h, steps, failure=str(failure))
-        times = self._net(samples(lambda: self.runner.final(steps)), lambda: self.runner.final(0))
-        return self._row(control, h, steps, error, times, statistics)
+        return self._row(control, h, steps, error, self._times(steps), statistics)
+
+    def _times(self, steps: int) -> list[float]:
+        """Return the CPU seconds of a run.
+
+        A run of few steps is timed over several spans, because the time of a call from Python varies more
+        than the time of a step.
+        """
+        spans = max(1, LEAST_STEPS // steps)
+        try:
+            self.runner.final(steps, spans=spans)
+        except ArithmeticError:  # the solution ends beyond the span
+            spans = 1
+        spent = samples(lambda: self.runner.final(steps, spans=spans))
+        return [s / spans for s in self._net(spent, lambda: self.runner.final(0))]
 
     def _net(self, spent: Sequence[float], nothing: Callable[[], object]) -> list[float]:
         """Return times without the overhead of a call; ``nothing`` is a call that makes no step.

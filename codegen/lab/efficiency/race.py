@@ -22,7 +22,7 @@ from codegen.lab.efficiency.features import Features, features
 from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
-from codegen.lab.timing import samples
+from codegen.lab.timing import LEAST_STEPS, samples
 from codegen.loader import load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -36,9 +36,6 @@ FINEST = 15.0
 
 LONGEST = 0.2
 """CPU seconds of the longest run, if no other recipe has reached the error."""
-
-LEAST_STEPS = 200
-"""Runs with fewer steps are continued beyond the span while they are timed."""
 
 BRIEF = 0.01
 """Runs shorter than BRIEF CPU seconds never end the race of a recipe: the first run of a module is slow."""

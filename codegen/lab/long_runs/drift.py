@@ -2,11 +2,17 @@
 
 Errors along one trajectory are correlated, so the interval of a least-squares line would be far too narrow.
 The record is cut into blocks much longer than its oscillations. Block means are nearly independent, and a
-line through them has a valid interval from Student's distribution (batch means).
+line through them has an interval from Student's distribution (batch means). The correlation of consecutive
+residuals that remains widens the interval.
 
 A modulation that is slower than the blocks also has a slope, and its interval may exclude zero. A drift
 therefore also has to persist: the means over five consecutive parts of the record must be monotone. A
 sinusoid passes this test only if its period is longer than 1.2 records.
+
+A random walk has a slope, too, and its residuals are correlated over the whole record. A drift therefore also
+has to differ from a random walk: the residuals of the line spread much less than those of a random walk with
+the same increments, or the mean increment is far larger than a random walk explains. The spread is that of
+J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 
 The growth of a deviation may end, for example at a fixed point of the method. A line through the whole record
 then has the slope of the constant part. A record that saturates is therefore fitted before it saturates.
@@ -36,8 +42,9 @@ BOUNDED, WALK = 0.25, 0.75
 """A deviation may be bounded if its growth exponent is below BOUNDED, and a random walk if the exponent is
 between BOUNDED and WALK."""
 
-LATE = 1.5
-"""A bounded deviation is at most LATE times as large in the whole record as in its first half."""
+LATE, LATE_CONFINED = 1.5, 2.0
+"""A bounded deviation is at most LATE times as large in the whole record as in its first half, and at most
+LATE_CONFINED times if a random walk is excluded."""
 
 LEVEL, STAYS = 0.9, 0.5
 """A record saturates if the deviation reaches LEVEL times its largest value in the first half, and never
@@ -46,6 +53,17 @@ returns below STAYS times this value."""
 WALKING = (0.5, 1.6)
 """The variance ratio of increments over k blocks is about 1/k for noise, 1 for a random walk, and up to k for
 a slow modulation. The ratios of a random walk are between these bounds."""
+
+CONFINED = 0.04
+"""The variance of block means about their mean, in units of the number of blocks times the variance of their
+increments. It is less than CONFINED for 3 % of all random walks, of any length and size."""
+
+STRAIGHT = 0.0225
+"""The same variance about a line. It is less than STRAIGHT for 1 % of all random walks."""
+
+STEADY = 3.2
+"""The mean increment over BLOCKS blocks in units of its standard error. It exceeds STEADY for 1 % of all
+random walks."""
 
 TINY = 1e-24
 """Smaller variances, relative to the square of the largest deviation, consist of rounding errors."""
@@ -61,10 +79,11 @@ class Drift:
     ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random
     walk, 1 for a drift. ``rounding`` is the largest deviation that rounding errors can explain. If too few
     values are finite, the slope is NaN. ``persists`` is whether the deviation is monotone in the means of
-    consecutive parts. ``later`` is the largest deviation divided by the largest deviation of the first half.
-    ``ratios`` are the variance ratios of increments over NEAR and over FAR blocks. ``until`` is the time at
-    which the deviation saturates; the slope, its interval, ``exponent`` and ``persists`` are then those of
-    the record before.
+    consecutive parts. ``confined`` and ``unlike_walk`` are whether a random walk is excluded as the law of
+    the deviation, without and with a line added to it. ``later`` is the largest deviation divided by the
+    largest deviation of the first half. ``ratios`` are the variance ratios of increments over NEAR and over
+    FAR blocks. ``until`` is the time at which the deviation saturates; the slope, its interval,
+    ``exponent`` and ``persists`` are then those of the record before.
     """
 
     slope: float
@@ -75,6 +94,8 @@ class Drift:
     persists: bool = True
     later: float = 1.0
     ratios: tuple[float, float] = (0.0, 0.0)
+    confined: bool = False
+    unlike_walk: bool = True
     until: float | None = None
 
     @property
@@ -88,9 +109,9 @@ class Drift:
 
         ``lost``: the deviation reaches the size of the quantity, or saturates above half of it. ``exact``:
         there is no deviation. ``rounding``: rounding errors can explain the deviation. ``drift``: the
-        interval of the slope excludes zero and the deviation is monotone in the means of consecutive parts.
-        ``bounded`` and ``random walk``: there is no drift, and the growth is that of noise or of a random
-        walk. Otherwise the verdict is ``too short to tell``.
+        interval of the slope excludes zero, the deviation is monotone in the means of consecutive parts, and
+        a random walk does not explain the slope. ``bounded`` and ``random walk``: there is no drift, and the
+        growth is that of noise or of a random walk. Otherwise the verdict is ``too short to tell``.
         """
         if not self.largest < LOST or (self.until is not None and self.largest >= STAYS * LOST):
             return "lost"
@@ -101,11 +122,13 @@ class Drift:
         near, far = self.ratios
         walks = WALKING[0] < near < WALKING[1]
         grows_like_a_walk = walks and far > WALKING[0] and BOUNDED <= self.exponent < WALK
-        if self.is_drift and self.persists:
-            return "random walk" if grows_like_a_walk else "drift"
+        if self.is_drift and self.persists and self.unlike_walk:
+            return "drift"
         if self.until is not None:
             return "bounded"
-        if self.later <= LATE and not walks and (self.exponent < BOUNDED or near < WALKING[0]):
+        ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
+        confined = self.confined and not self.is_drift and self.later <= LATE_CONFINED
+        if confined or (ends and self.later <= LATE):
             return "bounded"
         return "random walk" if grows_like_a_walk else "too short to tell"
 
@@ -194,7 +217,25 @@ def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
         persists=all((b - a) * slope > 0 for a, b in pairwise(means)),
         later=1.0 / early if early else math.inf,
         ratios=_variance_ratios(t, y),
+        confined=_spread(t, y, 0) < CONFINED,
+        unlike_walk=_spread(t, y, 1) < STRAIGHT or _steadiness(t, y) > STEADY,
     )
+
+
+def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
+    """Return the variance of block means about a polynomial of a degree; see :data:`CONFINED`."""
+    x, z = _means(t, y, min(FINE, len(y) // 2))
+    rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
+    increments = float(numpy.diff(z).var())
+    # If even the increments are rounding errors, the record is a line.
+    return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
+
+
+def _steadiness(t: numpy.ndarray, y: numpy.ndarray) -> float:
+    """Return the mean increment in units of its standard error; see :data:`STEADY`."""
+    increments = numpy.diff(_means(t, y, BLOCKS)[1])
+    error = float(increments.std(ddof=1)) / math.sqrt(len(increments))
+    return abs(float(increments.mean())) / error if error > 0.0 else math.inf
 
 
 def _variance_ratios(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
@@ -234,7 +275,12 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
     centred = x - x.mean()
     slope = float(centred @ z / (centred @ centred))
     residual = z - z.mean() - slope * centred
-    error = math.sqrt(float(residual @ residual) / (BLOCKS - 2) / float(centred @ centred))
+    square = float(residual @ residual)
+    error = math.sqrt(square / (BLOCKS - 2) / float(centred @ centred))
+    # With correlation r between consecutive residuals, the variance of the slope is (1 + r)/(1 - r) times as
+    # large.
+    r = max(float(residual[1:] @ residual[:-1]) / square, 0.0) if square > 0.0 else 0.0
+    error *= math.sqrt((1 + r) / (1 - r))
     return slope, float(scipy.stats.t.ppf((1 + CONFIDENCE) / 2, BLOCKS - 2)) * error
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 
 from codegen.lab.efficiency.emitted_candidate import EmittedCandidate
 from codegen.lab.efficiency.features import Features, features
@@ -94,7 +94,8 @@ class Advice(Measurement[Recommendations]):
         search = Searched((), complete=True)
         if named or not subject.named:
             search = subject.cache.get(key, Searched, lambda: searched(task, subject))
-        return Recommendations((*search.lines, *peers(cost.result.entries)), tuple(known), search.complete)
+        lines = search.lines if search.complete else completed(search.lines, known, cost.result.entries)
+        return Recommendations((*lines, *peers(cost.result.entries)), tuple(known), search.complete)
 
     def as_json(self, result: Recommendations) -> object:
         """Return the best method for each requirement and error, with its step, time and command."""
@@ -149,6 +150,29 @@ def advised(task: Task, k: int, place: Result) -> Advised:
         place.steps,
         recipe.command(task.scene),
     )
+
+
+def completed(
+    lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
+) -> tuple[Line, ...]:
+    """Return lines in which the methods of the page replace missing results of a search.
+
+    Their times are interpolated between measured runs. Requirements that include long times are not
+    completed, because only the search makes long runs.
+    """
+    requirements = {r.name: r for r in REQUIREMENTS}
+    result = []
+    for line in lines:
+        goals = [requirements[line.need].goal(k) for k in DECADES]
+        fitting = [f.label for f in known if goals[0].met(f) and entries.get(f.label)]
+        best = list(line.best)
+        for i, k in enumerate(DECADES):
+            if best[i] is None and not goals[i].long:
+                times = ((fastest_form(entries[label], 10.0**-k), label) for label in fitting)
+                reached = sorted((t[0], in_form(label, t[1])) for t, label in times if t is not None)
+                best[i] = Advised(10.0**-k, reached[0][1], reached[0][0]) if reached else None
+        result.append(replace(line, best=tuple(best)))
+    return tuple(result)
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:

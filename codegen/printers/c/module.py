@@ -18,6 +18,7 @@ from codegen.run.identifiers import identify
 from codegen.run.language import Unit, terms
 from codegen.run.numbers import numbers_held
 from codegen.run.plan import Plan
+from codegen.run.status import statuses
 from codegen.run.sweeps import WIDE
 from codegen.run.terms import STATUSES
 from codegen.run.trajectory import is_looped
@@ -80,6 +81,7 @@ def print_module(kernel: Kernel, interface: Interface, recipe: Recipe) -> dict[s
         "time": interface.time,
         "blocks": interface.blocks,
         "inputs": interface.inputs,
+        "statuses": statuses(unit),
         "adaptive": interface.adaptive,
         "variations": interface.variations,
         "variation": kernel.vary.state[-1].meaning if kernel.vary is not None else "",

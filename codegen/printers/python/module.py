@@ -20,6 +20,7 @@ from codegen.printers.state_fields import layout, times
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import RAISES_STATUS, Unit, terms
 from codegen.run.plan import Plan
+from codegen.run.status import NOT_FINITE_BLOCK, statuses
 from codegen.run.unit import unit_of
 from codegen.snippets.graph import Needed, needed
 from codegen.templates import environment
@@ -148,6 +149,8 @@ class _Module:
             "single": self.single,
             "number": "float32" if self.single else "float",
             "blocks": [quoted(label) for label in interface.blocks],
+            "statuses": statuses(self.unit),
+            "not_finite_block": NOT_FINITE_BLOCK,
             "statistics": [line for record in public for line in self.printer.record(record)],
             "parts": parts,
             "size": interface.size,

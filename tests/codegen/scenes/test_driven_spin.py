@@ -94,5 +94,5 @@ def test_a_step_whose_angles_leave_no_digit_is_a_status():
     emission = emit_compiled(compile_method("stiff_driven_spin", "cf4"), "c")
     with pytest.raises(StepFailed) as failure:
         load_module(emission).run(emission.manifest["initial"], 1.0, 200)
-    assert failure.value.status == Status.NOT_FINITE
+    assert failure.value.status == Status.TOO_FAR
     assert failure.value.state == emission.manifest["initial"]

@@ -233,3 +233,11 @@ def test_named_methods_alone_are_searched() -> None:
         ("ambient:dop853", True, 8),
     }
     assert len({r.form for r in recipes if r.family == "ambient"}) > 1
+
+
+def test_a_search_among_very_few_tableaux_ends() -> None:
+    """A single job runs in this process, and the queue of jobs must end there too."""
+    result = recommend(Request("free_rigid_body", 1e-3, tableaux=("cf4",)))
+    assert all(p.entry.recipe.method.endswith("cf4") for p in result.places)
+    assert result.places
+    assert list(Jobs({})) == []

@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import math
 import random
+from collections import Counter
 
+import numpy
 import pytest
 from click.testing import CliRunner
 from sympy import Matrix, Rational, sqrt, symbols
@@ -346,6 +348,39 @@ def test_a_random_walk_is_rarely_called_bounded():
             series.append(value)
         wrong += law_of(series) == "bounded"
     assert wrong <= 5
+
+
+def synthetic(law, seeds, count=1000):
+    """Return how often each verdict is given on synthetic records: a line plus correlated noise."""
+    slope, memory = law
+    found = Counter()
+    for seed in range(seeds):
+        draws, value, series = numpy.random.default_rng(seed).standard_normal(count), 0.0, []
+        for k, draw in enumerate(draws):
+            value = memory * value + 1e-6 * float(draw)
+            series.append(value + slope * k)
+        found[law_of([x - series[0] for x in series])] += 1
+    return found
+
+
+def test_a_random_walk_is_called_a_drift_or_bounded_in_few_of_many_records():
+    found = synthetic((0.0, 1.0), 300)
+    assert found["drift"] <= 9
+    assert found["bounded"] <= 18
+    assert found["random walk"] >= 100
+
+
+def test_noise_with_a_long_memory_is_bounded():
+    """The memory of 50 samples is a twentieth of the record."""
+    found = synthetic((0.0, 0.98), 300)
+    assert found["bounded"] >= 210
+    assert found["drift"] <= 6
+    assert found["random walk"] <= 15
+
+
+@pytest.mark.parametrize("law", [(1e-7, 0.98), (5e-7, 1.0), (2e-8, 0.0)])
+def test_a_drift_is_found_beneath_noise_and_beneath_a_random_walk(law):
+    assert synthetic(law, 100)["drift"] >= 95
 
 
 def test_noise_is_bounded():

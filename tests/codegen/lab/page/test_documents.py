@@ -12,7 +12,7 @@ from codegen.errors import MethodError
 from codegen.lab import subject as subjects
 from codegen.lab.efficiency import emitted_candidate, peer_candidate
 from codegen.lab.efficiency.requirements import DECADES, REQUIREMENTS
-from codegen.lab.measurements.advice import Advice
+from codegen.lab.measurements.advice import Advice, Line, completed
 from codegen.lab.measurements.cost import Cost
 from codegen.lab.measurements.long_runs import LongRuns
 from codegen.lab.measurements.orders import Orders, agreement
@@ -193,6 +193,18 @@ def test_each_cell_of_the_advice_has_the_time_the_step_and_the_command(
         assert best.steps == round(2 / best.h)
         assert best.command in overview
     assert lines["symplectic"] == (None,) * len(DECADES)
+
+
+def test_methods_of_the_page_replace_results_that_an_interrupted_search_lacks(found: SceneResults) -> None:
+    advice, cost = part(found, Advice), part(found, Cost)
+    none = tuple(Line(r.name, r.meaning, tuple(None for _ in DECADES)) for r in REQUIREMENTS)
+    lines = {line.need: line.best for line in completed(none, advice.features, cost.result.entries)}
+    assert any(lines["any emitted method"])
+    assert not any(lines["symplectic"])  # only a search makes long runs
+    for need, best in lines.items():
+        for place in filter(None, best):
+            known = next(f for f in advice.features if f.label == place.method.partition(" (")[0])
+            assert next(r for r in REQUIREMENTS if r.name == need).goal(2).met(known)
 
 
 def test_a_part_that_was_not_asked_for_has_no_section(found: SceneResults) -> None:

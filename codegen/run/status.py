@@ -1,0 +1,80 @@
+"""The status codes of a module, with their meanings for headers and their reasons for error messages."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from codegen.run.language import RAISES_STATUS, Unit, terms
+from codegen.run.terms import (
+    BAD_STEP,
+    LIMIT,
+    NOT_CONVERGED,
+    NOT_FINITE,
+    OK,
+    SINGULAR,
+    STATUSES,
+    TOO_FAR,
+    TOO_SHORT,
+)
+
+MEANINGS = {
+    OK: "success",
+    NOT_CONVERGED: "an implicit block did not converge",
+    NOT_FINITE: "the new state would contain an infinity or a NaN",
+    BAD_STEP: "h is infinite or NaN",
+    LIMIT: "the end was not reached in the given number of steps",
+    TOO_FAR: "the step turns or moves too far for finite numbers; a shorter step is finite",
+    SINGULAR: "the matrix of an implicit block is singular",
+    TOO_SHORT: "the end was not reached: the step became too small to change t",
+}
+"""The comment on each status code in a header."""
+
+REASONS = {
+    NOT_CONVERGED: "{block} did not converge",
+    NOT_FINITE: "the new state is not finite",
+    BAD_STEP: "the step size h = {h} is not finite",
+    LIMIT: "the end is not reached: too many steps",
+    TOO_FAR: "the step turns or moves too far: its result is not finite, but that of a shorter step is",
+    SINGULAR: "the matrix of {block} is singular",
+    TOO_SHORT: "the end is not reached: the step became too small to change t",
+}
+"""The reason for each failure, with the label of the implicit block and the step size, for both targets."""
+
+NOT_FINITE_BLOCK = "{block} computed a number that is not finite"
+"""The reason for NOT_FINITE if an implicit block has failed."""
+
+
+@dataclass(frozen=True)
+class StatusCode:
+    """A status code: its name, its number, its meaning, and the reason for error messages."""
+
+    name: str
+    number: int
+    meaning: str
+    reason: str
+
+
+def reason(status: str, block: str, h: float) -> str:
+    """Return the reason for a failure; ``block`` is the label of the implicit block that failed, or ''.
+
+    >>> reason("SINGULAR", "the equations of x", 0.1)
+    'the matrix of the equations of x is singular'
+    >>> reason("NOT_FINITE", "", 0.1)
+    'the new state is not finite'
+    """
+    text = NOT_FINITE_BLOCK if status == NOT_FINITE and block else REASONS[status]
+    return text.format(block=block, h=h)
+
+
+def statuses(unit: Unit) -> tuple[StatusCode, ...]:
+    """Return the status codes that the functions of a unit can return, in the order of their numbers."""
+    used = {OK}
+    for function in unit.functions:
+        used |= {term.text for term in terms(function.body) if term.op == "status"}
+        if function.guard == RAISES_STATUS:
+            used.add(NOT_FINITE)
+    return tuple(
+        StatusCode(name, k, MEANINGS[name], REASONS.get(name, ""))
+        for k, name in enumerate(STATUSES)
+        if name in used
+    )
