@@ -122,7 +122,7 @@ def compared(
 
 
 def _sums_outside(env: dict[Var, Any], inside: set[Var]) -> list[Expr]:
-    """Return the sums among the values that are computed outside a block."""
+    """Return the sums outside a block: among the values of all variables except ``inside``."""
     values = (x for v, value in env.items() if v not in inside for x in flatten(v.kind, value))
     return [x for x in values if x.op in ("add", "sub")]
 

@@ -62,7 +62,7 @@ class _AtZero(ExprDomain):
     """Expressions in which calls of functions at zero are constants."""
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return a constant where the argument is zero, else a call."""
+        """Return a constant if the argument is zero, otherwise a call."""
         # The closed forms of Stumpff functions are 0/0 at zero: use the first coefficients of their series.
         if args[0].is_zero and function in AT_ZERO:
             value = AT_ZERO[function]

@@ -32,7 +32,8 @@ def _split(block: Solve, names: dict[Var, Var]) -> list[Statement]:
     # The import is here, because only programs with blocks need networkx.
     import networkx
 
-    # In the statements after a block, and in the starts of later blocks, its image replaces each unknown.
+    # In the statements after a block, and in the starts of later blocks, each unknown of the block is
+    # replaced by its image.
     start = {u: names.get(s, s) for u, s in zip(block.unknowns, block.starts, strict=True)}
     image = _resolved(dict(zip(block.unknowns, block.images, strict=True)), start)
     # The nodes of the graph are positions in the body and not variables, because the order of integers does

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from codegen.printers.recipe import Recipe
 
 Files: TypeAlias = Mapping[str, str]
-"""The files of an emitted module: text by file name."""
+"""The files of an emitted module: a map from file names to texts."""
 
 PrintModule: TypeAlias = "Callable[[Kernel, Interface, Recipe], dict[str, str]]"
 Load: TypeAlias = "Callable[[Interface, Mapping[str, float], Files], Integrator]"

@@ -29,7 +29,7 @@ def _held(unit: Unit, function: Function, identifiers: Identifiers) -> int:
     for statement in statements(function.body):
         if isinstance(statement, Call):
             # Compilers that do not optimise reserve a separate place on the stack for each argument of each
-            # such call.
+            # call with many arguments.
             arguments = len(statement.arguments) + len(statement.results)
             passed += arguments if arguments > REGISTERS else 0
         if isinstance(statement, Array):

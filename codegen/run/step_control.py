@@ -9,9 +9,9 @@ Ordinary Differential Equations I, section II.4; the controller is Gustafsson's 
 exponents 0.7/p and 0.4/p, which damp more, the sizes follow the solution more slowly: DOP853 needs 15 to 20 %
 more steps on ``heavy_top``. The exponents 0.8/p and 0.2/p are multiples of one power of the norm.
 
-If the caller gives no step size, the first trial covers 1/16 of the interval. After it the factor is 0.9
-norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs a
-few rejected steps, a guess that is too small a large part of a short run.
+If the caller gives no step size, the first trial covers 1/16 of the interval. After this trial the factor is
+0.9 norm^(-1/p), limited to [0.2, 16], because the first size is only a guess. A guess that is too large costs
+a few rejected steps, a guess that is too small costs a large part of a short run.
 
 Each step starts without memory, because solutions of steps of another size are bad initial guesses.
 """

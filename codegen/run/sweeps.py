@@ -303,7 +303,7 @@ class _Newton(_Loop):
         return [*sequence, *self.until_converged(body, astray, self.singular() if inverted else None)]
 
     def corrected(self, changes: Sequence[Term]) -> list[Statement]:
-        """Return the statements that add the changes."""
+        """Return the statements that add the changes to the unknowns."""
         return [Assign(u, u + c) for u, c in zip(self.unknowns, changes, strict=True)]
 
     def renewed(self) -> list[Statement]:

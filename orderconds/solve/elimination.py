@@ -167,7 +167,9 @@ def _sympy(x: fmpq_mpoly, variables: Sequence[int], symbols: Sequence[sympy.Symb
 
 
 def _flint(polynomial: sympy.Poly, plain: Polynomials) -> fmpq_mpoly:
-    """Return a univariate sympy polynomial as flint's, with integer coefficients without common factor."""
+    """Return a univariate polynomial of sympy as a polynomial of flint, with integer coefficients without
+    common factor.
+    """
     place = plain.names.index(polynomial.gen.name)
     result = plain.zero
     for (power,), c in polynomial.primitive()[1].clear_denoms(convert=True)[1].terms():

@@ -1,7 +1,7 @@
 """The coefficients of a method as immutable data over one ring, and conversions between formats.
 
 Stages are counted from 0 here and from 1 in files. In every product of exponentials the first row acts first
-(it is the rightmost factor).
+and is the rightmost factor.
 """
 
 from __future__ import annotations

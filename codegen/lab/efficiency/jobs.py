@@ -43,8 +43,8 @@ class Jobs(Sequence[Job]):
     """The recipes to predict, each with the bars of its goals.
 
     A job is formed when a worker is ready for it, so it depends on the predictions until then. The queues
-    take turns; orders that are usual for an error are first. A kind that is predicted to be
-    slower than another one waits: the wait increases with the logarithm of the ratio.
+    take turns; orders that are usual for an error are first. A kind that is predicted to be slower than
+    another one waits: the wait increases with the logarithm of the ratio.
     """
 
     def __init__(self, goals: Mapping[Recipe, Iterable[Goal]]) -> None:
