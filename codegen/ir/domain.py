@@ -173,8 +173,17 @@ class FloatDomain:
         return math.ldexp(max(1.0, abs(x)), -26)
 
 
+LARGEST_BITS = 16384
+"""The largest binary exponent of an argument of a function in :class:`PreciseDomain`."""
+
+
 class PreciseDomain:
-    """mpmath numbers with a given number of decimal digits; each domain has its own mpmath context."""
+    """mpmath numbers with a given number of decimal digits; each domain has its own mpmath context.
+
+    OverflowError is raised for the function of an argument of 2^:data:`LARGEST_BITS` or more. mpmath numbers
+    do not overflow: without this bound, an iteration that diverges would compute the sine of a number with
+    millions of digits.
+    """
 
     def __init__(self, h: Scalar, digits: int = 50) -> None:
         import mpmath
@@ -206,6 +215,8 @@ class PreciseDomain:
         """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
+        if any(self.context.mag(x) > LARGEST_BITS for x in args):
+            raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), args[0])
         if "stumpff" not in function:

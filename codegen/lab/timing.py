@@ -62,6 +62,16 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
     return samples(call, batch, batches)[0]
 
 
+def spread(times: Sequence[float]) -> float | None:
+    """Return the relative interval of sorted times: three quarters of them are at most 1 + spread times the
+    least. None if the least time is zero.
+
+    >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
+    (0.5, None)
+    """
+    return times[3 * (len(times) - 1) // 4] / times[0] - 1 if times and times[0] > 0.0 else None
+
+
 def _batch(call: Callable[[], object], calls: int) -> float:
     # Under a limit on CPU time (ulimit -t), Linux advances the clock of the process every few milliseconds
     # only, and a batch may take no time by it. The clock of the thread stays exact, but misses other threads.

@@ -75,7 +75,7 @@ class AdaptiveCandidate(EmittedCandidate):
                 raise RunFailed("the final state is not finite")
         except ArithmeticError as failure:
             return replace(self._row(control, 0.0, 0, failure=str(failure)), h=None, steps=None)
-        times = self._net(samples(lambda: self.arrive(control)), lambda: self.arrive(math.inf))
+        times = self._net(lambda: samples(lambda: self.arrive(control)), lambda: self.arrive(math.inf))
         tried, accepted = arrival.accepted + arrival.rejected, arrival.accepted
         row = self._row(control, (last - first) / accepted, tried, error, times, statistics)
         return replace(row, steps=accepted, ns_per_step=1e9 * times[0] / accepted)

@@ -233,9 +233,11 @@ def curves(result: Result, styles: Styles) -> list[Curve]:
     """
     drawn = []
     for label, rows in result.entries.items():
-        points = [(r.seconds, r.error) for r in frontier(rows) if r.error and r.seconds]
-        if points:
-            drawn.append(Curve(label, tuple(points), styles.of(label)))
+        runs = [(r.seconds, r.error, r.spread or 0.0) for r in frontier(rows) if r.error and r.seconds]
+        if runs:
+            points = tuple((time, error) for time, error, _ in runs)
+            upper = tuple(time * (1 + spread) for time, _, spread in runs)
+            drawn.append(Curve(label, points, styles.of(label), upper=upper))
     return drawn
 
 

@@ -16,15 +16,15 @@ from codegen.ir.program import Assign
 from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.work_precision import (
     BUDGET,
-    COUNTED,
     Row,
     at_rounding,
     beyond_budget,
     doubled_steps,
+    net_times,
 )
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
-from codegen.lab.timing import LEAST_STEPS, cost, samples
+from codegen.lab.timing import LEAST_STEPS, cost, samples, spread
 from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -103,18 +103,20 @@ class EmittedCandidate:
             self.runner.final(steps, spans=spans)
         except ArithmeticError:  # the solution ends beyond the span
             spans = 1
-        spent = samples(lambda: self.runner.final(steps, spans=spans))
-        return [s / spans for s in self._net(spent, lambda: self.runner.final(0))]
+        times = self._net(
+            lambda: samples(lambda: self.runner.final(steps, spans=spans)), lambda: self.runner.final(0)
+        )
+        return [s / spans for s in times]
 
-    def _net(self, spent: Sequence[float], nothing: Callable[[], object]) -> list[float]:
-        """Return times without the overhead of a call; ``nothing`` is a call that makes no step.
+    def _net(self, sample: Callable[[], Sequence[float]], nothing: Callable[[], object]) -> list[float]:
+        """Return the times of a run without the overhead of a call; ``nothing`` is a call that makes no
+        step."""
 
-        Times above :data:`COUNTED` are not changed, because the overhead is negligible there.
-        """
-        if spent[0] >= COUNTED:
-            return list(spent)
-        self.overhead = min(self.overhead, cost(nothing))
-        return [s - min(self.overhead, s) for s in spent]
+        def overhead() -> float:
+            self.overhead = min(self.overhead, cost(nothing))
+            return self.overhead
+
+        return net_times(sample, overhead)
 
     def enough(self, rows: Sequence[Row]) -> bool:
         """Whether the budget is reached or rounding errors dominate, so that finer runs are not needed."""
@@ -140,7 +142,7 @@ class EmittedCandidate:
             steps=steps,
             error=error,
             seconds=times[0] if times else None,
-            spread=times[-1] / times[0] - 1 if times and times[0] else None,
+            spread=spread(times),
             ns_per_step=1e9 * times[0] / steps if times else None,
             evaluations=None if failure else self._count(lambda o: o.evaluates_scene, steps, iterations),
             exponentials=None if failure else self._count(lambda o: o.exponentials, steps, iterations),

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.work_precision import (
     BUDGET,
-    COUNTED,
     Row,
     at_rounding,
     beyond_budget,
     doubled_steps,
+    net_times,
 )
 from codegen.lab.peers import TOLERANCES, Peer, PeerFailed
 from codegen.lab.reference import Reference
-from codegen.lab.timing import cost, samples
+from codegen.lab.timing import cost, samples, spread
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
@@ -61,9 +61,8 @@ class PeerCandidate:
             error = self.equations.error(outcome.state, self.exact)
             if not math.isfinite(error):
                 raise PeerFailed("the final state is not finite")
-            spent = samples(prepared.run)
-            subtract = prepared.idle is not None and spent[0] < COUNTED
-            overhead = cost(prepared.idle) if subtract and prepared.idle is not None else 0.0
+            idle = prepared.idle
+            times = net_times(lambda: samples(prepared.run), lambda: cost(idle) if idle is not None else 0.0)
         # A peer may raise any exception; the other candidates must still be measured.
         except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)
@@ -73,7 +72,6 @@ class PeerCandidate:
                 reason = f"{type(failure).__name__}: {reason}"
             names = (self.scene.name, self.label, self.target)
             return Row(*names, control, compile_seconds=setup, failure=reason, form=self.form)
-        times = [s - min(overhead, s) for s in spent]
         first, last = map(float, self.scene.span)
         return Row(
             self.scene.name,
@@ -84,7 +82,7 @@ class PeerCandidate:
             steps=outcome.steps,
             error=error,
             seconds=times[0],
-            spread=times[-1] / times[0] - 1 if times[0] else None,
+            spread=spread(times),
             ns_per_step=1e9 * times[0] / max(outcome.steps, 1),
             evaluations=outcome.evaluations,
             compile_seconds=setup,

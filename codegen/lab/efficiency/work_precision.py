@@ -24,8 +24,11 @@ MOST_STEPS = 5 * 2**21
 COUNTED = 1e-3
 """The overhead of a call from Python is subtracted from times below this number of CPU seconds."""
 
+RESOLVED = 0.1
+"""The time of a run is resolved if a second batch takes at most RESOLVED longer, without the overhead."""
+
 AGAIN = 3
-"""How often runs whose times are in the wrong order are measured again."""
+"""How often runs are measured again whose times are not resolved, or in the wrong order."""
 
 NEAR_ROUNDING = 1e-9
 """Below this error, relative to the size of the state, rounding errors may prevent further convergence."""
@@ -36,9 +39,9 @@ class Row:
     """One run. ``control`` is the requested tolerance or number of steps, ``h`` the (mean) step size.
 
     ``form`` is the name of the classical form of the equations, '' if the scene has one form only.
-    ``seconds`` is the least CPU time of several batches. ``spread`` is the largest CPU time divided by the
-    least, minus 1. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; None if they
-    are not counted. ``failure`` is the reason if the run failed, else ''.
+    ``seconds`` is the least CPU time of several batches. Three quarters of the batches take at most 1 +
+    ``spread`` times as long. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run;
+    None if they are not counted. ``failure`` is the reason if the run failed, else ''.
     """
 
     scene: str
@@ -86,6 +89,25 @@ class Candidate(Protocol):
 
     def enough(self, rows: Sequence[Row]) -> bool:
         """Whether finer runs are not needed."""
+
+
+def net_times(sample: Callable[[], Sequence[float]], overhead: Callable[[], float]) -> list[float]:
+    """Return the times of a run without the overhead of a call, sorted.
+
+    Times of :data:`COUNTED` seconds or more are not changed, because the overhead is negligible there. A
+    short run may take hardly longer than its overhead. It is then measured again, at most :data:`AGAIN`
+    times, until two batches agree on the difference.
+    """
+    spent, least = sorted(sample()), math.inf
+    for attempt in range(1 + AGAIN):
+        if spent[0] >= COUNTED:
+            break
+        least = min(least, overhead())
+        net = [s - min(least, s) for s in spent]
+        if attempt == AGAIN or len(net) < 2 or (net[0] > 0.0 and net[1] <= (1 + RESOLVED) * net[0]):
+            return net
+        spent = sorted([*spent, *sample()])
+    return spent
 
 
 def measure_rows(

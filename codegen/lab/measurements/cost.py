@@ -99,7 +99,8 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     return {
         "picture": Picture(
             picture,
-            "Error against the CPU time of the whole run (least of several measurements). Dashed, with open "
+            "Error against the CPU time of the whole run (least of several measurements). Broad lines: up to "
+            "the time within which three quarters of the measurements are. Dashed, with open "
             "markers: peers. Dash-dotted: step-size control. Dotted: slopes of order p with equal steps.",
             subject.bench_command(),
         ),

@@ -37,12 +37,16 @@ Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 @dataclass(frozen=True)
 class Curve:
     """A labelled sequence of points (x, y) with its style, and the order for a reference line (None: no
-    line)."""
+    line).
+
+    ``upper`` are the upper ends of the intervals of x, one for each point, or nothing.
+    """
 
     label: str
     points: tuple[Point, ...]
     style: Style
     order: int | None = None
+    upper: tuple[float, ...] = ()
 
 
 class _Appearance(TypedDict):
@@ -72,6 +76,12 @@ class _Drawing:
         )
         line.set_gid(f"series:{number}")
         self.values[number] = [f"{curve.label}: {value(*curve.points[k])}" for k in marks]
+        if curve.upper:
+            # A NaN ends each segment, so that all intervals are one path without markers.
+            ends = [z for (a, _), b in zip(curve.points, curve.upper, strict=True) for z in (a, b, math.nan)]
+            heights = [z for _, e in curve.points for z in (e, e, math.nan)]
+            (bars,) = self.axes.plot(ends, heights, color=line.get_color(), linewidth=2.6, alpha=0.35)
+            bars.set(gid=f"series:{number}", solid_capstyle="butt", zorder=1.5)
 
     def finish(self, name: str, title: str, description: str) -> Markup:
         """Add the legend and return the SVG element."""
@@ -102,7 +112,13 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
     """
     drawing = _canvas()
     for curve in curves:
-        drawing.draw(curve, lambda t, e: f"{seconds(t)}, error {scientific(e)}", _all(curve))
+        upper = dict(zip(curve.points, curve.upper, strict=False))
+
+        def value(t: float, e: float, upper: dict[Point, float] = upper) -> str:
+            interval = f" to {seconds(upper[t, e])}" if upper.get((t, e), t) > 1.005 * t else ""
+            return f"{seconds(t)}{interval}, error {scientific(e)}"
+
+        drawing.draw(curve, value, _all(curve))
     _slopes(drawing.axes, [p for c in curves for p in c.points])
     _label(drawing.axes, "CPU time of the run", error_label)
     _ticks(drawing.axes.xaxis, seconds)

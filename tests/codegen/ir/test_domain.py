@@ -131,3 +131,13 @@ def test_precise_numbers_are_rounded_at_the_domains_precision():
 def test_expressions_are_not_iterated():
     with pytest.raises(NotConverged):
         ExprDomain().settled([], [], None)
+
+
+@pytest.mark.parametrize("function", ["sin", "cos", "exp", "stumpff1", "slope2"])
+def test_a_function_of_a_number_that_diverges_is_an_error_and_does_not_take_hours(function):
+    d = PreciseDomain(0, 60)
+    huge = d.context.mpf(10) ** (10**7)
+    with pytest.raises(OverflowError, match="exceeds"):
+        d.call(function, huge)
+    assert abs(d.call("sin", d.context.mpf(10) ** 300)) <= 1
+    assert d.call("stumpff0", d.context.mpf(0)) == 1
