@@ -1,9 +1,10 @@
-"""Measure the work-precision diagrams of README.md, and write the pictures and the table from the same runs.
+"""Measure the work-precision diagrams of docs/, and write the pictures and the table from the same runs.
 
     python benchmarks/pictures.py [PICTURE...]
 
-The methods of each picture are listed in ``codegen/lab/default_methods.py``. Each picture is written to this
-folder. If a table follows the picture in README.md, its rows are replaced. Measure on a quiet machine.
+The methods of each picture are listed in ``codegen/lab/default_methods.py``. Each picture is written to
+docs/pictures. If a table follows the picture in docs/reference, its rows are replaced. Measure on a quiet
+machine.
 """
 
 from __future__ import annotations
@@ -19,8 +20,9 @@ from codegen.lab.efficiency.ranking import Place
 from codegen.lab.page.formatting import duration
 from codegen.printers import DEFAULT
 
-FOLDER = Path(__file__).resolve().parent
-README = FOLDER.parent / "README.md"
+DOCS = Path(__file__).resolve().parents[1] / "docs"
+FOLDER = DOCS / "pictures"
+PAGES = sorted((DOCS / "reference").glob("*.md"))
 BUDGET = 0.05
 HEAD = ("| error | fastest | CPU time | next | times slower |", "|---|---|---|---|---|")
 
@@ -37,7 +39,7 @@ def measure(name: str) -> Result:
 
 
 def table(places: Sequence[Place]) -> list[str]:
-    """Return the table of README.md: the fastest candidate for each error."""
+    """Return the table below a picture: the fastest candidate for each error."""
     rows = [
         f"| 1e-{p.decade} | {p.winner} | {duration(p.seconds)} | {p.second} "
         f"| {'' if p.behind is None else format(p.behind / p.seconds, '.2f')} |"
@@ -51,7 +53,7 @@ def with_table(text: str, name: str, lines: Sequence[str]) -> str:
 
     The text is unchanged if there is no table with the same head directly after the picture.
     """
-    pattern = rf"(\(benchmarks/{name}\.svg\)\n\n){re.escape(HEAD[0])}\n(?:\|.*\n)*"
+    pattern = rf"(/pictures/{name}\.svg\)\n\n){re.escape(HEAD[0])}\n(?:\|.*\n)*"
     rows = "".join(f"{line}\n" for line in lines)
     return re.sub(pattern, lambda match: match[1] + rows, text)
 
@@ -63,8 +65,9 @@ def main() -> None:
     for name in parser.parse_args().pictures:
         result = measure(name)
         (FOLDER / f"{name}.svg").write_text(picture(result), encoding="utf-8")
-        text = README.read_text(encoding="utf-8")
-        README.write_text(with_table(text, name, table(result.places)), encoding="utf-8")
+        for page in PAGES:
+            text = page.read_text(encoding="utf-8")
+            page.write_text(with_table(text, name, table(result.places)), encoding="utf-8")
 
 
 if __name__ == "__main__":

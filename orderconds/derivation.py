@@ -22,7 +22,7 @@ class Derivation:
     >>> derivation, len(derivation)
     (Derivation(rk, order 3: 1, 1, 2 conditions), 4)
     >>> [condition.tree for condition in derivation]
-    ['[]', '[.]', '[[.]]', '[..]']
+    ['.', '[.]', '[[.]]', '[..]']
     """
 
     family: str

@@ -108,7 +108,7 @@ def read(header: str, source: str) -> Text:
 def step(header: str, source: str, values: Mapping[str, Sequence[Real] | Real]) -> list[Taylor]:
     """Return the state after one step; ``values`` has state, h and, if the step takes it, t."""
     text = read(header, source)
-    (name,) = (n for n in text.functions if n.endswith("_step"))
+    (name,) = (n for n in text.functions if n.endswith("_step") and not n.endswith("_complete_step"))
     given = [p.name for p in text.functions[name].decl.type.args.params]
     state: list[Value] = list(values["state"])  # type: ignore[arg-type]
     arguments = [Pointer(state, 0) if n == "state" else values.get(n) for n in given]

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     "--form",
     "forms",
     multiple=True,
-    help="Form of the equations for peers and methods in coordinates: printed, body-matrix, quaternion; "
-    "by default all; may be repeated.",
+    help="The form of the equations that peers and ambient methods integrate: printed, body-matrix or "
+    "quaternion. May be repeated. Default: all forms.",
 )
 @click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
 @click.option(

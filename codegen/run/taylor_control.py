@@ -250,7 +250,7 @@ class _Controlled:
         )
         about = (
             f"The Taylor coefficients 1 to {self.degree} of the solution, one order after the other. "
-            "left and right are the coefficients of the operands of all products."
+            "The arrays left and right contain the coefficients of the operands of all products."
         )
         return Function(EXPAND, about, (self.start, *self.moment, self.series), body, guard=RAISES_NAN)
 

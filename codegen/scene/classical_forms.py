@@ -108,8 +108,7 @@ def _changes(problem: Problem) -> Iterator[_Change]:
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # Without a change of the frame or of the coordinates, the equations would be the equations of the
-        # first form.
+        # A form with the frame and the coordinates of the scene would repeat the equations as printed.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 

@@ -52,8 +52,8 @@ def check(
     >>> report = check("rk4", family="rk")
     >>> report.verdict, [(f.family, f.order, f.certificate) for f in report.orders]
     ('holds', [('rk', 4, 'exact')])
-    >>> check("rk4", order=3).verdict, check("rk4", family="rkmk(3)").conclusion
-    ('holds', 'order 4; nothing claimed')
+    >>> check("rk4", family="rk", order=3).verdict, check("rk4", family="rkmk(3)").conclusion
+    ('holds', 'order 4; no order claimed')
     >>> print(check("kutta3", family="rkmk(0)").orders[0].order)
     2
     """

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from benchmarks import pictures
 from codegen.lab.default_methods import README_METHODS
 from codegen.lab.efficiency.ranking import Place
@@ -24,16 +22,16 @@ def test_the_table_has_a_row_for_each_accuracy() -> None:
 
 
 def test_the_table_after_the_picture_is_replaced_and_nothing_else() -> None:
-    text = f"a\n\n{TABLE}\n![b](benchmarks/dipole.svg)\n\n{TABLE}\nc\n"
+    text = f"a\n\n{TABLE}\n![b](../pictures/dipole.svg)\n\n{TABLE}\nc\n"
     new = pictures.with_table(text, "dipole", pictures.table(PLACES))
     rows = "\n".join([*pictures.HEAD, *ROWS])
-    assert new == f"a\n\n{TABLE}\n![b](benchmarks/dipole.svg)\n\n{rows}\n\nc\n"
+    assert new == f"a\n\n{TABLE}\n![b](../pictures/dipole.svg)\n\n{rows}\n\nc\n"
     assert pictures.with_table(text, "discoveries", pictures.table(PLACES)) == text
 
 
-def test_the_readme_shows_every_picture_and_the_table_of_the_dipole() -> None:
-    readme = pictures.README.read_text(encoding="utf-8")
+def test_the_pages_show_every_picture_and_the_table_of_the_dipole() -> None:
+    pages = "".join(page.read_text(encoding="utf-8") for page in pictures.PAGES)
     for name in README_METHODS:
-        assert f"(benchmarks/{name}.svg)" in readme
-        assert Path(pictures.FOLDER / f"{name}.svg").is_file()
-    assert pictures.with_table(readme, "dipole", pictures.table(PLACES)) != readme
+        assert f"(../pictures/{name}.svg)" in pages
+        assert (pictures.FOLDER / f"{name}.svg").is_file()
+    assert pictures.with_table(pages, "dipole", pictures.table(PLACES)) != pages

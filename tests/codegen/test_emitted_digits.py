@@ -233,7 +233,7 @@ def long_constants(text: str, beginning: str) -> list[re.Match[str]]:
     ]
 
 
-@pytest.mark.parametrize(("target", "beginning"), [("c", "_run(double"), ("python", "def _run(")])
+@pytest.mark.parametrize(("target", "beginning"), [("c", "_loop(double"), ("python", "def _loop(")])
 def test_one_wrong_digit_of_any_constant_is_found(target: str, beginning: str) -> None:
     right = next(m for m in generated() if m.method == "cg:cg3" and m.target == target)
     text = right.texts[right.suffix]

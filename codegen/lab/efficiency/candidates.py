@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from codegen.certify import certified_order
-from codegen.emitter import quoted
+from codegen.emitter import bare, quoted
 from codegen.errors import MethodError
 from codegen.lower import families_for, lowering
 from codegen.method import Method, parse, with_estimate
@@ -58,7 +58,7 @@ class Recipe:
         >>> Recipe("rkmk(2):rk4", 4, 4, "rk4").command("dipole")
         "orderconds emit dipole --method 'rkmk(2):rk4' -o ."
         """
-        words = ["orderconds emit", quoted(scene), "--method", quoted(self.method)]
+        words = ["orderconds emit", quoted(bare(scene)), "--method", quoted(self.method)]
         words += ["--form", self.form] if self.form != PRINTED else []
         words += ["--adaptive"] if self.adaptive else []
         return " ".join([*words, "-o ."])

@@ -127,7 +127,9 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        confined = self.confined and not self.is_drift and self.later <= LATE_CONFINED
+        # An alternating deviation whose size grows is confined to no interval, though its mean does not grow.
+        steady = self.exponent < WALK and not self.is_drift
+        confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
             return "bounded"
         return "random walk" if grows_like_a_walk else "too short to tell"

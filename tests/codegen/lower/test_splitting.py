@@ -343,7 +343,9 @@ def test_what_cannot_be_split_is_told():
     assert "the square of its matrix is not diagonal and non-positive" in refused(
         hyperbolic, "splitting:strang"
     )
-    assert "splitting with the rk tableau rk4" in refused(SCENES["symmetric top"](), "splitting:rk4")
+    assert "the tableau rk4 has the format rk; it claims no order under splitting" in refused(
+        SCENES["symmetric top"](), "splitting:rk4"
+    )
 
 
 def test_a_field_has_no_parts():
