@@ -112,8 +112,8 @@ def _aged(plan: Plan) -> list[Statement]:
         if loop.newton is None or not loop.newton.period:
             continue
         age, period = plan.memory.field(f"age_{k}", Kind.COUNT), loop.newton.period
-        # After ``period`` steps the iteration with the old matrix contracts poorly, so the age becomes 0. With
-        # age 0 the next step computes a new matrix.
+        # After ``period`` steps the iteration with the old matrix contracts poorly, so the age becomes 0.
+        # With age 0 the next step computes a new matrix.
         older = whole(0) if period == 1 else select((age % period) > 0, age + 1, 0)
         sequence.append(Assign(age, older))
     return sequence
