@@ -47,7 +47,8 @@ def count(x: object, name: str, least: int = 0) -> int:
 
 
 def monotone(t: float, times: object) -> list[float]:
-    """Return the times ``t_eval`` as floats; ValueError unless they are finite and increase or decrease from t.
+    """Return the times ``t_eval`` as floats; ValueError unless they are finite and increase or decrease
+    from t.
 
     >>> monotone(0.0, [0, 1])
     [0.0, 1.0]

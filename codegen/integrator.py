@@ -112,8 +112,8 @@ class Integrator(ABC):
 
     @cached_property
     def fields(self) -> Fields:
-        """The names and sizes of the parts of a state, in the order of a tuple; empty if the integrator was not
-        loaded from an artifact."""
+        """The names and sizes of the parts of a state, in the order of a tuple; empty if the integrator was
+        not loaded from an artifact."""
         entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
         return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
 
@@ -258,9 +258,9 @@ class Integrator(ABC):
         is by default the last of them. A batch is integrated state by state; the result has an array of
         states and the counts of all steps.
 
-        TypeError is raised for a module without an error estimate (``emit(..., adaptive=True)``). StepFailed is raised
-        if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not reach the
-        end.
+        TypeError is raised for a module without an error estimate (``emit(..., adaptive=True)``). StepFailed
+        is raised if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not
+        reach the end.
         """
         if not self.interface.adaptive:
             raise TypeError("this module has no adaptive run; emit it with adaptive=True")
@@ -320,8 +320,8 @@ class Integrator(ABC):
         """Return the derivative of one step with respect to the state. The header of the emitted module
         describes its rows and columns.
 
-        TypeError is raised for a module without a Jacobian (``emit(..., jacobian=True)``), StepFailed if the step
-        fails.
+        TypeError is raised for a module without a Jacobian (``emit(..., jacobian=True)``), StepFailed if the
+        step fails.
         """
         if not self.interface.variations:
             raise TypeError("this module has no derivative of its step; emit it with jacobian=True")

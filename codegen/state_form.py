@@ -5,8 +5,8 @@ the state, and writes results in the same form: lists for lists, arrays for arra
 tuple, each part may have its own shape, such as a 3 x 3 matrix q and a vector mu; matrices are flattened by
 rows. A batch is an array with a state in each row, or a tuple of such arrays.
 
-The parts of a tuple are in the order of the manifest's entry ``state``, for T*G (q, mu). The sizes of the parts
-are compared with the sizes of these fields. Parts of equal sizes in the wrong order cannot be detected.
+The parts of a tuple are in the order of the manifest's entry ``state``, for T*G (q, mu). The sizes of the
+parts are compared with the sizes of these fields. Parts of equal sizes in the wrong order cannot be detected.
 """
 
 from __future__ import annotations
@@ -72,8 +72,8 @@ def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[
     ([1.0, 0.0, 0.0, 1.0, 2.0, 3.0], ([[1.0, 0.0], [0.0, 1.0]], [2.0, 3.0]))
     >>> read(([2, 3], [[1, 0], [0, 1]]), 6, (("q", 4), ("mu", 2)))
     Traceback (most recent call last):
-    ValueError: expected the parts (q, mu) of 4 and 2 numbers in state, found parts of 2 and 4 numbers; write \
-the parts in this order
+    ValueError: expected the parts (q, mu) of 4 and 2 numbers in state, found parts of 2 and 4 numbers; \
+write the parts in this order
     """
     is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
     parts = tuple(state) if is_tuple else (state,)
@@ -132,8 +132,8 @@ class Batch:
 
 
 def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
-    """Return the states of a batch; None for a single state. ValueError is raised for a tuple whose parts have
-    the wrong sizes, as in :func:`read`.
+    """Return the states of a batch; None for a single state. ValueError is raised for a tuple whose parts
+    have the wrong sizes, as in :func:`read`.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -187,8 +187,8 @@ def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
         table = np.asarray(part)
     except ValueError:
         raise ValueError(
-            "expected rows of equal lengths in state, found rows of different lengths; write parts of different "
-            "shapes as a tuple"
+            "expected rows of equal lengths in state, found rows of different lengths; write parts of "
+            "different shapes as a tuple"
         ) from None
     if table.dtype.kind not in "fiub":
         raise ValueError(f"expected real numbers in state, found an array of type {table.dtype}")
@@ -200,8 +200,8 @@ def _real(x: object) -> float:
         return real(x, "state")
     except (TypeError, OverflowError):
         raise ValueError(
-            f"expected real numbers in state, found {described(x)}; write a list, a NumPy array, or a tuple of "
-            "these"
+            f"expected real numbers in state, found {described(x)}; write a list, a NumPy array, or a tuple "
+            "of these"
         ) from None
 
 

@@ -167,7 +167,7 @@ def test_written_out_conditions_have_the_values_of_the_engine(family: str, expli
         (["rk", "--order", "0"], "--order"),
         (["rk"], "--order"),
         (["rk", "--order", "2", "--format", "word"], "--format"),
-        (["cf", "--order", "2", "--stages", "2"], "--stages"),
+        (["cf", "--order", "2", "--stages", "2"], "stages: "),
         (["rk(1)", "--order", "2"], "rk"),
         (["rk", "--order", "2", "--explicit"], "--stages"),
         (["rk", "--order", "2", "--json", "--format", "latex"], "--json and --format latex"),
