@@ -126,7 +126,9 @@ def _needed(method: RungeKutta, ring: Ring) -> list[int]:
 
 def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     """Return the exponents of the update and of all stages on which the update depends."""
-    rows, reached, waiting = [], set(), [method.update]
+    rows: list[tuple[Element, ...]] = []
+    reached: set[int] = set()
+    waiting = [method.update]
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials

@@ -60,7 +60,9 @@ def test_the_report_has_the_counts_of_each_family_checked() -> None:
     ("name", "evaluated", "exponentials"),
     [("zonneveld4", 4, 4), ("verner6", 7, 7), ("dormand_prince5", 6, 6), ("verner9_efficient", 15, 15)],
 )
-def test_a_stage_that_only_the_estimate_uses_costs_nothing(name: str, evaluated: int, exponentials: int) -> None:
+def test_a_stage_that_only_the_estimate_uses_costs_nothing(
+    name: str, evaluated: int, exponentials: int
+) -> None:
     work = get("rkmk", cutoff=0).work(read(name))
     assert work is not None
     assert (work.evaluations, work.exponentials) == (evaluated, exponentials)
