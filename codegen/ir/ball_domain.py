@@ -1,9 +1,10 @@
 """Numbers of many digits as Arb balls: the fast counterpart of :class:`codegen.ir.domain.PreciseDomain`.
 
 An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers.
-Therefore steps with 60 digits, of which a report needs thousands, are evaluated in this domain. A ball has an
-error radius. The radii are not error bounds of the result: after each operation of a step program, a number is
-replaced by the midpoint of its ball, because the radii of an iteration would grow without bound.
+Therefore steps with 60 digits, of which a report needs thousands, are evaluated in this domain. A ball
+has an error radius. The radii are not error bounds of the result: after each operation of a step program,
+a number is replaced by the midpoint of its ball, because the radii of an iteration would grow without
+bound.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
 inside ``with domain.precision():``.

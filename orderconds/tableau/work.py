@@ -1,9 +1,10 @@
 """The cost of a step in each family: field evaluations, exponentials and brackets.
 
-A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
-uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next step, in place
-of the first stage of that step. An implicit method counts one sweep of its iteration. Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage,
-without simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
+A field evaluation is counted for each stage on which the update depends. Stages that only the error
+estimate uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next
+step, in place of the first stage of that step. An implicit method counts one sweep of its iteration.
+Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
+simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
 commutators in its exponents, and a Cayley transform counts as an exponential.
 """
 
