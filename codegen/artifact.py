@@ -126,7 +126,7 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
 
 
 def _is_entry(entry: Mapping[str, Any]) -> bool:
-    """Whether an entry has the required keys, of the right types."""
+    """Return True if an entry has the required keys, of the right types."""
     files = entry["files"]
     plain = [entry["module"], entry["target"], *files, *files.values()]
     return all(isinstance(x, str) for x in plain) and not any("/" in name or "\\" in name for name in files)

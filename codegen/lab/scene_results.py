@@ -33,7 +33,7 @@ class Measured:
 
     @property
     def holds(self) -> bool:
-        """Whether the measurement succeeded and every check holds."""
+        """True if the measurement succeeded and every check holds."""
         return not self.failure and self.measurement.holds(self.result)
 
     def section(self) -> Section | None:
@@ -77,7 +77,7 @@ class SceneResults:
 
     @property
     def held(self) -> bool:
-        """Whether all measurements hold."""
+        """True if all measurements hold."""
         return all(m.holds for m in self.measured)
 
     def as_json(self) -> dict[str, object]:
