@@ -250,7 +250,7 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the statements and values of a nested block; later statements outside the block cannot read them."""
+        """Return the statements and values of a nested block; statements after the block cannot read them."""
         # The scope is separate, because these statements may be skipped at run time: no later statement may
         # use their names.
         inner = self.inside([*(let.value for let in lets), *values])
@@ -294,8 +294,8 @@ class _Scope:
         return pending
 
     def rewrite(self, root: Expr) -> Expr:
-        """Return the expression ``root`` with names in place of Stumpff calls and of powers that are written as
-        products."""
+        """Return the expression ``root`` with names in place of Stumpff calls and of powers that are
+        written as products."""
         space = root.space
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:
