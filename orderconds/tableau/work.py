@@ -1,9 +1,10 @@
 """The cost of a step in each family: field evaluations, exponentials and brackets.
 
-A field evaluation is counted for each stage on which the update depends. Stages that only the error estimate
-uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next step, in place
-of the first stage of that step. An implicit method counts one sweep of its iteration. Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage,
-without simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
+A field evaluation is counted for each stage on which the update depends. Stages that only the error
+estimate uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next
+step, in place of the first stage of that step. An implicit method counts one sweep of its iteration.
+Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
+simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
 commutators in its exponents, and a Cayley transform counts as an exponential.
 """
 
@@ -126,7 +127,9 @@ def _needed(method: RungeKutta, ring: Ring) -> list[int]:
 
 def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     """Return the exponents of the update and of all stages on which the update depends."""
-    rows, reached, waiting = [], set(), [method.update]
+    rows: list[tuple[Element, ...]] = []
+    reached: set[int] = set()
+    waiting = [method.update]
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials

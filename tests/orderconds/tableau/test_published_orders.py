@@ -20,7 +20,8 @@ PUBLISHED = {
         "radau1a3 radau2a3",
         6: "butcher6 luther6 verner6 verner6_efficient gauss3 lobatto3a4 lobatto3b4 lobatto3c4 lobatto3d4",
         7: "verner7_efficient radau1a4 radau2a4",
-        8: "cooper_verner8 fehlberg8 dop853 verner8_efficient gauss4 lobatto3a5 lobatto3b5 lobatto3c5 lobatto3d5",
+        8: "cooper_verner8 fehlberg8 dop853 verner8_efficient gauss4 lobatto3a5 lobatto3b5 "
+        "lobatto3c5 lobatto3d5",
         9: "verner9_efficient radau1a5 radau2a5",
         10: "gauss5",
     },
