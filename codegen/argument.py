@@ -40,10 +40,12 @@ def count(x: object, name: str, least: int = 0) -> int:
     """
     if not isinstance(x, numbers.Integral) or isinstance(x, bool):
         raise TypeError(f"expected an integer for {name}, found {described(x)}")
-    if not least <= x <= MOST:
-        bound = f"at least {least}" if x < least else f"at most {MOST}"
-        raise ValueError(f"expected {name} of {bound}, found {described(x)}")
-    return int(x)
+    number = int(x)
+    if not least <= number <= MOST:
+        bound = f"at least {least}" if number < least else f"at most {MOST}"
+        found = number if abs(number) < 10**30 else "a number of more than 30 digits"
+        raise ValueError(f"expected {name} of {bound}, found {found}")
+    return number
 
 
 def monotone(t: float, times: object) -> list[float]:

@@ -41,7 +41,7 @@ def integer(x: object, name: str, bounds: Bounds) -> int:
     orderconds.errors.InputError: stages: 2.0 of type float; expected an integer from 1 to 50
     """
     least, most = bounds
-    if isinstance(x, numbers.Integral) and not isinstance(x, bool) and least <= x <= most:
+    if isinstance(x, numbers.Integral) and not isinstance(x, bool) and least <= int(x) <= most:
         return int(x)
     raise InputError(described(x), where=name, expected=f"an integer from {least} to {most}")
 
@@ -54,8 +54,12 @@ def real(x: object, name: str, bounds: tuple[float, float]) -> float:
     orderconds.errors.InputError: tolerance: -1; expected a number from 0 to 8
     """
     least, most = bounds
-    if isinstance(x, numbers.Real) and not isinstance(x, bool) and least <= x <= most:
-        return float(x)
+    if isinstance(x, numbers.Real) and not isinstance(x, bool):
+        try:
+            if least <= float(x) <= most:
+                return float(x)
+        except OverflowError:
+            pass
     largest = "" if math.isinf(most) else f" to {most}"
     raise InputError(described(x), where=name, expected=f"a number from {least}{largest}")
 

@@ -42,7 +42,8 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
 
     If the tableau has a table ``[proof]``, ``digits`` (10 to 1000) places of its decimals are computed and
     proved. Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the
-    exact method has at least the order of the given one. ``tableau`` may also be a file or a name of the library.
+    exact method has at least the order of the given one. ``tableau`` may also be a file or a name of the
+    library.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if
     the numbers are not recognised.

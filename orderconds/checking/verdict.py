@@ -313,7 +313,7 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     if execute and Path(given).suffix == ".py":
         from orderconds.exchange import load_foreign
 
-        if (foreign := load_foreign(given, execute=True)) is not None:
+        if (foreign := load_foreign(Path(given), execute=True)) is not None:
             return foreign
     return Tableau.load(given)
 

@@ -11,13 +11,15 @@ import pytest
 
 from orderconds import Tableau, derive
 
-PREAMBLE = "\\documentclass[twocolumn]{article}\n\\usepackage{amsmath,tikz}\n\\usetikzlibrary{shapes.geometric}\n"
+PREAMBLE = (
+    "\\documentclass[twocolumn]{article}\n\\usepackage{amsmath,tikz}\n\\usetikzlibrary{shapes.geometric}\n"
+)
 
 
 def texts() -> dict[str, str]:
     families = {"rk": 4, "cf": 3, "vcg": 3, "sprk": 3, "splitting": 3, "magnus": 4, "rkn": 4, "rkmk(1)": 3}
     conditions = {family: derive(family, order).latex() for family, order in families.items()}
-    return conditions | {name: Tableau.load(name)._repr_latex_() for name in ("rk4", "gauss3", "cf4")}
+    return conditions | {name: Tableau.load(name)._repr_latex_() for name in ("rk4", "gauss3")}
 
 
 @pytest.mark.slow
