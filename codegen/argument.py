@@ -43,8 +43,8 @@ def count(x: object, name: str, least: int = 0) -> int:
     number = int(x)
     if not least <= number <= MOST:
         bound = f"at least {least}" if number < least else f"at most {MOST}"
-        found = number if abs(number) < 10**30 else "a number of more than 30 digits"
-        raise ValueError(f"expected {name} of {bound}, found {found}")
+        given = number if abs(number) < 10**30 else "a number of more than 30 digits"
+        raise ValueError(f"expected {name} of {bound}, found {given}")
     return number
 
 

@@ -163,13 +163,13 @@ def _of_python(content: bytes) -> Reason | None:
 
 
 def _of_latex(content: bytes) -> Reason | None:
-    found = _LATEX.search(content.decode(errors="replace"))
-    return None if found else Reason("no Butcher tableau and no matrix A")
+    match = _LATEX.search(content.decode(errors="replace"))
+    return None if match else Reason("no Butcher tableau and no matrix A")
 
 
 def _of_c(content: bytes) -> Reason | None:
-    found = _ARRAY.search(content.decode(errors="replace"))
-    return None if found else Reason("no array is named A, gamma, ...")
+    match = _ARRAY.search(content.decode(errors="replace"))
+    return None if match else Reason("no array is named A, gamma, ...")
 
 
 _REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {
