@@ -69,7 +69,7 @@ def text(x: object, name: str, expected: str) -> str:
 
     >>> text(3, "family", "the name of a family")
     Traceback (most recent call last):
-    orderconds.errors.InputError: family: 3 of type int; expected the name of a family
+    orderconds.errors.InputError: family: 3; expected the name of a family
     """
     if isinstance(x, str):
         return x
