@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.vector_function import component
+from codegen.ir.vector_function import partials as vector_partials
 
 
 class NotDifferentiable(ValueError):
@@ -62,7 +64,8 @@ def partials(node: Expr) -> list[Expr]:
             n = node.payload
             return [space.const(Number.rational(n)) * space.pow(args[0], n - 1)]
         case "call":
-            return _derivatives(node)
+            found = component(node.payload)
+            return _derivatives(node) if found is None else vector_partials(node, *found)
         case _:
             return []
 
