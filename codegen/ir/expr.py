@@ -107,6 +107,8 @@ class Space:
     def __init__(self) -> None:
         # The table keeps every node in memory, so node numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
+        self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
+        """The derivatives of vector functions that are known."""
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from functools import cache
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -90,13 +91,20 @@ def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> lis
     size, rows = n * n, range(n)
     result: list[Scalar] = []
     for parts in pairs(level):
-        offsets = [(size * p, size * q) for p, q in parts]
+        factors = [(a[size * p : size * p + size], b[size * q : size * q + size]) for p, q in parts]
+        left = [[x[n * i : n * i + n] for i in rows] for x, _ in factors]
+        right = [[y[j::n] for j in rows] for _, y in factors]
         for i in rows:
             for j in rows:
-                terms = (a[p + n * i + k] * b[q + n * k + j] for k in rows for p, q in offsets)
-                total = next(terms)
-                for term in terms:
-                    total = total + term
+                # The terms of all factors with the same inner index are neighbours in the sum.
+                pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
+                merged = (
+                    pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
+                )
+                x, y = next(merged)
+                total = x * y
+                for x, y in merged:
+                    total = total + x * y
                 result.append(total)
     return result
 

@@ -98,15 +98,17 @@ class MatrixExponential(VectorFunction):
 
     def tangent(self, args: Sequence[Expr], rates: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the second half of the results of the next level."""
+        space, both = args[0].space, (*args, *rates)
         next_level = MatrixExponential(self.n, self.level + 1)
-        both = (*args, *rates)
         expanded = next_level.expanded(both)
-        results = args[0].space.vector(next_level.name, both) if expanded is None else expanded
+        results = space.vector(next_level.name, both) if expanded is None else expanded
         return tuple(results[self.size :])
 
     def expanded(self, args: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """Return 1 + A + A^2/2 + ... if the zeros of A show that few terms are not zero."""
         pattern = power = [int(not x.is_zero) for x in args]
+        if not is_nilpotent(self.n, pattern):
+            return None
         count = 1
         # The products of zeros and ones are formed first, so that no long expressions are created in vain.
         while any(power):
@@ -226,8 +228,29 @@ def of_node(node: Expr) -> tuple[VectorFunction, int] | None:
     return component(node.payload) if node.op == "call" else None
 
 
-def partials(node: Expr, function: VectorFunction, index: int) -> list[Expr]:
-    """Return the derivatives of the result with this index with respect to every argument."""
-    space, n = node.space, len(node.args)
-    units = ([space.one if i == j else space.zero for i in range(n)] for j in range(n))
-    return [function.tangent(node.args, unit)[index] for unit in units]
+def is_nilpotent(n: int, pattern: Sequence[int]) -> bool:
+    """Return whether an n x n matrix is nilpotent whatever the values of the entries that are not zero.
+
+    This holds if the graph with an edge from i to j for each such entry has no cycle.
+
+    >>> is_nilpotent(2, (0, 1, 0, 0)), is_nilpotent(2, (0, 1, 1, 0))
+    (True, False)
+    """
+    left = set(range(n))
+    while left:
+        ends = {i for i in left if not any(pattern[n * i + j] for j in left)}
+        if not ends:
+            return False
+        left -= ends
+    return True
+
+
+def partial(node: Expr, function: VectorFunction, index: int, argument: int) -> Expr:
+    """Return the derivative of the result with this index with respect to one argument."""
+    space = node.space
+    # All results of a call share their derivatives.
+    key = function.name, tuple(a.id for a in node.args), argument
+    if key not in space.derivatives:
+        unit = [space.one if i == argument else space.zero for i in range(len(node.args))]
+        space.derivatives[key] = function.tangent(node.args, unit)
+    return space.derivatives[key][index]
