@@ -29,6 +29,9 @@ GROUPS = {
     g.name: g for g in (SO(4), SO(5), SU(2), SU(3), Sp(2), GL(2), GL(3), Affine(1), Affine(2), Heisenberg(1))
 }
 
+SHORT = (0, Rational(1, 2))
+"""The span of the scenes: solutions on groups that are not compact may reach infinity soon after."""
+
 
 def field(name):
     """A quadratic field without symmetry on the group, from the unit matrix."""
@@ -37,7 +40,7 @@ def field(name):
     f = Matrix([quadratic(rng, y, 3) / 4 for _ in range(group.dim)])
     start = list(eye(group.n))
     return FieldScene(
-        group=group, action=LeftMultiplication(), y=Matrix(y), f=f, y0=start, span=(0, 1), name=name
+        group=group, action=LeftMultiplication(), y=Matrix(y), f=f, y0=start, span=SHORT, name=name
     )
 
 
@@ -50,7 +53,7 @@ def hamiltonian(name):
         H += rng.choice(list(q)) * rng.choice(list(mu)) * rng.choice((*q, *mu)) / 8
     mu0 = [Rational(1, k + 2) for k in range(group.dim)]
     return HamiltonianScene(
-        group=group, q=q, mu=mu, H=H, q0=list(eye(group.n)), mu0=mu0, span=(0, 1), name=f"T*{name}"
+        group=group, q=q, mu=mu, H=H, q0=list(eye(group.n)), mu0=mu0, span=SHORT, name=f"T*{name}"
     )
 
 
@@ -118,8 +121,7 @@ ORDERS = [
 def test_emitted_steps_have_order_4(kind, name, method, target):
     scenes.register("matrices", field(name) if kind == "field" else hamiltonian(name))
     try:
-        steps = "8,16,32,64" if kind == "field" else "16,32,64"
-        arguments = ["converge", "matrices", "-m", method, "-t", target, "--steps", steps, "--json"]
+        arguments = ["converge", "matrices", "-m", method, "-t", target, "--json"]
         done = CliRunner().invoke(program, arguments, catch_exceptions=False)
         rows = json.loads(done.output)
         assert [row["verdict"] for row in rows] == ["holds"], done.output
