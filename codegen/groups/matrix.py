@@ -81,7 +81,8 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
 
     def _polynomial(self, d: Domain, a: Vector[S]) -> Vector[S]:
         """Return 1 + a + a^2/2 + ..., which ends for a nilpotent algebra."""
-        total, term = tuple(x + y for x, y in zip(self.identity(d), a, strict=True)), a
+        unit: Vector[S] = self.identity(d)
+        total, term = tuple(x + y for x, y in zip(unit, a, strict=True)), a
         for k in range(2, self.algebra.nilpotency):
             factor: S = d.rational(1, k)
             term = tuple(factor * x for x in matmul(a, term, self.n))
@@ -139,7 +140,7 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
         """Return dexp*_x mu. Its matrix is the transpose of dexp_{-x} M^T, where M is the matrix of mu."""
         if self.algebra.nilpotency:
             return self._dual_series(d, x, mu)
-        a = tuple(-t for t in self.hat(d, x))
+        a: Vector[S] = tuple(-t for t in self.hat(d, x))
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, mu), self.n))
         result = matmul(slope, self.opposite_exponential(d, a, exponential), self.n)
         return self.dual_vee(d, transposed(result, self.n))
@@ -212,7 +213,8 @@ class IsometryGroup(MatrixGroup, Projection):
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations g^-1 g = 1, where g^-1 is the transpose of the form."""
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
-        pairs = zip(matmul(self.inverse(d, g), g, self.n), self.identity(d), strict=True)
+        unit: Vector[S] = self.identity(d)
+        pairs = zip(matmul(self.inverse(d, g), g, self.n), unit, strict=True)
         return tuple((name, x - e) for x, e in pairs)
 
 

@@ -21,7 +21,7 @@ class Unitriangular(MatrixGroup):
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations of the constant entries."""
         fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
-        unit = self.identity(d)
+        unit: Vector[S] = self.identity(d)
         places = [(i, j, self.n * i + j) for i, j in fixed]
         return tuple((f"g_{i}{j} = {int(i == j)}", g[k] - unit[k]) for i, j, k in places)
 

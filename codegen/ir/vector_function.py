@@ -88,7 +88,7 @@ class MatrixExponential(VectorFunction):
     @property
     def size(self) -> int:
         """The number of arguments and of results."""
-        return 2**self.level * self.n**2
+        return (1 << self.level) * self.n**2
 
     @property
     def operations(self) -> dict[str, int]:
