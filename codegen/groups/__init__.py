@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from codegen.groups.so import SO
     from codegen.groups.so3 import SO3
     from codegen.groups.sp import Sp
-    from codegen.groups.u import SU, U
+    from codegen.groups.unitary import SU, Unitary
     from codegen.groups.unitriangular import Heisenberg, Unitriangular
 
 __all__ = [
@@ -54,7 +54,7 @@ __all__ = [
     "Rn",
     "Rotation",
     "Sp",
-    "U",
+    "Unitary",
     "Unitriangular",
     "get",
     "listing",
@@ -78,7 +78,7 @@ LISTED = (
     "SO3",
     "Sp",
     "SU",
-    "U",
+    "Unitary",
     "Unitriangular",
 )
 
@@ -99,14 +99,8 @@ lazy(
     so3=("SO3",),
     so=("SO",),
     sp=("Sp",),
-    u=(
-        "SU",
-        "U",
-    ),
-    unitriangular=(
-        "Heisenberg",
-        "Unitriangular",
-    ),
+    unitary=("SU", "Unitary"),
+    unitriangular=("Heisenberg", "Unitriangular"),
 )
 
 GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)

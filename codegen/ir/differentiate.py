@@ -65,11 +65,11 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
             n = node.payload
             return [space.const(Number.rational(n)) * space.pow(args[0], n - 1)]
         case "call":
-            found = component(node.payload)
-            if found is None:
+            result = component(node.payload)
+            if result is None:
                 return _derivatives(node)
             wanted = [moving is None or a.id in moving for a in node.args]
-            return [partial(node, *found, j) if w else space.zero for j, w in enumerate(wanted)]
+            return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
             return []
 

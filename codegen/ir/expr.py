@@ -348,8 +348,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = -result[args[0]]
         elif node.op == "pow":
             value = power(result[args[0]], node.payload)
-        elif (found := component(node.payload)) is not None:
-            function, index = found
+        elif (result_of := component(node.payload)) is not None:
+            function, index = result_of
             key = function.name, tuple(a.id for a in args)
             if key not in vectors:
                 vectors[key] = domain.vector(function.name, [result[a] for a in args])
