@@ -1,1 +1,4 @@
-"""The commands of the compiler, one module each; the command line finds them through entry points."""
+"""The commands of the compiler, with one module for each command.
+
+``orderconds`` finds the commands through the entry points of the installed package.
+"""

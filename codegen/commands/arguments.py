@@ -13,14 +13,14 @@ Command = TypeVar("Command", bound=Callable[..., object])
 
 
 def scene_names() -> tuple[str, ...]:
-    """Return the names of the gallery and of registered scenes."""
+    """Return the names of all scenes in the gallery and of all registered scenes."""
     from codegen import scenes
 
     return scenes.names()
 
 
 def method_names() -> list[str]:
-    """Return the tableaux of the library, alone and after each family of the compiler."""
+    """Return the names of all methods: TABLEAU and FAMILY:TABLEAU, for each tableau and family."""
     from codegen import lower
 
     tableaux = tableau_names()
@@ -28,7 +28,7 @@ def method_names() -> list[str]:
 
 
 def target_names() -> tuple[str, ...]:
-    """Return the names of the targets."""
+    """Return the names of the target languages of emitted code."""
     from codegen import printers
 
     return tuple(printers.names())
@@ -48,7 +48,7 @@ def methods_option(*, required: bool = False) -> Callable[[Command], Command]:
         "methods",
         multiple=True,
         required=required,
-        help="TABLEAU or FAMILY:TABLEAU; may be repeated.",
+        help="A method: TABLEAU or FAMILY:TABLEAU; may be repeated.",
         shell_complete=completing(method_names, files=True),
     )
 
@@ -61,7 +61,7 @@ def values_option(command: Command) -> Command:
         "parameters",
         multiple=True,
         metavar="NAME=VALUE",
-        help="The value of a parameter of the scene, as nu=3/5; may be repeated.",
+        help="The value of a parameter of the scene, such as nu=3/5; may be repeated.",
     )(command)
 
 
@@ -72,6 +72,6 @@ def targets_option(command: Command) -> Command:
         "-t",
         "targets",
         multiple=True,
-        help="A target (orderconds list targets), by default c; may be repeated.",
+        help="A target language (see orderconds list targets), by default c; may be repeated.",
         shell_complete=completing(target_names),
     )(command)

@@ -1,4 +1,4 @@
-"""``orderconds bench``: error against run time of emitted integrators and peers."""
+"""``orderconds bench``: measure the error and the run time of emitted integrators and of peers."""
 
 from __future__ import annotations
 
@@ -16,7 +16,9 @@ if TYPE_CHECKING:
     from codegen.lab.efficiency.bench import Result
 
 
-@click.command("bench", cls=Variadic, short_help="Measure error against run time, also of other integrators.")
+@click.command(
+    "bench", cls=Variadic, short_help="Measure error and run time of emitted and other integrators."
+)
 @scene_argument()
 @methods_option()
 @values_option
@@ -38,7 +40,7 @@ if TYPE_CHECKING:
     help="The form of the equations that peers and ambient methods integrate: printed, body-matrix or "
     "quaternion. May be repeated. Default: all forms.",
 )
-@click.option("--budget", default=1.0, show_default=True, help="CPU seconds that one run may take.")
+@click.option("--budget", default=1.0, show_default=True, help="The longest CPU time of one run, in seconds.")
 @click.option(
     "--output",
     "-o",
@@ -59,15 +61,16 @@ def command(
     output: str | None,
     as_json: bool,
 ) -> int:
-    """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and time them.
+    """Run methods on SCENE (a gallery name or a Python file) with shorter and shorter steps, and measure
+    error and run time.
 
     --adaptive accepts methods whose tableau has an embedded row for an error estimate, such as
     ambient:dop853, rkmk(3):dormand_prince5 or ambient:radau2a3, and runs them with step-size control. Peers:
     scipy-dop853, scipy-radau, scipy-lsoda, heyoka, diffrax, c-dop853, c-rk4-projected; a group contains only
     installed peers. Peers and methods in coordinates (ambient:TABLEAU) run on all classical forms of the
     equations, such as body momentum and unit quaternion. The tables name the fastest form. With -o an
-    interrupted measurement continues when the command is repeated. A method or peer that fails has a row with
-    the reason. The exit status is 1 if a method or peer has no successful run.
+    interrupted measurement continues when the command is repeated. If a method or peer fails, its row
+    contains the reason. The exit status is 1 if a method or peer has no successful run.
 
     \b
     Examples:

@@ -1,4 +1,4 @@
-"""``orderconds converge``: the observed order of emitted integrators against the stated order."""
+"""``orderconds converge``: compare the observed order of emitted integrators with the stated order."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     shell_complete=completing(lambda: (*target_names(), "interpreter")),
 )
 @click.option("--form", help="Form of the equations: printed (the default), body-matrix, quaternion.")
-@click.option("--steps", multiple=True, help="Numbers of steps, as 20,40,80,160.")
-@click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter.")
+@click.option("--steps", multiple=True, help="Numbers of steps, such as 20,40,80,160.")
+@click.option("--digits", type=click.IntRange(16, 60), help="Precision of the interpreter in decimal digits.")
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
@@ -54,7 +54,7 @@ def command(
 ) -> int:
     """Measure the order of methods on SCENE (a gallery name or a Python file).
 
-    A method that cannot be emitted for the scene has a row with the reason.
+    If a method cannot be emitted for the scene, its row contains the reason.
 
     The exit status is 0 if every observed order equals the stated order, and 1 if an observed order differs
     or is undecided.

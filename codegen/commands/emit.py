@@ -27,14 +27,16 @@ if TYPE_CHECKING:
 @targets_option
 @click.option("--output", "-o", type=FOLDER, metavar="DIR", help="The folder to write to.")
 @click.option(
-    "--prefix", default="", help="Prefix of every external name; by default the names of scene and method."
+    "--prefix",
+    default="",
+    help="Prefix of every external name in the emitted code; by default the names of scene and method.",
 )
 @click.option(
     "--parameter",
     "-P",
     "parameters",
     multiple=True,
-    help="NAME: keep a parameter as a run-time argument; NAME=VALUE: make it a constant.",
+    help="NAME makes a parameter of the scene a run-time argument; NAME=VALUE makes it a constant.",
 )
 @click.option("--input", "inputs", multiple=True, help="A signal of the scene that becomes a run-time input.")
 @click.option("--frame", default="space", help="Frame of momenta: space (the default) or body.")
@@ -49,7 +51,7 @@ if TYPE_CHECKING:
 @click.option(
     "--adaptive",
     is_flag=True,
-    help="Also emit a run with step-size control; the embedded row of the tableau estimates the error.",
+    help="Also emit a function that integrates with step-size control; the embedded row of the tableau estimates the error.",
 )
 @click.option(
     "--precision", default="double", help="Floating-point precision: double (the default) or single."
@@ -62,7 +64,7 @@ if TYPE_CHECKING:
 @click.option(
     "--explain",
     is_flag=True,
-    help="Print the program after each pass, and the operations that the step does not need.",
+    help="Print the program after each compiler pass, and the operations that the step does not need.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record for each module.")
 def command(
@@ -100,7 +102,7 @@ def command(
     from codegen.printers import target as known_target
 
     if output is None and not (explain or as_json):
-        raise click.UsageError("-o DIR is missing: the folder to write to (or give --explain or --json)")
+        raise click.UsageError("-o DIR is missing; name the folder to write to, or give --explain or --json")
     for name in targets:
         known_target(name)
     known_precision(precision)
@@ -126,7 +128,7 @@ def command(
 
 
 def explained(compiled: Compiled) -> dict[str, object]:
-    """Return what ``--explain --json`` adds to the record of a module."""
+    """Return the entries that ``--explain`` adds to the JSON record of a module."""
     return {
         "passes": [
             {"name": r.name, "before": r.before, "after": r.after, "removed": r.removed}
@@ -145,7 +147,9 @@ def _warn(compiled: Compiled, scene: str, method: str) -> None:
 
 
 def explanation(compiled: Compiled) -> str:
-    """Return the program as lowered and after each pass, with operation counts, and the simplifications."""
+    """Return a text with the lowered program, the program after each compiler pass, the operation counts and
+    the simplifications.
+    """
     from codegen.emitter import left_out
     from codegen.kernel.operations import sentences, step_operations
 

@@ -1,4 +1,4 @@
-"""``orderconds localerror``: the exact order of emitted steps from their local errors."""
+"""``orderconds localerror``: compute the exact order of emitted steps from their local errors."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     """Compute the leading term of the local error of one step on SCENE, with exact coefficients.
 
     The step program runs over power series in h with exact coefficients and is compared with the Taylor
-    series of the solution. The field must be a rational function of the coordinates. Initial coordinates
-    that are not rational are replaced by nearby rational numbers. The exit status is 1 if the exact order is
-    below the order that the order conditions state.
+    series of the solution. The field must be a rational function of the coordinates. Initial coordinates that
+    are not rational are replaced by nearby rational numbers. The exit status is 1 if the exact order is below
+    the order that follows from the order conditions.
 
     \b
     Examples:

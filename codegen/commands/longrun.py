@@ -1,4 +1,6 @@
-"""``orderconds longrun``: drift of conserved quantities over many steps of emitted integrators."""
+"""``orderconds longrun``: measure the drift of conserved quantities over many steps of emitted
+integrators.
+"""
 
 from __future__ import annotations
 
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from codegen.lab.long_runs.long_run import LongRun
 
 FEWEST = 200
-"""Smallest number of steps from which a drift is fitted."""
+"""The smallest number of steps for which a drift is fitted."""
 
 
 @click.command(
@@ -24,7 +26,9 @@ FEWEST = 200
 @scene_argument()
 @methods_option()
 @values_option
-@click.option("--h", "size", type=float, help="The step size; by default a hundredth of the scene's span.")
+@click.option(
+    "--h", "size", type=float, help="The step size; by default 1/100 of the time span of the scene."
+)
 @click.option(
     "--steps",
     default=100_000,
@@ -48,11 +52,11 @@ def command(
     """Run methods on SCENE over many steps and report the drift of energy, invariants and manifold equations.
 
     The deviation of a quantity is relative to its size. The column "law" contains "lost" if the deviation
-    reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if it grows
-    but the confidence interval of the slope contains zero. For quantities that a method conserves exactly,
-    the growth of rounding errors is measured: their root mean square over several initial states, and its
-    exponent in the number of steps, with and without compensated summation. The exit status is 1 if a run
-    ends early or a method fails.
+    reaches the size of the quantity, "rounding" if rounding explains it, and "too short to tell" if the
+    deviation grows but the confidence interval of the slope contains zero. For quantities that a method
+    conserves exactly, the growth of rounding errors is measured: their root mean square over several initial
+    states, and its exponent in the number of steps, with and without compensated summation. The exit status
+    is 1 if a run ends early or a method fails.
 
     \b
     Examples:
@@ -66,7 +70,8 @@ def command(
 
     problem = scenes.load(scenes.with_values(scene, parameters))
     h = float((problem.span[1] - problem.span[0]) / 100) if size is None else size
-    if not 1e-300 <= abs(h) <= 1e300:  # the condition is negated, so that NaN is refused
+    # Comparisons with NaN are false, so the negated condition also refuses NaN.
+    if not 1e-300 <= abs(h) <= 1e300:
         raise InputError(
             f"the step size {h:g}", where="--h", expected="an absolute value between 1e-300 and 1e300"
         )
@@ -103,7 +108,7 @@ def show(run: LongRun) -> None:
     ]
     print_table(["quantity", "largest", "slope per unit of time", "t^p", "law"], rows, indent=2)
     for steps, distance in run.reversals:
-        click.echo(f"  {steps} steps forward and back: {distance:.2e} from the start")
+        click.echo(f"    distance {distance:.2e} from the start after {steps} steps forward and back")
     if run.rounding:
         rows = [
             [
@@ -115,7 +120,9 @@ def show(run: LongRun) -> None:
             ]
             for g in run.rounding
         ]
-        click.echo(f"  rounding over {run.rounding[0].steps[-1]} steps, in exactly conserved quantities")
+        click.echo(
+            f"    rounding errors of exactly conserved quantities over {run.rounding[0].steps[-1]} steps"
+        )
         print_table(["quantity", "steps", "rms", "steps^p", "law"], rows, indent=4)
     if run.symplectic is not None:
         click.echo(f"  largest symplectic defect of a step: {run.symplectic:.1e}")

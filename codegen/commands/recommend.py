@@ -1,4 +1,4 @@
-"""``orderconds recommend``: the fastest method of the library for a scene, an error and needs."""
+"""``orderconds recommend``: find the fastest method of the library for a scene, an error and needs."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     multiple=True,
     help="manifold, symplectic, explicit, adaptive, fixed; several are separated by commas.",
 )
-@click.option("--stack", type=click.IntRange(1), help="The largest stack of a call, in bytes.")
-@click.option("--span", metavar="A:B", help="The interval of time; by default that of the scene.")
+@click.option("--stack", type=click.IntRange(1), help="The largest stack memory of a call, in bytes.")
+@click.option("--span", metavar="A:B", help="The time interval; by default the interval of the scene.")
 @click.option("--budget", type=float, help="Seconds that the search may take; by default 50.")
 @click.option(
     "--tableau", "tableaux", multiple=True, help="Search these tableaux only; by default the whole library."
@@ -121,12 +121,14 @@ def searched(result: Recommendation) -> str:
 
 
 def unreached(result: Recommendation) -> str:
-    """Return the message that no method reaches the error, with the smallest error that was measured."""
+    """Return the message that no method reaches the error. The message contains the smallest measured
+    error.
+    """
     asked = result.request
     needs = f" with {', '.join(asked.needs)}" if asked.needs else ""
     missed = f"no method{needs} reaches the error {asked.error:g}"
     if result.best is None:
-        return f"{asked.scene}: {missed}; no method meets the needs; relax --need or --stack"
+        return f"{asked.scene}: {missed}; no method satisfies the needs; relax --need or --stack"
     best = result.best
     by = f"by {best.entry.recipe.label} ({control(asked, best)})"
     least = f"the smallest measured error is {best.error:.1e}, {by}"
@@ -134,7 +136,7 @@ def unreached(result: Recommendation) -> str:
 
 
 def span_of(text: str) -> tuple[Fraction, Fraction]:
-    """Return the span A:B; SceneError for another text.
+    """Return the time interval (A, B) of a text A:B; raise :class:`SceneError` for any other text.
 
     >>> span_of("0:5/2")
     (Fraction(0, 1), Fraction(5, 2))

@@ -26,8 +26,9 @@ from orderconds.commands.place import FOLDER
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists; with --check report the files that differ.
 
-    An emitted file that no listed module produces is stale: it is removed, or with --check reported. A file
-    that was never emitted is unknown: it is reported and not changed.
+    An emitted file that no listed module produces is stale. The command removes a stale file; with --check it
+    only reports the file. A file that was never emitted is unknown: the command reports it and does not
+    change it.
 
     \b
     Examples:

@@ -59,8 +59,8 @@ def command(
     """Measure SCENEs (names of the gallery or Python files; dipole and free_rigid_body by default).
 
     Writes DIR/SCENE.html for each scene, and DIR/index.html with the fastest methods for every scene. The
-    measurements take one to two minutes for a Hamiltonian scene, about ten seconds for a field. An
-    interrupted report continues when the command is repeated. A method that fails has a row with the reason.
+    measurements take one to two minutes for a Hamiltonian scene, about ten seconds for a field scene. An
+    interrupted report continues when the command is repeated. If a method fails, its row contains the reason.
     The pages need no network. The exit status is 1 if an observed order differs from the computed order, if
     the result of an extreme step is wrong, or if a method fails; the pages are written in any case.
 
@@ -75,7 +75,7 @@ def command(
     if everything and scenes:
         raise click.UsageError("name SCENEs, or give --all")
     if parameters and not scenes:
-        raise click.UsageError("--parameter belongs to the named SCENEs; name one")
+        raise click.UsageError("--parameter changes the named SCENEs; name a SCENE")
     scenes = tuple(with_values(name, parameters) for name in scenes)
     request = Request(read_scenes(scenes, everything), methods, peers, parts, effort or "usual", adaptive)
     with counting("reading scenes and methods") as progress:

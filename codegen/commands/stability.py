@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from codegen.lab.stability.stability_study import NotTested, Stability
 
 Job: TypeAlias = tuple[str, tuple[str, ...], bool]
-"""Scene, methods, and whether to include endurance runs."""
+"""The name of a scene, the names of methods, and True if endurance runs are included."""
 
 
 @click.command("stability", cls=Variadic, short_help="Stress-test emitted steps on stiff and extreme inputs.")
@@ -38,8 +38,8 @@ def command(
     """Compare single steps of emitted C on extreme inputs with 60-digit results; find the largest usable
     step.
 
-    Each case must be accurate, or the emitted code must return an error status. The exit status is 1 if a
-    case fails this test, or if a method cannot be emitted for the scene.
+    In each case the result must be accurate, or the emitted code must return an error status. The exit status
+    is 1 if a case fails this test, or if a method cannot be emitted for the scene.
 
     \b
     Examples:
@@ -52,7 +52,7 @@ def command(
     if everything == (scene is not None):
         raise click.UsageError("name one SCENE, or give --all")
     if everything and parameters:
-        raise click.UsageError("--parameter belongs to one SCENE; omit --all")
+        raise click.UsageError("--parameter changes one SCENE; omit --all")
     names = scenes.GALLERY if scene is None else (scenes.with_values(scene, parameters),)
     for name in names:
         methods_for(scenes.load(name), methods)  # This call raises InputError before the work begins.
@@ -73,7 +73,7 @@ def command(
 
 
 def _run(job: Job, progress: Callable[[str], object]) -> list[Stability | NotTested]:
-    """Return the stability of methods on a scene."""
+    """Return the results of the stress tests of methods on a scene."""
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
     from codegen.lab.stability.stability_study import stability

@@ -1,7 +1,7 @@
-"""The lab measures emitted integrators, against reference solutions that use no Lie group.
+"""Measurements of emitted integrators. Errors are measured against reference solutions that use no Lie group.
 
-A :class:`Measurement` is one section of the report. :func:`register` adds one, and :func:`listing` lists
-them.
+A :class:`Measurement` is one section of the report. :func:`register` adds a measurement, and :func:`listing`
+returns all measurements.
 """
 
 from codegen.lab.measurement import Measurement, Section

@@ -1,8 +1,8 @@
 """The right-hand side of the ambient equation y' = f(y).y of a scene, as a Python function of Arb balls.
 
 A ball is a number with an error radius. A reference solution evaluates the right-hand side a million times.
-Therefore it is a compiled function, and its numbers are Arb balls, which are several times faster than mpmath
-numbers. The radii are not used as error bounds: the integrator continues with the midpoints, and a second run
+Therefore the right-hand side is a compiled function on Arb balls, which are several times faster than mpmath
+numbers. The radii are not used as error bounds: the integrator uses only the midpoints, and a second run
 measures the uncertainty.
 """
 
@@ -23,8 +23,8 @@ FUNCTIONS = {name: getattr(arb, name) for name in MATHEMATICAL}
 def ambient_field(scene: Problem) -> Evaluate:
     """Return the right-hand side f(y).y as a function (state, t) -> tuple of balls.
 
-    Parameters have their default values. Constants are rounded to the working precision that is set when this
-    function is called.
+    Parameters have their default values. Constants are rounded to the working precision at the time of the
+    call.
     """
     return velocity(scene).python(ball, FUNCTIONS)
 

@@ -1,8 +1,8 @@
-"""The methods and scenes that commands measure by default.
+"""The methods and scenes that commands measure if the user names none.
 
 The report omits a default method if the method cannot be compiled for the scene, or if its order on the scene
-is not the order given here. A splitting method, for example, needs exact flows of the parts of the scene, and
-its order depends on these parts.
+is not the order listed in this module. A splitting method, for example, needs exact flows of the parts of the
+scene, and its order depends on these parts.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ HAMILTONIAN_METHODS = ("vcg:midpoint", "vcg:triple_jump", "cf:cf4", "vcg:triple_
 """Default methods of ``bench``, ``longrun``, ``stability`` and ``localerror``."""
 
 REPORT_SCENES = ("dipole", "free_rigid_body")
-"""Default scenes of the report: a Hamiltonian scene and a field."""
+"""Default scenes of the report: a Hamiltonian scene and a field scene."""
 
 REPORT_FIELDS = {"rkmk(0):euler": 1, "cg:cg3": 3, "rkmk(2):rk4": 4, "cf:cf4": 4, "rkmk:butcher6": 6}
 REPORT_HAMILTONIANS = {
@@ -77,8 +77,9 @@ README_METHODS = {
         "rkmk:rk4",
     ),
 }
-"""For each work-precision diagram of the README, its methods. All diagrams are measured on the dipole; the
-methods of :data:`REPORT_ADAPTIVE` run with step-size control."""
+"""The methods of each work-precision diagram of the README, by the name of the diagram. All diagrams are
+measured on the dipole. The methods of :data:`REPORT_ADAPTIVE` run with step-size control.
+"""
 
 PICTURED = (
     (*REPORT_FIELDS, *REPORT_ADAPTIVE),
@@ -87,7 +88,7 @@ PICTURED = (
     HAMILTONIAN_METHODS,
     *README_METHODS.values(),
 )
-"""Lists of methods that occur in one picture. Their methods have fixed colours and markers."""
+"""Lists of methods that may occur in the same figure. Each of these methods has a fixed colour and marker."""
 
 
 def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) -> tuple[Method, ...]:
@@ -102,7 +103,9 @@ def methods_for(scene: Problem, names: Sequence[Method | Tableau | str] = ()) ->
 
 
 def report_methods(scene: Problem) -> tuple[tuple[Method, ...], tuple[Method, ...]]:
-    """Return the default methods of the report: those with equal steps, and those with step-size control."""
+    """Return the default methods of the report: the methods with equal steps, and the methods with step-size
+    control.
+    """
     families, chosen = families_for(scene), []
     for name, order in (REPORT_HAMILTONIANS if scene.is_hamiltonian else REPORT_FIELDS).items():
         if name.partition(":")[0].partition("(")[0] not in families:

@@ -1,4 +1,4 @@
-"""The error norm of a scene: the distance of a computed state from the reference.
+"""The error norm of a scene: the distance of a computed state from the reference solution.
 
 The error norm is the sum of the norms of all fields of the state: the spectral norm for group elements that
 are matrices, the Euclidean norm for other fields. For the dipole on a stick, the error norm is

@@ -1,7 +1,7 @@
 """Conserved quantities of a scene: its invariants, and the equations that define its manifold.
 
-The magnitude of an invariant is the sum of the absolute values of its terms. It is the size that rounding
-errors refer to, and the scale of deviations where the terms cancel or the invariant is zero.
+The magnitude of an invariant is the sum of the absolute values of its terms. Rounding errors are relative to
+the magnitude. Deviations are relative to it if the terms cancel or the invariant is zero.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def functions(scene: Problem) -> dict[str, Evaluate]:
 def expressions(scene: Problem) -> dict[str, tuple[Expr, ...]]:
     """Return each conserved quantity as expressions in the symbols of the state.
 
-    The expressions with the name :data:`MANIFOLD` vanish on the manifold. This name is absent if the manifold
+    The expressions under the key :data:`MANIFOLD` vanish on the manifold. This key is absent if the manifold
     is a vector space.
     """
     domain = ExprDomain()
@@ -70,7 +70,7 @@ def magnitude(root: Expr) -> Expr:
 
 
 def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
-    """Return the magnitude of a node from the magnitudes of its arguments."""
+    """Return the magnitude of an expression, given the magnitudes of its arguments."""
     match e.op:
         case "add" | "sub":
             return sizes[0] + sizes[1]
@@ -78,7 +78,7 @@ def _magnitude(e: Expr, sizes: list[Expr]) -> Expr:
             return sizes[0] * sizes[1]
         case "neg":
             return sizes[0]
-        case "div":  # a divisor must not be replaced by a larger number
+        case "div":  # A larger divisor would reduce the magnitude.
             return sizes[0] / _absolute(e.args[1])
         case "pow":
             return sizes[0] ** int(e.payload)

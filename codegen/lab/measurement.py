@@ -15,7 +15,8 @@ R = TypeVar("R")
 
 @dataclass(frozen=True)
 class Section:
-    """The body of a section: a Jinja template, as source text, and its variables.
+    """The body of a section of the report: the source text of a Jinja template, and the variables of the
+    template.
 
     The template may import macros from ``parts.html.j2``. Text is escaped unless it is ``Markup``. The
     heading is the title of the measurement.
@@ -29,9 +30,9 @@ class Measurement(ABC, Generic[R]):
     """A measurement of methods on a scene, with a result of type R.
 
     Subclasses set ``name`` (for ``report --only``, the JSON and anchors), ``title`` (heading of the section)
-    and ``about`` (one line for ``orderconds list measurements``), and define :meth:`run`, :meth:`as_json`
-    and :meth:`section`. ``json_key`` is the key in the JSON of the report, by default the name. A
-    measurement with ``part_of`` is selected together with the measurement of that name.
+    and ``about`` (one line for ``orderconds list measurements``), and define :meth:`run`, :meth:`as_json` and
+    :meth:`section`. ``json_key`` is the key in the JSON of the report, by default the name. If ``part_of`` is
+    the name of another measurement, this measurement is selected together with the other measurement.
     """
 
     name: ClassVar[str]
@@ -42,7 +43,9 @@ class Measurement(ABC, Generic[R]):
 
     @abstractmethod
     def run(self, subject: Subject) -> R:
-        """Measure all methods. A method that fails must not affect other methods (:meth:`Subject.each`)."""
+        """Measure all methods. If a method fails, the other methods must still be measured
+        (:meth:`Subject.each`).
+        """
 
     @abstractmethod
     def as_json(self, result: R) -> object:

@@ -2,9 +2,9 @@
 
 The file name of an entry is a digest of all inputs of the measurement: the emitted files, the scene, the
 settings, the kind of processor. An entry also contains a digest of its content. It is written under a
-temporary name and then renamed, so that an interrupted write leaves no entry. If an entry is truncated,
-changed, or of another type, it is ignored and the measurement is made again. A folder that another user owns
-is never read or written.
+temporary name and then renamed, so that an interrupted write does not create an entry. If an entry is
+truncated, changed, or of another type, it is ignored and the measurement is made again. A folder that another
+user owns is never read or written.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ FOLDER = ".measured"
 """Name of the folder that contains the entries. It is next to the results of an unfinished report."""
 
 DIGEST = 32
-"""Bytes of SHA-256 at the start of an entry."""
+"""The number of bytes of the SHA-256 digest at the start of an entry."""
 
 
 class MeasurementCache:
@@ -44,7 +44,8 @@ class MeasurementCache:
         self.folder = folder
 
     def get(self, key: Sequence[object], kind: type[T], measure: Callable[[], T]) -> T:
-        """Return the stored result of ``key``, or call ``measure`` and store what it returns.
+        """Return the stored result of ``key``; if there is no stored result, call ``measure`` and store its
+        result.
 
         ``kind`` is the type of the result: dataclasses, tuples and plain values. Values in ``key`` must have
         the same ``repr`` in every process. If the folder cannot be used, ``measure`` is called and no
@@ -72,7 +73,7 @@ class MeasurementCache:
             return None
 
     def store(self, key: Sequence[object], result: object) -> None:
-        """Store a result; does nothing if the folder cannot be written to or belongs to another user."""
+        """Store a result. If the folder cannot be written to or belongs to another user, do nothing."""
         import msgspec
 
         if self.folder is None:
@@ -98,12 +99,14 @@ class MeasurementCache:
 
 
 def user_cache() -> MeasurementCache:
-    """Return the cache of this user, in :func:`codegen.cache_entry.cache_directory`."""
+    """Return the cache in the cache folder of this user (:func:`codegen.cache_entry.cache_directory`)."""
     return MeasurementCache(cache_directory() / "measurements")
 
 
 def _secured(folder: Path) -> bool:
-    """Set the mode of a folder to 0700; return whether it is a real directory of this user."""
+    """Set the mode of a folder to 0700; return True if it is a directory of this user and not a symbolic
+    link.
+    """
     try:
         status = os.lstat(folder)
         if not stat.S_ISDIR(status.st_mode) or (hasattr(os, "getuid") and status.st_uid != os.getuid()):

@@ -1,9 +1,9 @@
 """Reference solutions: Gragg-Bulirsch-Stoer extrapolation of the ambient equations of a scene, to 28 digits.
 
 The reference uses no Lie group: the modified midpoint rule is applied to y' = f(y).y in the coordinates of
-the state and extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). An error in the
-exponential of a group or in a family therefore cannot be hidden by an equal error in the reference. Two runs
-of different order and tolerance must agree, and their distance is the stated uncertainty.
+the state and extrapolated in the squared step (Hairer, Norsett and Wanner I, section II.9). Therefore an
+error in the exponential of a group or in a method does not occur in the reference, and the comparison shows
+it. Two runs of different order and tolerance must agree, and their distance is the stated uncertainty.
 """
 
 from __future__ import annotations
@@ -23,29 +23,33 @@ from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
 
 DIGITS = 50
-"""Working precision in decimal digits. Extrapolation with 16 columns loses up to ten of them."""
+"""Working precision in decimal digits. Extrapolation with 16 columns loses up to ten digits."""
 
 BITS = 200
 """Working precision of the balls in bits: a few digits more than :data:`DIGITS`."""
 
 RUNS = ((14, -33), (16, -36))
-"""Number of columns and decimal exponent of the tolerance, for the checking run and for the result."""
+"""Number of columns and decimal exponent of the tolerance: first for the run that checks the result, then for
+the run that computes the result.
+"""
 
 AGREEMENT = 1e-28
-"""Largest difference between the two runs, relative to the size of the state, that is accepted."""
+"""The largest accepted difference between the two runs, relative to the size of the state."""
 
 LEAST_STEP = 1e-6
 """If steps become shorter than this fraction of the span, the solution is close to a singularity."""
 
 MOST_STEPS = 10_000
-"""Largest number of extrapolation steps. A scene that needs more is too stiff, or its span is too long."""
+"""Largest number of extrapolation steps. If a scene needs more steps, it is too stiff or its span is too
+long.
+"""
 
 
 @dataclass(frozen=True)
 class Reference:
     """The state of a scene at the end of its span.
 
-    ``state`` holds mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``;
+    ``state`` contains mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``;
     ``uncertainty`` is the largest difference of a coordinate between two runs of different order and
     tolerance.
     """
@@ -63,7 +67,7 @@ class Reference:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A reference as the cache stores it: decimal strings, and the uncertainty."""
+    """A reference solution in the form that the cache stores: decimal strings, and the uncertainty."""
 
     state: tuple[str, ...]
     uncertainty: float
@@ -72,7 +76,8 @@ class _Stored:
 def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> Reference:
     """Return the reference of a scene from the cache; compute and store it if it is missing.
 
-    The default of ``cache`` is the cache of this user. Errors: those of :func:`reference`.
+    The default of ``cache`` is the cache of this user. The function raises the same errors as
+    :func:`reference`.
     """
 
     def compute() -> _Stored:
@@ -85,7 +90,9 @@ def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> R
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
-    """Return everything that a reference depends on: field, constants, initial state, span, settings."""
+    """Return the data that determine a reference solution: field, constants, initial state, span,
+    settings.
+    """
     field = velocity(scene)
     start = scene.initial(PreciseDomain(0, DIGITS))
     return (
@@ -110,10 +117,10 @@ def reference(scene: Problem) -> Reference:
     gap = max(float(abs(a - b)) for a, b in zip(checked, answer, strict=True))
     if not gap <= AGREEMENT * size:
         raise SceneError(
-            f"two reference solutions differ by {gap:.1e}",
+            f"two reference solutions of different order differ by {gap:.1e}",
             where=scene.name,
             expected=f"agreement to {AGREEMENT:g}",
-            hint="shorten the span, or look for a discontinuity of the field",
+            hint="shorten the span, or remove discontinuities of the field",
         )
     return Reference(scene.name, answer, gap)
 
@@ -141,7 +148,8 @@ def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, toleran
         last = arb(step) >= left
         try:
             new, error = _extrapolate(field, y, t, left if last else arb(step), columns)
-        except ArithmeticError as failure:  # a long trial step may leave the domain of the field
+        # The stages of a long trial step may be outside the domain of the field.
+        except ArithmeticError as failure:
             reason, step = str(failure), step / 5
             continue
         size = max(1.0, *(abs(float(x)) for x in new))
@@ -158,7 +166,7 @@ def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, toleran
         f"no reference solution beyond t = {float(t):.6g}: {reason}",
         where=scene.name,
         expected="a field that is smooth and not stiff over the span",
-        hint="end the span before that time",
+        hint="choose a span that ends before this time",
     )
 
 

@@ -1,4 +1,4 @@
-"""The registered measurements, in the order of the sections of the report.
+"""The list of registered measurements. Sections of the report have the order of this list.
 
 To add a measurement to this package, write a file in :mod:`codegen.lab.measurements` and add a line to
 :data:`BUILT_IN`. Other packages call :func:`register`, or declare an entry point in the group
@@ -36,13 +36,16 @@ _registered: dict[str, type[AnyMeasurement]] = {}
 
 
 def register(kind: type[AnyMeasurement]) -> type[AnyMeasurement]:
-    """Add a measurement at the end of the list, and return its class; usable as a class decorator.
+    """Add a measurement at the end of the list, and return its class. The function can be used as a class
+    decorator.
 
     Raises InputError if another measurement has this name.
     """
     known = {m.name: type(m) for m in measurements()}
     if known.get(kind.name, kind) is not kind:
-        raise InputError(f"there is a measurement {kind.name!r} already", expected="a new name")
+        raise InputError(
+            f"a measurement with the name {kind.name!r} is already registered", expected="a new name"
+        )
     _registered[kind.name] = kind
     return kind
 
@@ -68,7 +71,8 @@ def _from_entry_points() -> Iterable[type[AnyMeasurement]]:
 
 
 def selected(names: Sequence[str]) -> tuple[AnyMeasurement, ...]:
-    """Return the named measurements and those that are ``part_of`` them; without names, all measurements.
+    """Return the named measurements and all measurements that are ``part_of`` a named measurement. If no name
+    is given, return all measurements.
 
     Raises :class:`UnknownName` for an unknown name.
     """

@@ -1,4 +1,6 @@
-"""The report: measure scenes, then write a page for each scene and an overview, each file atomically."""
+"""The report: measure scenes, then write a page for each scene and an overview page. Each file is written
+atomically.
+"""
 
 from __future__ import annotations
 
@@ -34,8 +36,7 @@ class Request:
     adaptive: tuple[str, ...] = ()
 
     def subjects(self) -> tuple[Subject, ...]:
-        """Return the subject of each page; raises InputError for an unknown name, before anything is
-        measured."""
+        """Return the subject of each page. An unknown name raises InputError before the first measurement."""
         chosen = [(name, scenes.load(name)) for name in dict.fromkeys(self.scenes or REPORT_SCENES)]
         selected(self.parts)
         effort = EFFORTS[self.effort]
@@ -82,7 +83,9 @@ def report(
 
 
 def write_file(path: Path, text: str | None) -> Path:
-    """Write a file atomically and return its path; if ``text`` is None, only test the folder for writing."""
+    """Write a file atomically and return its path. If ``text`` is None, only test that the folder can be
+    written to.
+    """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if text is None:
@@ -92,7 +95,7 @@ def write_file(path: Path, text: str | None) -> Path:
             write_text(path, text)
     except OSError as error:
         raise InputError(
-            f"cannot write there: {reason(error)}",
+            f"cannot write to this folder: {reason(error)}",
             where=str(path.parent),
             expected="a folder that can be written to",
         ) from None

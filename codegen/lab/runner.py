@@ -1,7 +1,7 @@
 """Run a method over the span of a scene, with the interpreter or with an emitted module.
 
-A :data:`Runner` computes the final state after a given number of steps. The same convergence test is
-therefore used for the interpreter in any precision, emitted Python and emitted C.
+A :data:`Runner` computes the final state after a given number of steps. One convergence test therefore
+applies to the interpreter in any precision, to emitted Python and to emitted C.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ INTERPRETER = "interpreter"
 """The name that selects the interpreter in place of a target."""
 
 DOUBLE = 16
-"""The interpreter uses doubles for at most this number of decimal digits."""
+"""The interpreter uses doubles if at most this number of decimal digits is requested."""
 
 
 class RunFailed(ArithmeticError):
@@ -37,7 +37,9 @@ class RunFailed(ArithmeticError):
 
 @dataclass
 class Interpreted:
-    """The interpreter on the optimised step program, with ``digits`` decimal digits (16: doubles)."""
+    """A runner that interprets the optimised step program with ``digits`` decimal digits; 16 digits mean
+    doubles.
+    """
 
     compiled: Optimised
     digits: int = DOUBLE
@@ -98,7 +100,9 @@ def split_state(problem: Problem, state: Sequence[Scalar]) -> dict[str, Vector]:
 
 @dataclass
 class Emitted:
-    """A compiled method as an emitted module, with the same text that ``orderconds emit`` writes."""
+    """A runner that executes the emitted module of a compiled method. ``orderconds emit`` writes the same
+    text.
+    """
 
     compiled: Compiled
     target: str = printers.DEFAULT
@@ -134,8 +138,8 @@ class Emitted:
     def final(self, steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
         """Return the final state after ``steps`` equal steps over the span; may raise :class:`RunFailed`.
 
-        ``statistics`` receives the numbers of iterations of implicit blocks. With ``spans`` the run continues
-        with equal steps over this number of spans.
+        ``statistics`` receives the numbers of iterations of implicit blocks. The run has the length of
+        ``spans`` time spans, all with equal steps.
         """
         first, last = self.compiled.scene.span
         h = float((last - first) / max(steps, 1))
@@ -150,7 +154,9 @@ Runner = Interpreted | Emitted
 
 
 def check_target(target: str, digits: int = DOUBLE) -> None:
-    """Raise :class:`codegen.errors.MethodError` for an unknown target, or more digits than the target has."""
+    """Raise :class:`codegen.errors.MethodError` for an unknown target, or for more digits than its numbers
+    have.
+    """
     known = (*printers.names(), INTERPRETER)
     if target not in known:
         raise MethodError(f"unknown target {target!r}", expected=f"one of {', '.join(known)}")
@@ -168,7 +174,8 @@ def runner(
     """Return the runner for a target, or for ``interpreter``.
 
     More than 16 ``digits`` require the interpreter. ``order`` is the order of the method if it is already
-    known. :class:`codegen.errors.MethodError` for an unknown target, and for more digits than the target has.
+    known. Raises :class:`codegen.errors.MethodError` for an unknown target, and for more digits than its
+    numbers have.
     """
     check_target(target, digits)
     compiled = compile_method(scene, method)

@@ -14,7 +14,7 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Measured:
-    """One measurement on a subject: its result, or the reason why there is none."""
+    """One measurement on a subject: its result, or the reason why there is no result."""
 
     measurement: AnyMeasurement
     subject: Subject
@@ -41,7 +41,7 @@ class Measured:
         return None if self.failure else self.measurement.section(self.result, self.subject)
 
     def verdict(self) -> str:
-        """Return one sentence that states the result; '' if there is none."""
+        """Return one sentence that states the result; '' if there is no result."""
         return "" if self.failure else self.measurement.verdict(self.result, self.subject)
 
     def overview(self) -> Section | None:
@@ -55,7 +55,7 @@ class Measured:
     def lines(self) -> Iterable[str]:
         """Return lines for the terminal."""
         if self.failure:
-            return [f"{self.subject.scene.name}: no {self.name}: {self.failure}"]
+            return [f"{self.subject.scene.name}: the measurement {self.name} failed: {self.failure}"]
         return self.measurement.lines(self.result, self.subject)
 
     def as_json(self) -> object:
@@ -81,14 +81,16 @@ class SceneResults:
         return all(m.holds for m in self.measured)
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data: one key for each measurement; the value is [] if it was not selected."""
+        """Return plain data: one key for each measurement; the value is [] if the measurement was not
+        selected.
+        """
         measured = {m.name: m.as_json() for m in self.measured}
         keys = {m.name: m.json_key or m.name for m in measurements()}
         return {"scene": self.scene.name} | {key: measured.get(name, []) for name, key in keys.items()}
 
 
 def measure_scene(subject: Subject, chosen: Sequence[AnyMeasurement]) -> SceneResults:
-    """Run the chosen measurements; one that fails does not affect the others."""
+    """Run the selected measurements. If a measurement fails, the remaining measurements still run."""
     return SceneResults(subject, tuple(_measure(m, subject) for m in chosen))
 
 

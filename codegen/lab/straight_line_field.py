@@ -57,7 +57,9 @@ class StraightLine:
 
 
 def velocity(scene: Problem) -> StraightLine:
-    """Return the ambient derivative of a scene for the default values of its parameters."""
+    """Return the right-hand side of the ambient equation of a scene for the default values of its
+    parameters.
+    """
     domain = ExprDomain()
     state = tuple(domain.space.sym(s) for s in scene.symbols)
     roots = scene.velocity(domain, state, domain.space.sym(TIME))
@@ -67,7 +69,7 @@ def velocity(scene: Problem) -> StraightLine:
 def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) -> StraightLine:
     """Return expressions in the symbols of a state and the time as straight-line code.
 
-    ``name`` is that of the scene; ``symbols`` are y[0], y[1], ... in order.
+    ``name`` is the name of the scene; ``symbols`` are y[0], y[1], ... in order.
     """
     constants: list[Number] = []
     names: dict[int, str] = {}
@@ -90,7 +92,7 @@ def straight_line(name: str, symbols: Sequence[str], roots: tuple[Expr, ...]) ->
 
 
 def _multiplied(text: str) -> str:
-    """Return a power as a product; other texts are unchanged.
+    """Return the text of a power as a product; return any other text unchanged.
 
     C has no power operator, and the power of a ball that contains zero is NaN in python-flint.
     """

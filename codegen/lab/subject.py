@@ -32,9 +32,10 @@ class Effort:
     """The extent of the measurements.
 
     ``budget`` is the CPU time in seconds that one run of the bench may take. ``steps`` is the number of steps
-    of a long run. The flags add measurements. ``back``: each long run is also run backward to the start.
-    ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the scene. ``endurance``: runs of
-    ten million steps. ``search`` are the seconds of the search for the fastest methods of the library.
+    of a long run. Each flag adds a measurement. ``back``: after each long run, the method runs back to the
+    initial state. ``rounding``: growth of rounding errors. ``stiff``: stiff variants of the scene.
+    ``endurance``: runs of ten million steps. ``search`` is the time in seconds of the search for the fastest
+    methods of the library.
     """
 
     budget: float
@@ -57,7 +58,7 @@ EFFORTS = {"quick": QUICK, "usual": USUAL, "full": FULL}
 
 @dataclass(frozen=True)
 class CompiledMethod:
-    """A method compiled for the scene, the seconds of its compilation, and the emitted module."""
+    """A method compiled for the scene, the time of the compilation in seconds, and the emitted module."""
 
     compiled: Compiled
     seconds: float
@@ -88,7 +89,7 @@ class MethodFailure:
 
 @dataclass(frozen=True)
 class MethodResults(Generic[T]):
-    """The results of the methods that could be measured, and the failures of the others."""
+    """The results of the methods that could be measured, and the failures of all other methods."""
 
     measured: tuple[T, ...]
     failures: tuple[MethodFailure, ...] = ()
@@ -98,9 +99,9 @@ class MethodResults(Generic[T]):
 class Subject:
     """One scene with the methods to measure; the input of every measurement.
 
-    ``name`` is the scene as the user wrote it. ``adaptive`` are the methods that run with step-size control.
-    ``results`` holds the results of measurements by name, so a measurement can use the result of another one.
-    ``named`` says that the user named the methods.
+    ``name`` is the text with which the user named the scene. ``adaptive`` are the methods that run with
+    step-size control. ``results`` contains the results of measurements by name, so a measurement can use the
+    result of another measurement. ``named`` is True if the user named the methods.
     """
 
     name: str
@@ -194,15 +195,15 @@ def subject(
 ) -> Subject:
     """Return the subject of a page.
 
-    If no methods are named, the default methods of the report are used. If no peers are named, those peers of
-    ``effort.peers`` are used that are installed. Unknown names raise the errors of
-    :func:`codegen.method.parse` and ``peers.find``.
+    If no methods are named, the default methods of the report are used. If no peers are named, the installed
+    peers of ``effort.peers`` are used. Unknown names raise the errors of :func:`codegen.method.parse` and
+    ``peers.find``.
     """
     families = families_for(scene)
     chosen = tuple(parse(m, families) for m in methods)
     controlled = tuple(replace(parse(m, families), adaptive=True) for m in adaptive)
     for method in controlled:
-        method.embedded()  # raises MethodError if the tableau has no embedded row
+        method.embedded()  # This call raises MethodError if the tableau has no embedded row.
     if not methods and not adaptive:
         chosen, controlled = report_methods(scene)
     others = tuple(peers) if peers else tuple(p for p in effort.peers if p in GROUPS or installed(p))

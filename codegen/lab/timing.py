@@ -1,8 +1,9 @@
-"""The CPU time of a call: the least over several batches of repeated calls in one process.
+"""The CPU time of a call: the least time of several batches of repeated calls in one process.
 
-Other processes can only increase a time. The least time is therefore the best estimate; a mean would include
-the load by other processes. A call from Python takes some time before the first step. This overhead is
-measured with a run of zero steps and subtracted, so that short and long runs can be compared.
+Other processes can only increase a measured time. The least time is therefore the best estimate, whereas a
+mean time depends on the load of the machine. A call from Python takes some time before the first step. The
+program measures this overhead with a run of zero steps and subtracts it, so that short and long runs can be
+compared.
 """
 
 from __future__ import annotations
@@ -16,16 +17,17 @@ BATCH = 0.004
 
 BATCHES = 7
 FEWER = 3
-"""The number of batches is BATCHES. It is FEWER if a call takes longer than :data:`LONG` seconds."""
+"""The number of batches is BATCHES. If a call takes longer than :data:`LONG` seconds, the number is FEWER."""
 
 LONG = 0.2
 
 LEAST_STEPS = 200
-"""Runs with fewer steps are continued beyond the span while they are timed."""
+"""The least number of steps of a timed run. A run with fewer steps is continued beyond the span."""
 
 CONFIRMED, MOST = 0.03, 21
-"""The least time is confirmed if a second batch takes at most CONFIRMED longer. Otherwise batches are
-repeated, up to MOST of them."""
+"""The least time is confirmed if the time of a second batch is at most 1 + CONFIRMED times the least time.
+Otherwise further batches are run; the total number of batches is at most MOST.
+"""
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,9 @@ class Timing:
 
 
 def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> tuple[float, ...]:
-    """Return the CPU seconds of one call, measured in several batches long enough for the clock, sorted.
+    """Return the CPU seconds of one call, measured in several batches, in increasing order.
 
-    Batches of short calls are repeated until two of them agree on the least time.
+    For short calls, further batches run until the two least times agree.
     """
     calls, first = 1, _batch(call, 1)
     while first < batch:
@@ -63,8 +65,8 @@ def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHE
 
 
 def spread(times: Sequence[float]) -> float | None:
-    """Return the relative interval of sorted times: three quarters of them are at most 1 + spread times the
-    least. None if the least time is zero.
+    """Return the relative spread of sorted times: three quarters of the times are at most 1 + spread times
+    the least time. The result is None if the least time is zero.
 
     >>> spread((1.0, 1.25, 1.5, 9.0)), spread((0.0, 1.0))
     (0.5, None)
@@ -73,8 +75,9 @@ def spread(times: Sequence[float]) -> float | None:
 
 
 def _batch(call: Callable[[], object], calls: int) -> float:
-    # Under a limit on CPU time (ulimit -t), Linux advances the clock of the process every few milliseconds
-    # only, and a batch may take no time by it. The clock of the thread stays exact, but misses other threads.
+    # Under a limit on CPU time (ulimit -t), Linux updates the CPU clock of the process only every few
+    # milliseconds, so the measured time of a batch may be zero. The clock of the thread stays exact, but does
+    # not count other threads. The larger of the two times is used.
     start, own = time.process_time(), time.thread_time()
     for _ in range(calls):
         call()

@@ -1,4 +1,5 @@
-"""Scenes, which a user writes, and problems, which the compiler evaluates.
+"""Scenes and problems: a scene is the differential equation that a user writes, a problem is the form that
+the compiler evaluates.
 
 A scene file imports its names from this package:
 ``from codegen.scene import FieldScene, HamiltonianScene, param, signal``.

@@ -13,10 +13,10 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 
 def ambient(problem: Problem) -> Problem:
-    """Return a problem as a field on R^n without its group.
+    """Return a problem as a field on R^n; the group of the problem is ignored.
 
-    Numerical solutions of the returned problem leave the manifold: their distance from the manifold is of the
-    size of the error.
+    Numerical solutions of the returned problem leave the manifold: their distance from the manifold has the
+    size of the integration error.
     """
     field, domain = problem.as_field(), ExprDomain(problem.roots[0].space)
     state = tuple(domain.space.sym(s) for s in problem.symbols)
@@ -34,7 +34,7 @@ def ambient(problem: Problem) -> Problem:
         action=LeftMultiplication(),
         state=(StateField("y", Kind.POINT, problem.symbols, initial),),
         roots=derivative(problem.roots),
-        # ``open_roots`` may be empty for a scene without run-time inputs.
+        # If a scene has no run-time inputs, ``open_roots`` may be empty.
         open_roots=derivative(problem.open_roots) if problem.open_roots else (),
         paired=False,
     )

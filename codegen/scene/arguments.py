@@ -18,14 +18,15 @@ if TYPE_CHECKING:
 
 
 def check_group(name: str, group: object) -> None:
-    """Raise :class:`SceneError` for a class, a name, or another object that is no group."""
+    """Raise :class:`SceneError` if the argument is not a group, for example a class or a name."""
     if not isinstance(group, LieGroup):
         _refuse(name, "group", group, "SO3()")
 
 
 def check_action(reader: Reader, group: LieGroup, action: object) -> None:
-    """Raise :class:`SceneError` for an object that is no action, or for points on which the group cannot
-    act."""
+    """Raise :class:`SceneError` if the argument is not an action, or if the group cannot act on the
+    points.
+    """
     if not isinstance(action, Action):
         _refuse(reader.name, "action", action, "Rotation()")
     domain = ExprDomain(reader.space)
@@ -35,7 +36,8 @@ def check_action(reader: Reader, group: LieGroup, action: object) -> None:
     if group.offers(action.needs) is not None:
         try:
             width = len(action.velocity(domain, group, zero, y))
-        except (ValueError, IndexError):  # a formula may combine tuples of different lengths
+        # The formula of an action may combine tuples of different lengths and then fail.
+        except (ValueError, IndexError):
             width = -1
     if width != len(y):
         raise SceneError(
@@ -54,15 +56,17 @@ def _refuse(name: str, what: str, value: object, example: str) -> NoReturn:
 
 def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction, Fraction]:
     """Return the time interval; raise :class:`SceneError` unless it consists of two rational times in
-    order."""
+    increasing order.
+    """
     import sympy
 
     try:
         first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
-    except (TypeError, ValueError, AttributeError):  # AttributeError: sympy's infinities have no p and q
+    # The infinities of sympy have no attributes p and q, so they raise AttributeError.
+    except (TypeError, ValueError, AttributeError):
         raise SceneError(f"the span {span}", where=name, expected="two rational times") from None
     if not last > first:
         raise SceneError(
-            f"the span ({first}, {last})", where=name, expected="an end later than the beginning"
+            f"the span ({first}, {last})", where=name, expected="two times, the first less than the second"
         )
     return first, last

@@ -4,8 +4,8 @@ With W = D_P H and tau_b = -d/deps H(q exp(eps e_b), P) at fixed P, the field in
 
     xi = Ad_q W,   n = Ad*_{q^-1} N,   N = tau + ad*_W P.
 
-If the inertia is fixed in the body, the kinetic energy becomes a constant quadratic form of P, and its
-inverse gives P from W.
+If the inertia is fixed in the body, the kinetic energy becomes a quadratic form of P with constant
+coefficients. Then W is a constant matrix times P, and the inverse of this matrix gives P from W.
 """
 
 from __future__ import annotations
@@ -29,13 +29,14 @@ if TYPE_CHECKING:
 
 DIGITS, AGREEING = 40, 30
 POINTS = 6
-"""The formula V(q) + T(P) is compared with H at POINTS random points, with DIGITS digits. AGREEING digits
-must agree."""
+"""The formula V(q) + T(P) is compared with H at POINTS random points. The values are computed with DIGITS
+digits, and AGREEING of these digits must be equal.
+"""
 
 
 @dataclass(frozen=True)
 class BodyField:
-    """Formulas in the coordinates of q and of P; P has the same symbols as mu.
+    """The field in the body frame, as formulas in the coordinates of q and P. P has the same symbols as mu.
 
     ``velocity`` is W, ``force`` is N. If W is a constant invertible matrix times P, ``inverse`` is the
     inverse matrix (rows of numbers); otherwise it is None.
@@ -82,11 +83,11 @@ def body_field(group: BodyFrame, q: Sequence[str], mu: Sequence[str], hamiltonia
 def field_in_body(
     group: LeftTranslation, q: Sequence[str], mu: Sequence[str], roots: Sequence[Expr]
 ) -> tuple[tuple[Expr, ...], tuple[Expr, ...]]:
-    """Return W = Ad_{q^-1} xi and N = Ad*_q n as formulas in q and P, for a field that need have no
+    """Return W = Ad_{q^-1} xi and N = Ad*_q n as formulas in q and P, for a field with or without a
     Hamiltonian.
 
-    ``roots`` are xi and n as formulas in q and mu. The formula of a component that does not depend on q does
-    not contain q.
+    ``roots`` are xi and n as formulas in q and mu. If a component does not depend on q, the returned formula
+    does not contain q.
     """
     space = roots[0].space
     domain = ExprDomain(space)
@@ -124,7 +125,7 @@ def _in_body(
     try:
         kinetic = at(group.identity(domain), P) - at(group.identity(domain), at_rest)
     except ZeroDivisionError:
-        kinetic = space.zero  # the potential is singular at the neutral element
+        kinetic = space.zero  # The potential is singular at the neutral element.
     split = at(element, at_rest) + kinetic
     return normal(split if _same(group, q, mu, moved, split) else moved)
 
@@ -138,7 +139,7 @@ def _symbols_of(roots: Sequence[Expr]) -> list[str]:
 
 
 def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, b: Expr) -> bool:
-    """Return whether two formulas agree to 30 digits at random elements, momenta, times and parameters."""
+    """Return True if two formulas agree to 30 digits at random elements, momenta, times and parameters."""
     domain, rng = PreciseDomain(0, DIGITS), random.Random("body frame")
     names = dict.fromkeys([*_symbols(a), *_symbols(b)])
 
@@ -155,13 +156,15 @@ def _same(group: LeftTranslation, q: Sequence[str], mu: Sequence[str], a: Expr, 
             # fractions.
             if abs(x - y) * 10**AGREEING > max(1, abs(x)):
                 return False
-        except (ArithmeticError, ValueError, TypeError):  # a comparison of complex numbers raises TypeError
+        except (ArithmeticError, ValueError, TypeError):  # Comparing complex numbers raises TypeError.
             return False
     return True
 
 
 def _row(normal: NormalForms, w: Expr, P: Sequence[Expr]) -> list[Number] | None:
-    """Return the coefficients of P in w; None if w is not linear in P with constant coefficients."""
+    """Return the coefficients of P in the formula w; None unless w is linear in P with constant
+    coefficients.
+    """
     row = [Number.rational(0)] * len(P)
     place = {p.id: k for k, p in enumerate(P)}
     for monomial, c in normal.polynomial(w).items():

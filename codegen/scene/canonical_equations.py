@@ -17,7 +17,9 @@ from codegen.ir.expr import Expr, Space
 
 
 def force(space: Space, group: LieGroup, qs: Sequence[str], slope: Sequence[Expr]) -> tuple[Expr, ...]:
-    """Return n_a = -<dH, e_a.q>, given the partial derivatives of H with respect to the coordinates of q."""
+    """Return the components n_a = -<dH, e_a.q>; the argument contains the partial derivatives of H with
+    respect to q.
+    """
     domain = ExprDomain(space)
     q = tuple(space.sym(s) for s in qs)
     basis: tuple[tuple[Expr, ...], ...] = units(domain, group.dim)

@@ -1,11 +1,11 @@
-"""Classical forms of a scene: its equations in coordinates that users of general integrators would choose.
+"""Classical forms of a scene: its equations in the coordinates that are usual for a general ODE solver.
 
 A form is a problem on R^n with a map to the state of the scene. The first form contains the equations as
 printed, in the coordinates of the scene. If the group has left translations, a form contains velocities and
 momenta in the body frame: q' = q.W and P' = N with P = Ad*_q mu (:mod:`codegen.scene.body_frame`). If a
 factor of the group has a cover with fewer coordinates, a form contains an element of the cover. For example,
 a heavy top has seven equations for a unit quaternion and the momentum in the body, in place of twelve. The
-groups offer these changes of coordinates as capabilities.
+classes of the groups implement these changes of coordinates.
 """
 
 from __future__ import annotations
@@ -37,9 +37,10 @@ PRINTED = "printed"
 class ClassicalForm:
     """A form of a scene: its key, its name, and its equations as a problem on R^n.
 
-    ``to_scene`` are formulas of the state of the scene in the symbols of the form, ``from_scene`` formulas of
-    the state of the form in the symbols of the scene, valid near the initial state. ``state`` describes the
-    state and ``conversion`` the map to the scene, in the header of emitted code.
+    ``to_scene`` contains formulas of the state of the scene in the symbols of the form. ``from_scene``
+    contains formulas of the state of the form in the symbols of the scene; they are valid near the initial
+    state. ``state`` and ``conversion`` are texts for the header of emitted code: they describe the state and
+    the map to the state of the scene.
     """
 
     key: str
@@ -66,11 +67,12 @@ class ClassicalForm:
 
 
 def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
-    """Return the forms of a scene: the equations as printed first, then each form that its group offers.
+    """Return the forms of a scene: first the equations as printed, then each form that the group of the scene
+    provides.
 
-    For the coordinates of the scene and for the coordinates of covers, the frame with fewer operations is
-    chosen: the body frame for inertia that is fixed in the body, and the space frame for inertia that is
-    fixed in space.
+    The frame with fewer operations is chosen, separately for the coordinates of the scene and for the
+    coordinates of covers. This is the body frame if the inertia is fixed in the body, and the space frame if
+    the inertia is fixed in space.
     """
     symbols = tuple(map(ExprDomain().space.sym, problem.symbols))
     printed = ClassicalForm(PRINTED, "as printed", problem, ambient(problem), symbols, symbols)
@@ -80,7 +82,9 @@ def classical_forms(problem: Problem) -> tuple[ClassicalForm, ...]:
 
 
 def find_form(problem: Problem, key: str) -> ClassicalForm:
-    """Return the form of a scene with a key; :class:`SceneError` if the scene has no form with this key."""
+    """Return the form of a scene that has the given key; raise :class:`SceneError` if there is no such
+    form.
+    """
     forms = classical_forms(problem)
     for form in forms:
         if form.key == key:
@@ -102,20 +106,21 @@ def operations(roots: Sequence[Expr]) -> int:
 
 
 def _changes(problem: Problem) -> Iterator[_Change]:
-    """Yield a change to the body frame, and a change to covers of the factors in the frame with fewer
-    operations."""
+    """Yield the changes of coordinates: to the body frame, and to covers of the factors in the frame with
+    fewer operations.
+    """
     framed = problem.group.offers(LeftTranslation) is not None or not problem.paired
     for covered in (False, True):
         changes = [_Change(problem, covered, body) for body in (False, True)[: 1 + framed]]
         best = min(changes, key=lambda change: operations(change.rates(problem.roots)))
-        # A form with the frame and the coordinates of the scene would repeat the equations as printed.
+        # In the frame and the coordinates of the scene, the form would repeat the equations as printed.
         if any(leaf.cover is not None for leaf in best.leaves) or (best.body and not covered):
             yield best
 
 
 @dataclass(frozen=True)
 class _Leaf:
-    """A factor of the group that is no product itself.
+    """A factor of the group that is not itself a product of groups, with its coordinates.
 
     ``symbols`` are its coordinates in the scene, ``own`` its coordinates in the form; ``at`` is the index of
     its first component in the Lie algebra. ``cover`` is None if the form has the coordinates of the scene.
@@ -133,15 +138,17 @@ class _Leaf:
         return (self.group if self.cover is None else self.cover.cover).coordinates
 
     def element(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the element of the group for the right-hand sides of the equations."""
+        """Return the formula of the group element that the right-hand sides of the equations contain."""
         return own if self.cover is None else self.cover.covering(d, own)
 
     def end(self, d: Domain, own: Vector[S]) -> Vector[S]:
-        """Return the element of the group for the result; it satisfies the laws of the group exactly."""
+        """Return the formula of the group element for results; it satisfies the equations of the group
+        exactly.
+        """
         return own if self.cover is None else self.cover.projected_covering(d, own)
 
     def rate(self, d: Domain, x: Vector[S], own: Vector[S], body: bool) -> Vector[S]:
-        """Return the derivative of the coordinates for a velocity in space, or in the body."""
+        """Return the time derivative of the coordinates, given the velocity in space or in the body."""
         group, x = self.group, x[self.at : self.at + self.group.dim]
         if self.cover is not None:
             group, x = self.cover.cover, self.cover.lifted_velocity(d, x)
@@ -157,7 +164,7 @@ class _Leaf:
 
 
 def _leaves(problem: Problem, covered: bool) -> tuple[_Leaf, ...]:
-    """Return the factors of the group with their coordinates."""
+    """Return the factors of the group, each with its coordinates."""
     names = list(problem.state[0].symbols)
     taken = {*problem.symbols, *problem.parameters, *problem.signals}
     leaves: list[_Leaf] = []
@@ -181,7 +188,7 @@ def _factors(group: LieGroup) -> Iterator[LieGroup]:
 
 
 def fresh(name: str, count: int, taken: set[str]) -> tuple[str, ...]:
-    """Return ``count`` indexed symbols that are not in ``taken``, and add them to it.
+    """Return ``count`` indexed symbols that are not in ``taken``, and add the symbols to ``taken``.
 
     >>> fresh("q", 2, {"q1"})
     ('q_0', 'q_1')
@@ -203,7 +210,7 @@ class _Change:
 
     @cached_property
     def domain(self) -> ExprDomain:
-        """The domain of the formulas of the form."""
+        """The domain in which the formulas of the form are computed."""
         return ExprDomain()
 
     @cached_property
@@ -306,7 +313,7 @@ class _Change:
             yield leaf, tuple(self.domain.space.sym(s) for s in leaf.own)
 
     def rates(self, roots: Sequence[Expr]) -> tuple[Expr, ...]:
-        """Return the derivative of the state of the form, given f or (xi, n) of the scene."""
+        """Return the time derivative of the state of the form, given the components of f or of (xi, n)."""
         problem, d = self.problem, self.domain
         element = tuple(x for leaf, own in self.blocks() for x in leaf.element(d, own))
         momenta = tuple(d.space.sym(s) for s in self.momenta)

@@ -20,12 +20,13 @@ if TYPE_CHECKING:
     import mpmath
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
-"""Formulas that a scene contains, by the name that messages use, and the computed formulas that they must
-equal. If the computed formulas are None, the formulas of the scene must equal the velocity f.y."""
+"""Pairs of formulas that must be equal, by the name that messages use: formulas that the scene contains, and
+formulas computed from its field. None in place of the computed formulas means the velocity f.y.
+"""
 
 
 def check_problem(problem: Problem, stated: Stated) -> None:
-    """Raise :class:`SceneError` if the scene contradicts itself."""
+    """Raise :class:`SceneError` if two formulas of the scene contradict each other."""
     orbit = orbit_of(problem)
     check_start(orbit)
     for what, (formulas, derived) in stated.items():
@@ -34,15 +35,16 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
 
 def check_start(orbit: Orbit) -> None:
-    """Raise :class:`SceneError` if the initial state should be an element of the group, because the group
-    acts on itself, but is not."""
+    """Raise :class:`SceneError` if the group acts on itself and the initial state is not an element of the
+    group.
+    """
     if not isinstance(orbit.action, LeftMultiplication):
         return
     start = tuple(orbit.points[0][s] for s in orbit.symbols)
     for law, defect in orbit.group.laws(orbit.domain, start):
         if not orbit.sized(defect, (1,)):
             raise SceneError(
-                f"an initial state that violates {law} by {orbit.text(defect)}",
+                f"the initial state violates {law} by {orbit.text(defect)}",
                 where=orbit.name,
                 expected=f"an element of {orbit.group.name}",
             )
@@ -51,8 +53,8 @@ def check_start(orbit: Orbit) -> None:
 def check_equal(
     orbit: Orbit, stated: Sequence[Expr], what: str, derived: Sequence[Expr] | None = None
 ) -> None:
-    """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas, or from f.y if
-    ``derived`` is None.
+    """Raise :class:`SceneError` if formulas of the scene differ from the ``derived`` formulas. If ``derived``
+    is None, they are compared with f.y.
 
     ``what`` names the formulas of the scene in the message.
     """
@@ -71,11 +73,12 @@ def check_equal(
 def check_flow(
     orbit: Orbit, name: str, formulas: Sequence[Expr], rates: Sequence[Expr], elapsed: str
 ) -> None:
-    """Raise :class:`SceneError` if the formulas that a scene gives for the flow of a part are not this flow.
+    """Raise :class:`SceneError` if the formulas of a scene for the flow of a part are not the flow of this
+    part.
 
-    The formulas must equal the state at the time 0. At all times their time derivatives must be the part's
-    ``rates``; ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact, and are
-    compared with 40 digits.
+    At the time 0 the formulas must equal the state. At all times their time derivatives must equal ``rates``,
+    the field of the part; ``elapsed`` is the symbol of the time in the formulas. The derivatives are exact,
+    and are compared with 40 digits.
     """
     slopes = [gradient(formula, (elapsed,))[0] for formula in formulas]
     for point in orbit.points:

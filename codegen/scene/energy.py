@@ -4,7 +4,7 @@ H. Marthinsen's thesis, section 2.6: a field that preserves H is x' = f(x).x wit
 bivector omega on g*. The trivialised differential is gamma(x) = R*_x dH in g*: <gamma, e> is the derivative
 of H along e.x. On T*G, omega is the canonical bivector. For all other problems omega = (gamma wedge
 f)/|gamma|^2, where the Euclidean inner product of coordinates identifies gamma with an element of g. This
-requires that f vanishes wherever gamma vanishes.
+formula requires that f vanishes wherever gamma vanishes.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ OPERATIONS = frozenset({"energy", "differential", "secant", "bivector"})
 
 
 class Conservative(Protocol):
-    """The attributes of a problem that this module reads."""
+    """The attributes of a problem that the operations of this module read."""
 
     @property
     def group(self) -> LieGroup:
@@ -42,7 +42,7 @@ class Conservative(Protocol):
 
     @property
     def roots(self) -> tuple[Expr, ...]:
-        """The components of f."""
+        """The components of the field f."""
 
     @property
     def hamiltonian(self) -> Expr | None:
@@ -61,7 +61,7 @@ class Conservative(Protocol):
 
 
 def energy_of(problem: Conservative) -> Expr | None:
-    """Return the Hamiltonian, or the invariant called ``energy``; None if there is neither."""
+    """Return the Hamiltonian, or the invariant called ``energy``; None if the problem has neither of them."""
     return problem.hamiltonian if problem.hamiltonian is not None else problem.invariants.get(ENERGY)
 
 

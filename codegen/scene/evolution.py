@@ -1,10 +1,10 @@
 """The coordinates in which Taylor polynomials of a scene are computed, and their conversion from and to the
 state.
 
-A product of two series costs a convolution, so the coordinates with the fewest products are chosen. If a
-Hamiltonian scene has a body frame, they may be the group element q and the momentum P = Ad*_q mu of the body,
-with q' = q.W and P' = N (:mod:`codegen.scene.body_frame`). Coordinates of q that the other coordinates
-determine are omitted if no other equation contains them.
+Each product of two series costs a convolution, so the coordinates whose equations contain the fewest products
+are chosen. If a Hamiltonian scene has a body frame, the chosen coordinates may be the group element q and the
+momentum in the body frame, P = Ad*_q mu, with q' = q.W and P' = N (:mod:`codegen.scene.body_frame`).
+Coordinates of q that the other coordinates determine are omitted if no other equation contains them.
 """
 
 from __future__ import annotations
@@ -36,10 +36,11 @@ from codegen.scene.problem import TIME, Problem, StateField
 
 @dataclass(frozen=True)
 class Evolution:
-    """Coordinates with their own equations: ``inner`` is the problem on R^m, ``outer`` the scene as a field.
+    """Coordinates of a scene and their equations: ``inner`` is the problem on R^m, ``outer`` the scene as a
+    field.
 
-    ``body`` is the group in whose body frame the momentum is; it is None if the coordinates contain the
-    momentum of the state. ``missing`` are the indices of the coordinates that are omitted.
+    ``body`` is the group if the coordinates contain the momentum in the body frame; it is None if they
+    contain the momentum in space. ``missing`` are the indices of the coordinates that are omitted.
     """
 
     inner: Problem
@@ -78,12 +79,14 @@ class Evolution:
             return (*end, *momentum)
         before = self.body.Adtinv(domain, q, self.body.Adt(domain, q, mu))
         after = self.body.Adtinv(domain, end, momentum)
-        # Only the change of the momentum is converted back: if q is not quite orthogonal, converting the
-        # whole momentum would scale it in each step.
+        # Only the change of the momentum is converted back: rounding errors make q slightly non-orthogonal,
+        # so converting the whole momentum would change its length in each step.
         return (*end, *(m + (b - a) for m, a, b in zip(mu, before, after, strict=True)))
 
     def step(self, domain: Domain, degree: int, y: Vector[S], t: S | None = None) -> Vector[S]:
-        """Return the coordinates after the time h by the Taylor polynomial of the solution through y."""
+        """Return the coordinates after the time h. The Taylor polynomial of the solution through y is
+        evaluated.
+        """
         # Each coefficient contains its power of h, so the polynomial is the sum of the coefficients.
         rows = self.coefficients(domain, degree, self.enter(domain, y), t, domain.h)
         result = []
@@ -154,19 +157,20 @@ def evolution(scene: Problem) -> Evolution:
     group = scene.group.offers(BodyFrame)
     if scene.body is not None and group is not None:
         forms.append(_flat(scene, outer, group, _in_body(scene, group)))
-    # If several candidates need the same number of products, min returns the first one, which has the
-    # coordinates of the scene.
+    # If several candidates need the same number of products, min returns the first of these candidates. The
+    # list begins with the coordinates of the scene.
     return min((each for form in forms for each in (form, *_shorter(form))), key=lambda e: e.products())
 
 
 def _flat(scene: Problem, outer: Problem, body: BodyFrame | None, roots: Sequence[Expr]) -> Evolution:
-    """Return the evolution with all coordinates."""
+    """Return the evolution that contains all coordinates."""
     return Evolution(_problem(scene, outer.symbols, gathered(roots)), outer, body)
 
 
 def _problem(scene: Problem, symbols: tuple[str, ...], roots: tuple[Expr, ...]) -> Problem:
     space = roots[0].space
-    start = tuple(space.zero for _ in symbols)  # the initial values are not used: a step sets the coordinates
+    # The initial values are not used, because a step sets the coordinates.
+    start = tuple(space.zero for _ in symbols)
     return replace(
         scene,
         group=Rn(len(symbols)),
@@ -190,7 +194,7 @@ def _in_body(scene: Problem, group: BodyFrame) -> tuple[Expr, ...]:
 
 
 def _shorter(form: Evolution) -> Iterator[Evolution]:
-    """Yield evolutions in which coordinates are omitted that the other coordinates determine."""
+    """Yield evolutions that omit some coordinates; the remaining coordinates determine them."""
     on_itself = isinstance(form.outer.action, LeftMultiplication)
     group = _of_element(form.outer.group).offers(DependentCoordinates) if on_itself else None
     inner = form.inner
@@ -204,6 +208,6 @@ def _shorter(form: Evolution) -> Iterator[Evolution]:
 
 
 def _of_element(group: LieGroup) -> LieGroup:
-    """Return the group of the first coordinates of a state."""
+    """Return the group to which the first coordinates of a state belong."""
     bundle = group.offers(CotangentBundle)
     return group if bundle is None else bundle.base

@@ -1,4 +1,5 @@
-"""The extended phase space: time and its momentum as coordinates of a Hamiltonian that depends on time.
+"""The extended phase space: a Hamiltonian that depends on time becomes autonomous, because the time and the
+momentum of the time become coordinates.
 
 The Hamiltonian K(q, tau, mu, u) = H(q, mu, tau) + u on T*(G x R) does not depend on time: tau' = 1 and u' =
 -dH/dt. The flow therefore preserves u + H, and the initial value of u is -H (H. Marthinsen's thesis, section
@@ -26,7 +27,8 @@ def extended(problem: Problem) -> Problem:
     on time.
 
     The new coordinates are called tau and u; underscores are appended to a name that is taken. The summand u
-    is added to the first part that does not depend on time, or becomes a new part if there is none.
+    is added to the first part that does not depend on time. If all parts depend on time, u becomes a new
+    part.
     """
     hamiltonian = _timed(problem)
     space = hamiltonian.space
@@ -36,7 +38,7 @@ def extended(problem: Problem) -> Problem:
     symbols = {s: space.sym(s) for s in sorted(taken)}
 
     def moved(root: Expr) -> Expr:
-        """Return root with tau in place of the time."""
+        """Return the expression ``root`` with tau in place of the time."""
         replaced: Expr = evaluate([root], domain, {**symbols, TIME: space.sym(tau)})[0]
         return replaced
 
@@ -72,7 +74,7 @@ def extended(problem: Problem) -> Problem:
 
 
 def _timed(problem: Problem) -> Expr:
-    """Return the Hamiltonian; SceneError if there is none or it does not depend on time."""
+    """Return the Hamiltonian; raise SceneError if the problem has no Hamiltonian that depends on time."""
     if problem.hamiltonian is None or not problem.paired:
         raise SceneError(f"{problem.name} has no momentum u", expected="a Hamiltonian scene")
     if not _reads(problem.hamiltonian, TIME):

@@ -1,8 +1,8 @@
 """The interface of exact flows, which advance the state of a problem along one part of its Hamiltonian.
 
-The part H_k of H = sum H_k moves (q, mu) for a time tau along q' = xi.q, mu' = n - ad*_xi mu with xi = D_2
-H_k and n = -(D_1 H_k).q^-1 (eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one class for each
-kind of flow in closed form.
+The part H_k of H = sum H_k moves (q, mu) for a time tau along the solution of q' = xi.q, mu' = n - ad*_xi mu
+with xi = D_2 H_k and n = -(D_1 H_k).q^-1 (eq. 2.27 of H. Marthinsen's thesis). :mod:`codegen.flows` has one
+class for each kind of flow in closed form.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from codegen.ir.domain import Domain
 class Flow(ABC):
     """The exact flow of one part, in closed form over any domain.
 
-    ``timed`` says that the part depends on t. The flow then keeps t fixed while the state moves. The argument
-    ``values`` contains the values of all symbols at the start: the state, the parameters and t.
+    ``timed`` is True if the part depends on t. The flow then keeps t fixed while the state moves. The
+    argument ``values`` contains the values of all symbols at the start: the state, the parameters and t.
     """
 
     timed: bool = False
@@ -34,7 +34,9 @@ class Flow(ABC):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (xi, n), the field of this flow; ArithmeticError if only the flow is known."""
+        """Return (xi, n), the field of this flow; raise ArithmeticError if the flow has no formula for its
+        field.
+        """
 
     @abstractmethod
     def text(self) -> str:

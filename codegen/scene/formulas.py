@@ -37,7 +37,7 @@ class Reader:
                 raise SceneError(f"the coordinate {symbol}", where=name, expected="a sympy symbol")
             self._allow(text)
         if len(set(self.coordinates)) != len(self.coordinates):
-            raise SceneError("a coordinate symbol twice", where=name, expected="distinct symbols")
+            raise SceneError("two coordinates have the same symbol", where=name, expected="distinct symbols")
         self.space = Space()
         self.defaults: dict[str, Number] = {}
         self.signals: dict[str, Expr] = {}
@@ -53,7 +53,7 @@ class Reader:
             )
 
     def parameters(self) -> dict[str, Number]:
-        """Return the defaults of the parameters read so far, by name."""
+        """Return the default values of the parameters in the formulas that were read, by name."""
         return dict(sorted(self.defaults.items()))
 
     def _admit(self, symbol: Parameter) -> None:
@@ -62,7 +62,7 @@ class Reader:
         value = Number.rational(*symbol.default)
         if symbol.name in self.coordinates or self.defaults.setdefault(symbol.name, value) != value:
             raise SceneError(
-                f"the parameter {symbol.name} has the name of a coordinate, or two defaults",
+                f"the parameter {symbol.name} has the name of a coordinate, or two default values",
                 where=self.name,
                 expected="one meaning for each name",
             )
@@ -96,7 +96,8 @@ class Reader:
     def scalar(
         self, formula: sympy.Expr, what: str, constant: bool = False, more: Sequence[str] = ()
     ) -> Expr:
-        """Return one formula; its symbols must be coordinates, t, parameters or signals, or in ``more``.
+        """Return one formula as an expression; its symbols must be coordinates, t, parameters, signals or in
+        ``more``.
 
         If ``constant``, the formula may contain only parameters. ``what`` names the formula in messages.
         """
@@ -129,7 +130,7 @@ class Reader:
         constant: bool = False,
         more: Sequence[str] = (),
     ) -> tuple[Expr, ...]:
-        """Return n formulas."""
+        """Return a column of n formulas as expressions."""
         try:
             entries = list(formulas)
         except TypeError:
@@ -142,6 +143,6 @@ class Reader:
 
 
 def _free_symbols(formula: sympy.Expr) -> Iterable[sympy.Symbol]:
-    """Return the symbols of a sympy formula; a Python number has none."""
+    """Return the symbols of a sympy formula; the result is empty for a Python number."""
     symbols: Iterable[sympy.Symbol] = getattr(formula, "free_symbols", ())
     return symbols

@@ -86,8 +86,9 @@ def HamiltonianScene(
 
 
 def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:
-    """Return the reader of a scene's formulas; raise SceneError for a wrong group or number of
-    coordinates."""
+    """Return the object that reads the formulas of a scene; raise SceneError for a wrong group or a wrong
+    number of coordinates.
+    """
     check_group(name, group)
     group.require(Coadjoint, where=name)
     reader = Reader(name, [*q, *mu])
@@ -170,11 +171,11 @@ class _CanonicalSystem:
         formulas: dict[str, tuple[Expr, ...]] = {}
         for key, (q, mu) in flows.items():
             if key not in self.summands:
-                known = ", ".join(self.summands) or "none: the scene names no parts"
+                known = ", ".join(self.summands) or "no flows, because the scene has no parts"
                 raise SceneError(
                     f"a flow of {key!r}",
                     where=self.reader.name,
-                    expected=f"a flow of one of the parts: {known}",
+                    expected=f"a flow for one of the parts {known}",
                 )
             element = self.reader.column(q, len(self.qs), f"q of the flow of {key}", more=(TAU,))
             momentum = self.reader.column(mu, len(self.mus), f"mu of the flow of {key}", more=(TAU,))

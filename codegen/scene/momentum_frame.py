@@ -11,11 +11,13 @@ from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
 FRAMES = (SPACE, BODY)
-"""The frames of the momentum: ``space`` is right-trivialised, ``body`` is left-trivialised."""
+"""The frames of the momentum: ``space`` denotes the right-trivialised and ``body`` the left-trivialised
+momentum.
+"""
 
 
 def with_frame(problem: Problem, frame: str) -> Problem:
-    """Return the problem, changed so that emitted code accepts and returns momenta in the given frame.
+    """Return the problem for which emitted code accepts and returns momenta in the given frame.
 
     ``frame`` is ``space`` for the right-trivialised momentum mu or ``body`` for the left-trivialised momentum
     Ad*_q mu. Step programs compute with mu in both cases. A :class:`SceneError` is raised if ``frame`` is

@@ -1,7 +1,7 @@
 """The operations of step programs that a group or an action implements, by name.
 
 :mod:`codegen.ir.operations` describes the arguments. Some operations need a capability of the group: they
-raise :class:`codegen.errors.SceneError` for a group without it.
+raise :class:`codegen.errors.SceneError` for a group without this capability.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Sample points on the manifold of a problem, at which formulas are compared.
 
-The points are on the orbit of the initial state under the group, at times of the span. Two formulas that are
-equal only by the equations of the group, such as g^T g = 1, are equal at these points. Numbers have 40
-digits.
+The points are on the orbit of the initial state under the group, at times of the span. Two formulas may be
+equal only because the state satisfies the equations of the group, such as g^T g = 1. At the sample points
+such formulas have equal values. Numbers have 40 digits.
 """
 
 from __future__ import annotations
@@ -27,11 +27,12 @@ if TYPE_CHECKING:
 
 DIGITS = 40
 TOLERANCE = Fraction(1, 10**20)
-"""The allowed rounding error of a sum, relative to the size of its terms. It is larger than the unit
-roundoff, because the terms may contain cancellation."""
+"""The allowed rounding error of a sum, relative to the size of its terms. It is much larger than the unit
+roundoff, because the terms may contain cancellation errors.
+"""
 
 FLOOR = Fraction(1, 10**28)
-"""The allowed absolute error, for sums whose terms are small because of cancellation in the terms."""
+"""The allowed absolute error. It is needed if all terms are small because of cancellation in the terms."""
 
 POINTS = 4
 """The number of sample points: the initial state and three random points of its orbit."""
@@ -56,14 +57,14 @@ class Orbit:
 
     @cached_property
     def domain(self) -> PreciseDomain:
-        """The domain of the numbers that are compared."""
+        """The domain in which formulas are evaluated for a comparison."""
         return PreciseDomain(0, DIGITS)
 
     @cached_property
     def points(self) -> tuple[dict[str, mpmath.mpf], ...]:
         """Values of all symbols at the initial state and at points of its orbit where f is finite.
 
-        SceneError if f is not finite at the initial state.
+        Raises :class:`SceneError` if f is not finite at the initial state.
         """
         d, rng = self.domain, random.Random("orbit")
         constants = {name: d.number(x) for name, x in self.parameters.items()}
@@ -96,7 +97,7 @@ class Orbit:
         return start
 
     def values(self, roots: Sequence[Expr], values: dict[str, mpmath.mpf]) -> tuple[mpmath.mpf, ...] | None:
-        """Return formulas at a point; None if they cannot be evaluated there."""
+        """Return the values of formulas at a point; None if a formula cannot be evaluated at this point."""
         try:
             return tuple(evaluate(roots, self.domain, values))
         except (ArithmeticError, ValueError):
@@ -113,18 +114,18 @@ class Orbit:
         return self.action.velocity(self.domain, self.group, f, y)
 
     def sized(self, total: mpmath.mpf, terms: Sequence[mpmath.mpf]) -> bool:
-        """Return whether a sum is zero up to rounding, relative to the size of its terms."""
+        """Return True if a sum is zero up to rounding errors, relative to the size of its terms."""
         size = sum((abs(x) for x in terms), self.domain.rational(0))
         relative, absolute = (self.domain.rational(*x.as_integer_ratio()) for x in (TOLERANCE, FLOOR))
         return bool(abs(total) <= relative * size + absolute)
 
     def vanish(self, roots: Sequence[Expr]) -> bool:
-        """Return whether formulas vanish at all points."""
+        """Return True if all formulas vanish at all sample points."""
         values = [self.values(roots, point) for point in self.points]
         return all(row is not None and all(self.sized(x, (1,)) for x in row) for row in values)
 
     def text(self, x: mpmath.mpf) -> str:
-        """Return the text of a number for a message."""
+        """Return a number as text for a message."""
         return str(self.domain.context.nstr(x, 6))
 
 

@@ -1,7 +1,7 @@
 """Tests whether the projection of a scene's action reaches the orbit of the initial state.
 
-An action of a group without projection returns a point unchanged (:meth:`Action.to_orbit`). In this case the
-results of a method that relies on the projection stay on the orbit only if the orbit is open.
+If a group has no projection, its action returns a point unchanged (:meth:`Action.to_orbit`). Then the results
+of a method that relies on the projection stay on the orbit only if the orbit is open.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from codegen.ir.domain import FloatDomain
 from codegen.scene.problem import Problem
 
 DISPLACEMENT = 1e-4
-"""The distance of a point from the orbit before it is projected."""
+"""The distance from the orbit of the points that are projected in the test."""
 
 REDUCED = 1e-2
 """A projection reduces a small distance to about its square. The test requires that the distance after the
@@ -27,8 +27,8 @@ INDEPENDENT times the vector.
 
 
 def reaches_orbit(problem: Problem) -> bool:
-    """Return True if the orbit of the initial state is open, or points near the initial state are projected
-    onto it.
+    """Return True if the orbit of the initial state is open, or if the projection of the action maps points
+    near the initial state onto the orbit.
 
     Each direction perpendicular to the orbit is tested at the initial state.
     """
@@ -50,8 +50,10 @@ def reaches_orbit(problem: Problem) -> bool:
 def _orthonormal(
     vectors: Sequence[Sequence[float]], known: Sequence[Sequence[float]] = ()
 ) -> list[list[float]]:
-    """Return an orthonormal basis of the part of the span of ``vectors`` that is perpendicular to ``known``,
-    which is orthonormal."""
+    """Return an orthonormal basis that extends ``known`` to a basis of the span of ``vectors`` and ``known``.
+
+    The vectors in ``known`` must be orthonormal; the result does not contain them.
+    """
     basis: list[list[float]] = []
     for vector in vectors:
         # The projection is made twice, because the second projection removes the rounding errors of the first

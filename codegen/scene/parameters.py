@@ -11,8 +11,8 @@ from codegen.ir.number import is_normal
 
 
 class Parameter(sympy.Symbol):  # type: ignore[misc]
-    """A real symbol with the default p/q; parameters with the same name but different defaults are different
-    symbols.
+    """A real symbol with the default value p/q. Parameters with the same name but different default values
+    are different symbols.
 
     >>> Parameter("beta", 1) == Parameter("beta", 1), Parameter("beta", 1) == Parameter("beta", 2)
     (True, False)
@@ -73,7 +73,7 @@ def param(name: str, default: object) -> Parameter:
 
 
 def signal(name: str, formula: object = 0) -> Signal:
-    """Return a sympy symbol for a function of time, for example a control or a measured load.
+    """Return a sympy symbol for a function of time, for example a control input or a measured load.
 
     Emitted code evaluates ``formula``, which may contain t and parameters, unless the signal is requested as
     a run-time input (``emit --input NAME``). :class:`SceneError` is raised for a formula that sympy cannot

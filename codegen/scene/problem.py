@@ -1,4 +1,4 @@
-"""Problems: scenes in the form that step programs evaluate, over any domain.
+"""Problems: scenes in the form that step programs evaluate, over any number domain.
 
 A scene is read once. Its sympy formulas become exact, hash-consed expressions, and derivatives are taken by
 reverse differentiation. The problem can then be evaluated over any domain: the interpreter and the compiler
@@ -51,17 +51,18 @@ class Problem:
     """A scene in the form that programs evaluate: group, action, state, and a field or a Hamiltonian.
 
     ``roots`` are the components of f (field scenes) or of xi and n (Hamiltonian scenes) as expressions in the
-    state's symbols, the parameters and ``t``. ``paired`` says that the state is (q, mu). ``parts`` are named
+    state's symbols, the parameters and ``t``. ``paired`` is True if the state is (q, mu). ``parts`` are named
     summands of the Hamiltonian, ``flows`` the exact flows that a splitting composes, ``stated`` the formulas
-    of (q, mu) after the time tau for parts whose flow the scene gives.
+    of (q, mu) after the time tau for parts whose flow the scene defines.
 
     ``runtime`` names the parameters that stay inputs of emitted code, ``fixed`` the parameters whose value is
     not the default. ``roots`` contain the formulas of the signals; ``open_roots`` are the same components
     with the symbols of ``signals`` in place of these formulas. ``inputs`` are the signals that emitted code
-    reads at run time. ``forced`` says that n is not a derivative of the Hamiltonian alone. If emitted code
-    reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution`` contains the
-    coordinates in which a step of Taylor's method computes. ``derived`` stores the problems that families
-    derive from this one, by the kind of the family, because a search lowers hundreds of methods.
+    reads at run time. ``forced`` is True if n contains a force that is not a derivative of the Hamiltonian.
+    If emitted code reads and returns momenta in the body frame, ``body_group`` is the group. ``evolution``
+    contains the coordinates in which a step of Taylor's method computes. ``derived`` stores the problems that
+    families derive from this problem, by the kind of the family. A search uses each of them for hundreds of
+    methods.
     """
 
     name: str
@@ -108,7 +109,7 @@ class Problem:
         return self.group.dim
 
     def as_field(self) -> Problem:
-        """Return a Hamiltonian problem as the field f = (xi, n) on the group T*G acting on itself."""
+        """Return a Hamiltonian problem as the field f = (xi, n) of the group T*G, which acts on itself."""
         if not self.paired:
             return self
         q, mu = self.state
@@ -131,7 +132,9 @@ class Problem:
         return values
 
     def apply(self, domain: Domain, name: str, order: int | None, args: Values) -> Values:
-        """Return the results of a group, action or scene operation of a program."""
+        """Return the results of an operation of a step program that the group, the action or the scene
+        defines.
+        """
         if name in TRUNCATED:
             return (TRUNCATED[name](self.group, domain, *args, order),)
         if name in ON_GROUP:
@@ -173,7 +176,7 @@ class Problem:
 
     @property
     def has_body(self) -> bool:
-        """True if the field has formulas in the body frame."""
+        """True if the field has formulas in the body frame of the group."""
         return self.body is not None
 
     @cached_property

@@ -14,9 +14,9 @@ from codegen.scene.problem import Problem
 def with_runtime(problem: Problem, names: Sequence[str]) -> Problem:
     """Return a problem in which some parameters are run-time inputs, or constants with another value.
 
-    ``alpha`` makes alpha an input, ``alpha=1/2`` makes it the constant 1/2; then the invariants and the
-    initial state are checked again. :class:`SceneError` is raised for an unknown parameter, for two values of
-    one parameter, and for a value that is not a number.
+    The text ``alpha`` makes the parameter alpha an input. The text ``alpha=1/2`` makes alpha the constant
+    1/2; then the invariants and the initial state are checked with this value. :class:`SceneError` is raised
+    for an unknown parameter, for two values of one parameter, and for a value that is not a number.
     """
     values = dict(problem.parameters)
     runtime, fixed, folded = set(problem.runtime), dict(problem.fixed), set[str]()
@@ -51,6 +51,6 @@ def with_inputs(problem: Problem, names: Sequence[str]) -> Problem:
     signal."""
     for name in names:
         if name not in problem.signals:
-            known = ", ".join(problem.signals) or "none: the scene has no signal"
+            known = ", ".join(problem.signals) or "no signals, because the scene has no signal"
             raise SceneError(f"unknown signal {name!r}", where=problem.name, expected=f"one of: {known}")
     return replace(problem, inputs=tuple(dict.fromkeys(names)))

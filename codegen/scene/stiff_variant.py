@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from codegen.scene.problem import Problem
 
 RADIANS = 200
-"""The largest angle in radians by which the fastest rotation of a variant turns over the span, if the
-rotation is not damped.
+"""The largest angle in radians of the fastest rotation of a variant over the time span, if the rotation is
+not damped.
 
-Beyond a few hundred radians the phase error hides the order of every explicit method.
+For angles above a few hundred radians the phase error hides the order of every explicit method.
 """
 
 

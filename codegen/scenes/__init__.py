@@ -1,5 +1,8 @@
-"""The gallery of scenes (one file for each), registered scenes, and loading a scene by name or from a user's
-file."""
+"""The gallery of scenes, registered scenes, and the function that loads a scene by name or from a Python
+file.
+
+The package contains one file for each scene of the gallery.
+"""
 
 from __future__ import annotations
 
@@ -45,18 +48,19 @@ GALLERY = (
 )
 
 EXTENDED = "+u"
-"""A scene name with this suffix means the scene extended by the time and its momentum."""
+"""The suffix of a scene name that denotes the scene extended by the time and the momentum of the time."""
 
 _REGISTERED: dict[str, tuple[Problem, str]] = {}
-"""Scenes defined elsewhere, by name, and their descriptions."""
+"""The registered scenes and their descriptions, by name."""
 
 
 def register(name: str, scene: Problem, about: str = "") -> Problem:
     """Register a scene under a name for all commands of this process, and return the scene with this name.
 
-    ``about`` describes the scene in reports. A second scene of the same name replaces the first.
-    :class:`SceneError` is raised for an object that is no scene, for a name of the gallery, and for a name
-    that is no identifier. A scene in a Python file needs no registration: the path of the file is its name.
+    ``about`` describes the scene in reports. If the name is already registered, the new scene replaces the
+    old scene. :class:`SceneError` is raised for an object that is no scene, for a name of the gallery, and
+    for a name that is no identifier. A scene in a Python file needs no registration: the path of the file is
+    its name.
     """
     if not isinstance(scene, Problem):
         raise SceneError(f"cannot register {scene!r}", where=name, expected="a scene")
@@ -73,7 +77,7 @@ def unregister(name: str) -> None:
 
 
 def names() -> tuple[str, ...]:
-    """Return the names of the gallery and of registered scenes."""
+    """Return the names of all scenes in the gallery and of all registered scenes."""
     return (*GALLERY, *_REGISTERED)
 
 
@@ -81,7 +85,7 @@ def load(name: str) -> Problem:
     """Return a gallery scene, a registered scene, or the variable ``scene`` of the Python file at the path
     ``name``.
 
-    ``NAME+u`` is a Hamiltonian scene extended by the time and its momentum
+    ``NAME+u`` is a Hamiltonian scene extended by the time and the momentum of the time
     (:mod:`codegen.scene.extended_phase_space`). ``NAME[alpha=1/2,eps=3]`` is a scene in which parameters have
     other values. :class:`SceneError`, with file and line, is raised for a file that fails or defines no
     scene.
@@ -101,8 +105,7 @@ def load(name: str) -> Problem:
 
 
 def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
-    """Return the scene that an argument of a function in Python denotes: a problem, a name, or the path of a
-    Python file.
+    """Return the scene for an argument of a Python function: a problem, a name, or the path of a Python file.
 
     >>> problem_of("dipole").name
     'dipole'
@@ -119,7 +122,7 @@ def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
 
 
 def with_values(name: str, parameters: Sequence[str]) -> str:
-    """Return the name of a scene with other values of parameters, each given as ``NAME=VALUE``.
+    """Return the name of a scene in which parameters have other values; each value is a text ``NAME=VALUE``.
 
     Raises :class:`SceneError` for a parameter without a value.
 
@@ -160,7 +163,8 @@ def _load(name: str) -> Problem:
 
 
 def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
-    """Return the stiff variants that the file of a gallery scene defines; all other scenes have none.
+    """Return the stiff variants that the file of a gallery scene defines; all other scenes have no stiff
+    variants.
 
     A user's scene has no variants, even if it has the name of a gallery scene.
     """
@@ -173,7 +177,7 @@ def stiff_variants(scene: Problem) -> tuple[StiffVariant, ...]:
 
 def _run(name: str, path: Path) -> Problem:
     """Return the scene that a Python file defines."""
-    # a very large file raises SceneError
+    # A very large file raises SceneError.
     read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.
@@ -184,7 +188,8 @@ def _run(name: str, path: Path) -> Problem:
         raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error
     except KeyboardInterrupt:
         raise
-    except BaseException as error:  # a scene may also raise SystemExit, or its own BaseException
+    # A scene may also raise SystemExit, or an exception class that is derived from BaseException.
+    except BaseException as error:
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
     if not isinstance(scene, Problem):

@@ -1,8 +1,8 @@
-"""Actuated rigid body: a body turned by three thrusters or wheels, on T*SO(3); their torques are signals.
+"""Actuated rigid body: a body turned by three thrusters or wheels, on T*SO(3); the torques are signals.
 
-mu' = n - ad*_xi mu + g u, where u contains the torques in the body frame and g rotates them to space. The
-formulas below are defaults for torques that are not supplied at run time. With u = 0 the scene is
-``free_rigid_body_attitude``.
+mu' = n - ad*_xi mu + g u, where u contains the torques in the body frame and the attitude g rotates them to
+space. The formulas below are the defaults: emitted code uses them for torques that are not supplied at run
+time. With u = 0 the scene is ``free_rigid_body_attitude``.
 """
 
 from sympy import Matrix, Rational, Symbol, cos, diag, eye, sin
@@ -19,7 +19,7 @@ formulas = (sin(t) / 2, Rational(1, 10), cos(2 * t) / 5)
 u = Matrix([signal(f"u{k}", formula) for k, formula in enumerate(formulas)])
 
 scene = HamiltonianScene(
-    title="Rigid body turned by torques in the body, T*SO(3)",
+    title="Rigid body turned by torques in the body frame, T*SO(3)",
     group=G,
     q=g,
     mu=mu,

@@ -1,7 +1,8 @@
-"""Dipole on a stick: a pendulum with a charged dipole at its end near a fixed charge, on T*SO(3).
+"""Dipole on a stick, on T*SO(3): a pendulum with a charged dipole at its end, near a fixed charge.
 
-H. Marthinsen's thesis, section 3.6. The gravity term has a minus sign here, but a plus sign in the printed
-Hamiltonian: only the minus sign reproduces the energies and errors printed in the thesis.
+H. Marthinsen's thesis, section 3.6. The gravity term has a plus sign in the Hamiltonian that the thesis
+prints. The sign in this scene is minus, because only the minus sign reproduces the energies and errors in the
+thesis.
 """
 
 import math

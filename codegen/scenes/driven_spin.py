@@ -1,8 +1,9 @@
 """Driven spin on the sphere: the Landau-Lifshitz equation with anisotropy, damping and a rotating field.
 
 m' = w x m with w = H + alpha m x H and H = (a cos nu t, a sin nu t, K m_3 + b): the equation depends on time
-and is dissipative, and its generator w has a component along m. The scene therefore tests terms of a method
-that vanish on simpler scenes. ``stiff_driven_spin`` has the same equation with fast rates.
+and is dissipative, and its generator w has a component along m. On simpler scenes some terms of a method
+vanish; on this scene no term vanishes, so an error in any term is visible. ``stiff_driven_spin`` has the same
+equation with fast rates.
 """
 
 from sympy import Expr, Matrix, Rational, Symbol, cos, sin
@@ -13,7 +14,10 @@ from codegen.scene.problem import Problem
 
 
 def driven_spin(title: str, anisotropy: Expr, damping: Expr, drive: Expr, end: Expr) -> Problem:
-    """Return the scene with the constants K, alpha and a as parameters, from 0 to ``end``."""
+    """Return the scene on the time interval from 0 to ``end``.
+
+    ``anisotropy``, ``damping`` and ``drive`` are the default values of the parameters K, alpha and a.
+    """
     G, t = SO3(), Symbol("t")
     m = G.dual("m")
     K, alpha, a = param("K", anisotropy), param("alpha", damping), param("a", drive)

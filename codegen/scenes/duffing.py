@@ -1,10 +1,11 @@
-"""Duffing's equation on the plane, in the first of three frames: translations.
+"""Duffing's equation on the plane, as a field of the group of translations.
 
-H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. The frame determines which part
-of the equation a Lie group method keeps constant in a step: the whole field in this scene, so that every
-family reduces to its classical method, the stiffness of the spring in ``duffing_sl2``, and the cubic part of
-the force in ``duffing_se2``. The errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 here, 1.1e-2 for
-``duffing_sl2`` and 1.6e-2 for ``duffing_se2``.
+H. Marthinsen's thesis, section 2.2: x' = y, y' = -a x - b x^3 with a = b = 1. Three scenes contain this
+equation with three groups. The group determines which part of the equation a Lie group method keeps constant
+in a step. In this scene it is the whole field, so every family reduces to its classical method. In
+``duffing_sl2`` it is the stiffness of the spring, and in ``duffing_se2`` the cubic part of the force. The
+errors of Lie-Euler with 50 steps to t = 2 are 9.2e-2 for ``duffing``, 1.1e-2 for ``duffing_sl2`` and 1.6e-2
+for ``duffing_se2``.
 """
 
 from collections.abc import Sequence
@@ -21,7 +22,9 @@ field = Matrix([y, -x - x**3])
 
 
 def duffing(frame: str, group: LieGroup, action: Action, f: Sequence[Expr]) -> Problem:
-    """Return the scene with f(z) in the algebra of a group that acts on the plane."""
+    """Return the scene of Duffing's equation for a group that acts on the plane; f(z) is in its Lie
+    algebra.
+    """
     return FieldScene(
         title=f"Duffing's equation, {frame}",
         group=group,

@@ -38,7 +38,7 @@ scene = HamiltonianScene(
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return heavy tops with inertia ratios of 1e3 and 1e6, spinning about their thin axis."""
+    """Return heavy tops with inertia ratios of 1e3 and 1e6 that spin about their axis of smallest inertia."""
     return [_thin_top(ratio) for ratio in (10**3, 10**6)]
 
 

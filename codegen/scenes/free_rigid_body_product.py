@@ -1,6 +1,6 @@
 """Free rigid body with its attitude on SO(3) x R^3: attitude in the group, momentum in a vector space.
 
-g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). The body is that of
+g' = g hat(W), W = I^-1 P, P' = P x W (Hairer and Vilmart 2006). The moments of inertia are the same as in
 ``free_rigid_body_attitude``. The attitude stays a rotation, but P may be any vector. A method preserves |P|
 and the energy only up to its order, whereas methods with the coadjoint action or on T*SO(3) preserve the
 momentum.
@@ -20,7 +20,7 @@ space = g * P
 
 
 def hat(w: Matrix) -> Matrix:
-    """The matrix of the cross product with w."""
+    """Return the matrix of the linear map v -> w x v."""
     return Matrix([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
 
 

@@ -1,8 +1,8 @@
 """Free rigid body with its attitude as a quaternion, on S^3 x R^3: the momentum in a vector space.
 
 q' = q (0, W)/2 with Hamilton's product, real part first, from the body to space; W = I^-1 P, P' = P x W
-(Hairer and Vilmart 2006). The body is that of ``free_rigid_body_product``, but its attitude has four
-coordinates and not nine.
+(Hairer and Vilmart 2006). The moments of inertia are the same as in ``free_rigid_body_product``; the attitude
+has four coordinates in place of nine.
 """
 
 from sympy import Matrix, Rational, diag

@@ -1,9 +1,9 @@
 """Free rigid body: its attitude as a unit quaternion, on S^3 acting on itself.
 
-H. Marthinsen's thesis, section 2.6: q' = f(q) q with f(q) = q v q^c, v = I^-1 E(q^c) m0/2, E the
-Euler-Rodrigues map and m0 the momentum in space. The moments of inertia differ widely, so the energy varies
-strongly on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1); the printed formula lacks the
-inverse.
+H. Marthinsen's thesis, section 2.6: q' = f(q) q with f(q) = q v q^c and v = I^-1 E(q^c) m0/2. E is the
+Euler-Rodrigues map, and m0 is the momentum in space. The moments of inertia differ widely, so the energy
+varies strongly on the group. The initial angular velocity I^-1 m0 is (1, 1/2, -1); the formula in the thesis
+lacks the inverse of I.
 """
 
 from sympy import Expr, Matrix, Rational, diag
@@ -19,8 +19,9 @@ axis = Matrix(q[1:])
 
 
 def turned(real: Expr, v: Matrix) -> Matrix:
-    """The vector v, rotated by the quaternion whose real part is ``real`` and whose imaginary part is that of
-    q."""
+    """Return the vector v, rotated by the quaternion with the real part ``real`` and the imaginary part of
+    q.
+    """
     c = 2 * axis.cross(v)
     return v + real * c + axis.cross(c)
 

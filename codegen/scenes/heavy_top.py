@@ -1,7 +1,8 @@
 """Heavy top as printed in H. Marthinsen's thesis, section 2.5, on T*SO(3): a right-invariant kinetic energy.
 
-The inertia tensor acts on the right-trivialised momentum, so it is fixed in space; a top with its inertia in
-the body is ``fast_heavy_top``. The momentum about the body's third axis is conserved.
+The inertia tensor acts on the right-trivialised momentum, so the inertia is fixed in space. The scene
+``fast_heavy_top`` is a top whose inertia is fixed in the body. The momentum about the body's third axis is
+conserved.
 """
 
 from sympy import Matrix, diag, eye

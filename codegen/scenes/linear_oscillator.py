@@ -2,8 +2,8 @@
 
 H = ((omega^2 + eps sin(alpha t)) q.q + p.p)/2 with omega = 1 (H. Marthinsen's thesis, paper 3, Table 4.1). On
 R^n brackets vanish and exponentials are sums: RKMK, CG and CF methods are Runge-Kutta methods, variational
-methods are symplectic partitioned Runge-Kutta methods. The field depends on time, so a wrong stage time
-lowers the measured order.
+methods are symplectic partitioned Runge-Kutta methods. The scene tests stage times: the field depends on
+time, so a wrong stage time lowers the measured order.
 """
 
 from dataclasses import replace
@@ -39,7 +39,7 @@ scene = HamiltonianScene(
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return oscillators of frequency 1e3 and 1e6, over at most three units of time."""
+    """Return oscillators with the frequencies 1e3 and 1e6, on time intervals of length at most 3."""
     return [_oscillator(omega) for omega in (10**3, 10**6)]
 
 

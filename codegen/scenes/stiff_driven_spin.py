@@ -14,6 +14,6 @@ scene = driven_spin("Stiff driven spin on the sphere", 2000, Rational(1, 2), 100
 
 
 def stiff_variants() -> list[StiffVariant]:
-    """Return the scene itself: rates 2000 and 1000."""
+    """Return the scene itself as its only stiff variant."""
     named = replace(scene, name=__name__.rpartition(".")[2])
     return [StiffVariant("stiff driven spin", "rates 2000 and 1000", named, 2000.0)]

@@ -1,11 +1,11 @@
 """Compensated steps: the state together with the rounding error of each coordinate (Kahan summation).
 
-A step y1 = y0 + d rounds the sum at the last bit of y0, however small d is. Compensation adds this rounding
-error, called the carry, to the increment d of the next step: with
-s = d + carry, y1 = y0 + s and carry' = s - (y1 - y0). The remaining errors are the rounding errors of d,
-which are smaller by the factor d/y0. A step exp(x) y0 of a group action also has an increment: it is
-y0 + (exp(x) - 1) y0, and the entries of exp(x) - 1 are computed without cancellation. The increments are
-extracted from the kernel, for any method.
+A step y1 = y0 + d rounds the sum to the last bit of y0, even if d is small. Compensation adds this rounding
+error, called the carry, to the increment d of the next step: with s = d + carry, y1 = y0 + s and carry' = s -
+(y1 - y0). The remaining errors are the rounding errors of d, which are smaller by the factor d/y0. A step
+exp(x) y0 of a group action also has an increment: it is y0 + (exp(x) - 1) y0, and the entries of exp(x) - 1
+are computed without cancellation. The formulas of the increments are derived from the compiled step of any
+method.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def compensated(compiled: Compiled) -> Compiled:
     Raises :class:`MethodError` if the new value of some coordinate is not the old value plus an increment.
     """
     kernel = compiled.kernel
-    if kernel.deferred is not None:  # one step must be complete, without deferred flows
+    if kernel.deferred is not None:  # The step must be complete: no flow may be deferred to the next step.
         kernel = to_kernel(compiled.program, compiled.problem)
     if kernel.carried is not None:
         solvers = {loop.label: loop.solver for loop in kernel.loops}
@@ -41,7 +41,9 @@ def compensated(compiled: Compiled) -> Compiled:
 
 
 def with_carries(kernel: Kernel) -> Kernel:
-    """Return a kernel with a carry for each coordinate. Errors: those of :func:`compensated`."""
+    """Return a kernel with a carry for each coordinate. The function raises the same errors as
+    :func:`compensated`.
+    """
     space = kernel.outputs[0].space
     increments = Increments(kernel)
     symbols = [s for field in kernel.state for s in field.symbols]
@@ -51,7 +53,7 @@ def with_carries(kernel: Kernel) -> Kernel:
         if added is None:
             raise MethodError(
                 f"the new value of {name} is not its old value plus an increment",
-                expected="a method that adds an increment to every coordinate",
+                expected="a method that adds an increment to each coordinate of the old state",
             )
         if added.is_zero:
             sums.append(old)
@@ -98,7 +100,7 @@ _EMPTY = Kernel("", (), (), (), ())
 class Increments:
     """Expressions for the differences e - x and f - 1 that avoid the cancellation of leading digits.
 
-    They exist if e has the form x + increment, and f the form 1 + increment.
+    A difference has this expression only if e has the form x + increment, or f the form 1 + increment.
     """
 
     def __init__(self, kernel: Kernel) -> None:

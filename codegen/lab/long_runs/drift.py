@@ -1,21 +1,22 @@
 """The drift of a conserved quantity: a slope with its confidence interval, and the growth of the deviation.
 
-Errors along one trajectory are correlated, so the interval of a least-squares line would be far too narrow.
-The record is cut into blocks much longer than its oscillations. Block means are nearly independent, and a
-line through them has an interval from Student's distribution (batch means). The correlation of consecutive
-residuals that remains widens the interval.
+Errors along one trajectory are correlated, so the confidence interval of a least-squares line would be far
+too narrow. Therefore the record is cut into blocks that are much longer than its oscillations. The means over
+the blocks are nearly independent, so a line through these means has an interval from Student's distribution
+(method of batch means). If consecutive residuals are still correlated, the interval is widened.
 
 A modulation that is slower than the blocks also has a slope, and its interval may exclude zero. A drift
-therefore also has to persist: the means over five consecutive parts of the record must be monotone. A
-sinusoid passes this test only if its period is longer than 1.2 records.
+therefore also has to persist: the record is divided into five consecutive parts, and their means must be
+monotone. A sinusoid passes this test only if its period is longer than 1.2 times the record.
 
 A random walk has a slope, too, and its residuals are correlated over the whole record. A drift therefore also
-has to differ from a random walk: the residuals of the line spread much less than those of a random walk with
-the same increments, or the mean increment is far larger than a random walk explains. The spread is that of
-J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
+has to differ from a random walk: the variance of the residuals is much smaller than for a random walk with
+the same increments, or the mean increment is far larger than a random walk explains. The test of the variance
+is due to J. D. Sargan and A. Bhargava, Econometrica 51 (1983) 153.
 
-The growth of a deviation may end, for example at a fixed point of the method. A line through the whole record
-then has the slope of the constant part. A record that saturates is therefore fitted before it saturates.
+The growth of a deviation may end, for example at a fixed point of the method. In this case a line through the
+whole record would have nearly the slope zero. The line is therefore fitted to the part of the record before
+the deviation saturates.
 """
 
 from __future__ import annotations
@@ -29,61 +30,71 @@ import numpy
 
 BLOCKS = 20
 FEWEST = 2 * BLOCKS
-"""Smallest number of samples of a fit."""
+"""The smallest number of samples to which a line is fitted."""
 
 CONFIDENCE = 0.95
 PARTS = 5
-"""A drift is monotone in the means of PARTS parts of the record."""
+"""The record is divided into PARTS parts. For a drift, the means of the parts must be monotone."""
 
 LOST = 1.0
-"""Relative deviation from which a quantity counts as lost: the error is as large as the quantity itself."""
+"""A quantity counts as lost if its relative deviation is at least LOST. The deviation is then as large as the
+quantity.
+"""
 
 BOUNDED, WALK = 0.25, 0.75
 """A deviation may be bounded if its growth exponent is below BOUNDED, and a random walk if the exponent is
 between BOUNDED and WALK."""
 
 LATE, LATE_CONFINED = 1.5, 2.0
-"""A bounded deviation is at most LATE times as large in the whole record as in its first half, and at most
-LATE_CONFINED times if a random walk is excluded."""
+"""The largest deviation of the whole record is divided by the largest deviation of its first half. If the
+deviation is bounded, this ratio is at most LATE, or at most LATE_CONFINED if a random walk is excluded.
+"""
 
 LEVEL, STAYS = 0.9, 0.5
-"""A record saturates if the deviation reaches LEVEL times its largest value in the first half, and never
-returns below STAYS times this value."""
+"""A deviation saturates if it reaches LEVEL times its largest value within the first half of the record, and
+is never smaller than STAYS times the largest value afterwards.
+"""
 
 WALKING = (0.5, 1.6)
-"""The variance ratio of increments over k blocks is about 1/k for noise, 1 for a random walk, and up to k for
-a slow modulation. The ratios of a random walk are between these bounds."""
+"""Bounds of the variance ratio of increments over k blocks for a random walk. The ratio is about 1 for a
+random walk, about 1/k for noise, and up to k for a slow modulation.
+"""
 
 CONFINED = 0.04
 """The variance of block means about their mean, in units of the number of blocks times the variance of their
 increments. It is less than CONFINED for 3 % of all random walks, of any length and size."""
 
 STRAIGHT = 0.0225
-"""The same variance about a line. It is less than STRAIGHT for 1 % of all random walks."""
+"""The variance of block means about a line, in the units of CONFINED. It is less than STRAIGHT for 1 % of all
+random walks.
+"""
 
 STEADY = 3.2
 """The mean increment over BLOCKS blocks in units of its standard error. It exceeds STEADY for 1 % of all
 random walks."""
 
 TINY = 1e-24
-"""Smaller variances, relative to the square of the largest deviation, consist of rounding errors."""
+"""A variance below TINY times the square of the largest deviation consists of rounding errors."""
 
 FINE, NEAR, FAR = 100, 5, 20
-"""A record has FINE blocks for the variance ratios of increments over NEAR and over FAR blocks."""
+"""For variance ratios the record is divided into FINE blocks. One ratio is computed for increments over NEAR
+blocks, and one for increments over FAR blocks.
+"""
 
 
 @dataclass(frozen=True)
 class Drift:
-    """The slope per unit of time, the half width of its 95 % interval, the largest deviation, and its growth.
+    """The result of a fit: the slope per unit of time, the half width of its 95 % interval, the largest
+    deviation, and the growth of the deviation.
 
-    ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random
-    walk, 1 for a drift. ``rounding`` is the largest deviation that rounding errors can explain. If too few
-    values are finite, the slope is NaN. ``persists`` is whether the deviation is monotone in the means of
-    consecutive parts. ``confined`` and ``unlike_walk`` are whether a random walk is excluded as the law of
-    the deviation, without and with a line added to it. ``later`` is the largest deviation divided by the
+    ``exponent`` p means that the largest deviation grows like t^p: 0 if it is bounded, 1/2 for a random walk,
+    1 for a drift. ``rounding`` is the largest deviation that rounding errors can explain. If too few values
+    are finite, the slope is NaN. ``persists`` is True if the means over consecutive parts of the record are
+    monotone. ``confined`` is True if a random walk does not explain the deviation. ``unlike_walk`` is True if
+    a random walk does not explain the slope of the line. ``later`` is the largest deviation divided by the
     largest deviation of the first half. ``ratios`` are the variance ratios of increments over NEAR and over
-    FAR blocks. ``until`` is the time at which the deviation saturates; the slope, its interval,
-    ``exponent`` and ``persists`` are then those of the record before.
+    FAR blocks. ``until`` is the time at which the deviation saturates; the slope, its interval, ``exponent``
+    and ``persists`` then describe the record before this time.
     """
 
     slope: float
@@ -109,7 +120,7 @@ class Drift:
 
         ``lost``: the deviation reaches the size of the quantity, or saturates above half of it. ``exact``:
         there is no deviation. ``rounding``: rounding errors can explain the deviation. ``drift``: the
-        interval of the slope excludes zero, the deviation is monotone in the means of consecutive parts, and
+        interval of the slope excludes zero, the means over consecutive parts of the record are monotone, and
         a random walk does not explain the slope. ``bounded`` and ``random walk``: there is no drift, and the
         growth is that of noise or of a random walk. Otherwise the verdict is ``too short to tell``.
         """
@@ -127,7 +138,8 @@ class Drift:
         if self.until is not None:
             return "bounded"
         ends = not walks and (self.exponent < BOUNDED or near < WALKING[0])
-        # An alternating deviation whose size grows is confined to no interval, though its mean does not grow.
+        # If a deviation alternates and its size grows, its mean does not grow, but the deviation is not
+        # bounded.
         steady = self.exponent < WALK and not self.is_drift
         confined = self.confined and steady and self.later <= LATE_CONFINED
         if confined or (ends and self.later <= LATE):
@@ -161,10 +173,10 @@ def fit(
     """Return the drift of a quantity from its relative deviations at sampled times.
 
     ``times`` are measured from the start; they decrease in a backward run. A peak is the largest absolute
-    deviation in the interval that ends at a sample, a low the smallest; ``peaks`` and ``lows`` are by default
-    the absolute values of the samples. If a value is not finite, the slope is fitted to the values before it,
-    and the largest deviation is infinite. If the deviation saturates after at least :data:`FEWEST` samples,
-    the slope is fitted to the samples before.
+    deviation in the interval that ends at a sample, and a low is the smallest absolute deviation. ``peaks``
+    and ``lows`` are by default the absolute values of the samples. If a value is not finite, the slope is
+    fitted to the values before it, and the largest deviation is infinite. If the deviation saturates after at
+    least :data:`FEWEST` samples, the slope is fitted to the samples before.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift
@@ -191,7 +203,7 @@ def fit(
 
 
 def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | numpy.ndarray) -> int | None:
-    """Return the sample at which a deviation saturates; None if it does not.
+    """Return the index of the sample at which a deviation saturates; None if it does not saturate.
 
     >>> saturation([0.1 * min(k, 10) for k in range(40)], [0.1 * min(k, 10) for k in range(40)])
     9
@@ -206,7 +218,7 @@ def saturation(peaks: Sequence[float] | numpy.ndarray, lows: Sequence[float] | n
 def _fitted(t: numpy.ndarray, y: numpy.ndarray, size: numpy.ndarray) -> Drift:
     """Return the drift of finite values; the caller sets ``largest``, ``rounding`` and ``until``."""
     whole, scale = float(t[-1]), float(size.max()) or 1.0
-    t, y, size = t / whole, y / scale, size / scale  # so that squares do not overflow
+    t, y, size = t / whole, y / scale, size / scale  # scaled, so that squares do not overflow
     slope, half = _slope(t, y)
     means = _means(t, y, PARTS)[1].tolist()
     early = float(size[: (len(size) + 1) // 2].max())
@@ -229,7 +241,7 @@ def _spread(t: numpy.ndarray, y: numpy.ndarray, degree: int) -> float:
     x, z = _means(t, y, min(FINE, len(y) // 2))
     rest = z - numpy.polyval(numpy.polyfit(x, z, degree), x)
     increments = float(numpy.diff(z).var())
-    # If even the increments are rounding errors, the record is a line.
+    # If even the increments are only rounding errors, the record is exactly a line.
     return float(rest.var()) / (len(z) * increments) if increments > TINY else 0.0
 
 
@@ -287,7 +299,9 @@ def _slope(t: numpy.ndarray, y: numpy.ndarray) -> tuple[float, float]:
 
 
 def _exponent(t: numpy.ndarray, size: numpy.ndarray) -> float:
-    """Return the slope of log(largest so far) against log t over the later nine tenths of the record."""
+    """Return the slope of log(d) against log(t), where d is the largest deviation up to the time t. The first
+    tenth of the record is omitted.
+    """
     largest = numpy.maximum.accumulate(size)
     late = (t >= t[0] + 0.1 * (t[-1] - t[0])) & (largest > 0)
     if late.sum() < 2:

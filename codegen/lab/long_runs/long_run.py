@@ -28,18 +28,22 @@ from codegen.lab.orders.step_sizes import rounding as rounding_bound
 from codegen.lab.runner import Emitted
 
 ROUNDING_STEPS = 20_000
-"""The growth of rounding errors is measured from several starts over at most this number of steps."""
+"""The growth of rounding errors is measured over at most this number of steps, from several initial
+states.
+"""
 
 
 EPSILON = 2.0**-52
 UNSTABLE = 1000.0
-"""Rounding errors of an exactly conserved quantity may grow to UNSTABLE times the sum of one epsilon a step.
-A larger deviation has another cause, for example a solver that stops early."""
+"""Rounding errors may change an exactly conserved quantity by at most UNSTABLE * n * EPSILON in n steps. A
+larger deviation has another cause, for example a solver that stops before it has converged.
+"""
 
 
 @dataclass(frozen=True)
 class Kept:
-    """One conserved quantity: its relative deviations and peaks at the sample times, and their drift.
+    """One conserved quantity: its relative deviations and peaks at the sample times, and the drift of the
+    deviations.
 
     A deviation is the mean over all steps since the previous sample. A peak is the largest absolute deviation
     of these steps.
@@ -54,15 +58,15 @@ class Kept:
 
 @dataclass(frozen=True)
 class LongRun:
-    """A run of ``steps`` steps of size ``h``.
+    """The results of a run of ``steps`` steps of size ``h``.
 
     ``failure`` is the message of a step that failed. The results then describe the steps before the failure,
     and ``kept`` is empty if there are too few steps. ``reversals`` are pairs: a number of steps, and the
-    distance from the initial state after that many steps forward and back. One pair is for the whole run and
-    one for a hundredth of it, because chaos amplifies rounding errors in long runs. ``symplectic`` is the
-    largest symplectic defect of a step from several states of the run; None if it was not measured.
-    ``unmeasured`` is the reason, or '' if the scene is not Hamiltonian. ``rounding`` is the growth of
-    rounding errors in the quantities that the method conserves exactly.
+    distance from the initial state after that many steps forward and back. There is a pair for the whole run.
+    A second pair is for a hundredth of the run, because chaos amplifies rounding errors in long runs.
+    ``symplectic`` is the largest symplectic defect of a step from several states of the run; None if it was
+    not measured. ``unmeasured`` is the reason why it was not measured, or '' if the scene is not Hamiltonian.
+    ``rounding`` is the growth of rounding errors in the quantities that the method conserves exactly.
     """
 
     scene: str
@@ -99,8 +103,9 @@ def long_run(
 ) -> LongRun:
     """Run emitted code from the initial state of the scene over many steps.
 
-    ``back`` includes the run back, which doubles the time; ``rounding`` includes the growth of rounding
-    errors with and without compensation (:mod:`codegen.lab.long_runs.rounding_growth`).
+    If ``back`` is True, the method also runs back to the start, which doubles the time. If ``rounding`` is
+    True, the growth of rounding errors is measured with and without compensated summation
+    (:mod:`codegen.lab.long_runs.rounding_growth`).
     """
     scene, runner = compiled.scene, Emitted(compiled)
     first = float(scene.span[0])
@@ -111,7 +116,7 @@ def long_run(
         try:
             reversals = _reversals(runner, trajectory, h)
         except StepFailed as failed:
-            failure = f"in the run back, {failed}"
+            failure = f"in the run back to the start, {failed}"
     symplectic, unmeasured = None, ""
     if scene.is_hamiltonian:
         try:
@@ -160,10 +165,11 @@ def _kept(
 ) -> tuple[Kept, ...]:
     """Return the quantities with their drifts.
 
-    The method conserves the quantities in ``conserved`` exactly; their deviation counts as rounding. The
-    deviation of another quantity counts as rounding only if ``changes``, the changes by one step in exact
-    arithmetic, are too small to explain it. ``early(n)`` records the first n steps again, for a quantity that
-    saturates within the first samples.
+    The method conserves the quantities in ``conserved`` exactly, so their deviations are rounding errors.
+    ``changes`` contains the change of each quantity by one step in 60 digits. The deviation of any other
+    quantity counts as rounding error only if its change in ``changes`` is too small to explain the deviation.
+    If a quantity saturates within the first samples, the function calls ``early(n)``, which records the first
+    n steps with more samples.
     """
     elapsed = [t - trajectory.times[0] for t in trajectory.times[1:]]
     if len(elapsed) < FEWEST:
@@ -191,7 +197,9 @@ def _kept(
 def _before_saturation(
     name: str, whole: Drift, trajectory: Trajectory, early: Callable[[int], Trajectory]
 ) -> Drift:
-    """Return the drift before the saturation if the record has too few samples of it."""
+    """Return the drift of a quantity before it saturates. If the record has too few samples before the
+    saturation, the first steps are recorded again.
+    """
     times = [t - trajectory.times[0] for t in trajectory.times[1:]]
     level = times.index(whole.until) + 1 if whole.until is not None else 0
     if level > FEWEST:

@@ -40,22 +40,25 @@ APART = 37
 """The number of steps between two consecutive starts."""
 
 TIMES = 9
-"""The number of measurements of a deviation; each is made after twice as many steps as the previous one."""
+"""The number of measurements of a deviation. The number of steps doubles from one measurement to the next."""
 
 EXACT = 1e-30
 """A quantity counts as exactly conserved if one step in 60 digits has a smaller relative change."""
 
 
 CHAIN = 3
-"""Number of consecutive steps that show whether a step changes a quantity; it may be stationary at one."""
+"""The number of consecutive steps that test whether a step changes a quantity. One step is not enough,
+because the quantity may be stationary at one state.
+"""
 
 NEARLY = 1e-14
-"""The bound that replaces EXACT for a state that is off the manifold by rounding errors."""
+"""The bound that replaces EXACT for states that rounding errors have moved off the manifold."""
 
 
 @dataclass(frozen=True)
 class Growth:
-    """The root mean square of the relative deviation of a quantity, and the exponent of its growth.
+    """The growth of rounding errors in a quantity: the root mean square of its relative deviation, and the
+    exponent of the growth.
 
     ``sizes`` are the root mean squares after the numbers of steps in ``steps``. ``half_width`` is the half
     width of the 95 % interval of the exponent.
@@ -70,7 +73,7 @@ class Growth:
 
     @property
     def law(self) -> str:
-        """The laws of growth whose exponent is in the interval, in words."""
+        """The names of the laws of growth whose exponent is in the confidence interval."""
         if self.exponent + self.half_width < 0.25:
             return "bounded"
         laws = {"random walk": 0.5, "systematic": 1.0}
@@ -91,10 +94,11 @@ class Growth:
 
 
 def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, ...]:
-    """Return the growth of rounding in every exactly conserved quantity, plain and compensated.
+    """Return the growth of rounding errors in every exactly conserved quantity, without and with compensated
+    summation.
 
-    If the step has no compensated form, only the plain results are returned. If a run fails, the result is
-    empty.
+    If the step has no compensated form, only the results without compensated summation are returned. If a run
+    fails, the result is empty.
     """
     scene, plain = compiled.scene, Emitted(compiled)
     domain = PreciseDomain(0, DIGITS)
@@ -126,7 +130,8 @@ def rounding_growth(compiled: Compiled, h: float, steps: int) -> tuple[Growth, .
 def _starts(
     run: tuple[bool, Integrator], initial: Sequence[float], t: float, h: float
 ) -> list[tuple[float, list[float]]]:
-    """Return times and states along a trajectory, computed with the compensated step if there is one.
+    """Return times and states along a trajectory, computed with the compensated step if the method has a
+    compensated step.
 
     The starts must be accurate: rotations preserve the distance of a state from the manifold, so an initial
     distance would remain during the whole run.
@@ -147,8 +152,8 @@ def exactly_conserved(
 
     ``starts`` are times and states. The first state is exact, and its step may change a quantity by at most
     :data:`EXACT`. Rounding errors displace the other states from the manifold; their steps may change a
-    quantity by at most :data:`NEARLY`. One start is not enough, because a quantity may be stationary there.
-    The result is empty if the interpreter cannot make a step.
+    quantity by at most :data:`NEARLY`. One start is not enough, because a quantity may be stationary at this
+    start. The result is empty if the interpreter cannot make a step.
     """
     domain = PreciseDomain(0, DIGITS)
     quantities = _quantities(compiled, domain, expressions(compiled.scene))
@@ -168,7 +173,8 @@ def exactly_conserved(
 
 
 def changes_of_a_step(compiled: Compiled, runner: Emitted, h: float) -> dict[str, float]:
-    """Return the largest change of each quantity by one of the first :data:`CHAIN` steps in 60 digits.
+    """Return, for each quantity, the largest change by a single step among the first :data:`CHAIN` steps, in
+    60 digits.
 
     The steps begin at the initial state of the scene in 60 digits, so all states are on the manifold. The
     result is empty if the interpreter cannot make the steps.
@@ -253,7 +259,8 @@ def _deviations(
 
 
 def _growth(name: str, carried: bool, counts: Sequence[int], members: Sequence[Sequence[float]]) -> Growth:
-    """Return the growth of the root mean square over all starts, with the interval by the jackknife.
+    """Return the growth of the root mean square over all starts; the confidence interval is computed with the
+    jackknife.
 
     ``members`` contains, for each start, the deviation after each number of steps.
     """

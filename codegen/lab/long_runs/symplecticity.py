@@ -1,9 +1,10 @@
-"""The symplectic defect of a step on T*G: how much the tangent map of the step changes the canonical form.
+"""The symplectic defect of a step on T*G: the amount by which the tangent map of the step changes the
+canonical symplectic form.
 
 In right trivialisation the form at (q, mu) is <nu_2, xi_1> - <nu_1, xi_2> - <mu, [xi_1, xi_2]> (H.
 Marthinsen, *Lie group integrators*, eq. (2.26)). The interpreter computes the tangent map by central
-differences in 40 digits. The error of the difference quotients is therefore negligible beside the defect of
-the method.
+differences in 40 digits. The error of the difference quotients is therefore negligible compared with the
+defect of the method.
 """
 
 from __future__ import annotations
@@ -27,18 +28,23 @@ OFFSET = 10
 """The offset of a central difference is 10^-OFFSET; the error of the difference is about 10^(-2 OFFSET)."""
 
 SWEEPS = 40
-"""Largest number of fixed-point iterations of an implicit block; then Newton's method is used."""
+"""The largest number of fixed-point iterations for an implicit block. If they do not converge, Newton's
+method is used.
+"""
 
 LEFT = 0.5
-"""Relative deviation of a conserved quantity from which a state does not belong to the motion."""
+"""If the relative deviation of a conserved quantity exceeds LEFT, the state is not close to the exact
+solution, and later states are not used.
+"""
 
 
 def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, h: float) -> float:
     """Return the largest symplectic defect of a step from the initial state and from other states of a run.
 
     The other states are the middle of the run and the state with the fastest motion, for example the
-    pericentre of an orbit. States are used only as long as no conserved quantity has left its initial value
-    by more than :data:`LEFT`. ArithmeticError if the step from some state has no solution in 40 digits.
+    pericentre of an orbit. A state is used only if up to this state no relative deviation of a conserved
+    quantity exceeds :data:`LEFT`. Raises ArithmeticError if the equations of a step have no solution in 40
+    digits.
     """
     defects = [
         symplectic_defect(compiled, state, h, t, solutions(runner, state, t, h))
@@ -48,7 +54,9 @@ def largest_defect(compiled: Compiled, runner: Emitted, trajectory: Trajectory, 
 
 
 def _measured_states(compiled: Compiled, trajectory: Trajectory) -> list[tuple[float, list[float]]]:
-    """Return times and states: the initial one, the middle, and the one with the fastest motion."""
+    """Return times and states: the initial state, the middle of the run, and the state with the fastest
+    motion.
+    """
     valid = 1
     for k in range(1, len(trajectory.states)):
         peaks = (s.peaks[k - 1] / trajectory.scales[name] for name, s in trajectory.series.items())
@@ -103,7 +111,8 @@ def symplectic_defect(
         if near is None:
             raise
         solution = [list(block) for block in near]
-        end, momentum = _step(compiled, domain, q, mu, number(t), solution)  # solution becomes exact
+        # This call replaces ``solution`` by a solution in 40 digits.
+        end, momentum = _step(compiled, domain, q, mu, number(t), solution)
     basis = [tuple(number(int(i == j)) for j in range(n)) for i in range(n)]
     frame = numpy.array([[float(x) for x in group.velocity(domain, e, end)] for e in basis]).T
     columns = []

@@ -1,7 +1,7 @@
 """The record of a long run: conserved quantities at every step, and states at evenly spaced samples.
 
-Quantities are evaluated on arrays of states, one chunk of steps after another. The largest deviation is over
-all steps, although only the samples are stored.
+The steps are processed in chunks, and the quantities are evaluated on the array of states of a chunk. Only
+samples are stored, but the largest deviation is the maximum over all steps.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from codegen.scene.problem import Problem
 
 SAMPLES = 1000
 CANCELLED = 1e-2
-"""The terms of a quantity cancel if its value is at most CANCELLED times its magnitude."""
+"""The terms of a quantity count as cancelling if its value is at most CANCELLED times its magnitude."""
 
 CHUNK = 100_000
 """Number of steps whose states are in memory at the same time."""
@@ -52,7 +52,7 @@ class Series:
         """Append the signed deviations of one interval."""
         absolute = numpy.abs(values)
         crosses = values.min() < 0.0 < values.max()
-        with numpy.errstate(all="ignore"):  # the sum of large deviations may overflow
+        with numpy.errstate(all="ignore"):  # The sum of large deviations may overflow.
             self.deviations.append(float(values.mean()))
         self.peaks.append(float(absolute.max()))
         self.lows.append(0.0 if crosses else float(absolute.min()))
@@ -66,7 +66,8 @@ class Series:
 
 @dataclass
 class Trajectory:
-    """Times, states and numbers of steps at the samples, the quantities, and the message of a failed step.
+    """The record of a run: times, states and numbers of steps at the samples, the quantities, and the message
+    of a failed step.
 
     ``scales`` are the sizes of the quantities (:func:`scales`).
     """
@@ -122,8 +123,9 @@ def scale(start: float, magnitude: float) -> float:
 def _magnitudes(scene: Problem, trajectory: Trajectory) -> dict[str, float]:
     """Return the initial magnitudes of the quantities.
 
-    The largest magnitude in the first tenth of the record replaces an initial magnitude of zero. Later states
-    would hide that a quantity is lost. The magnitude of the manifold equations is one.
+    If an initial magnitude is zero, the largest magnitude in the first tenth of the record replaces it. Later
+    states are not used, because their magnitudes grow if the method loses the quantity. The magnitude of the
+    manifold equations is one.
     """
     count = max(len(trajectory.states) // 10, 1)
     states, times = numpy.array(trajectory.states[:count]).T, numpy.array(trajectory.times[:count])

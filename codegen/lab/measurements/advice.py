@@ -23,12 +23,15 @@ BODY = '{% include "sections/advice.html.j2" %}'
 OVERVIEW = '{% import "parts.html.j2" as parts with context %}{{ parts.advice(advice) }}'
 
 SAFETY = 1.5
-"""The safety factor of predictions: smaller than for a single goal, because the goals share the budget."""
+"""The safety factor of predicted run times. It is smaller than in a search for a single goal, because all
+goals share the time of the search.
+"""
 
 
 @dataclass(frozen=True)
 class Advised:
-    """The fastest method for one error: its name, its step or tolerance, its steps, its CPU seconds.
+    """The fastest method for one error: its name, its step size or tolerance, its number of steps, and its
+    CPU time in seconds.
 
     ``command`` emits the integrator; it is empty for a peer.
     """
@@ -44,8 +47,9 @@ class Advised:
 
 @dataclass(frozen=True)
 class Line:
-    """A requirement with the fastest method for each of :data:`DECADES`, None if no method reaches an
-    error."""
+    """A requirement with the fastest method for each error of :data:`DECADES`. The entry is None if no method
+    reaches the error.
+    """
 
     need: str
     meaning: str
@@ -54,7 +58,9 @@ class Line:
 
 @dataclass(frozen=True)
 class Searched:
-    """The lines of a search, and whether the budget was sufficient."""
+    """The result of a search: one line for each requirement. ``complete`` is True if the time budget was
+    sufficient.
+    """
 
     lines: tuple[Line, ...]
     complete: bool
@@ -78,7 +84,7 @@ class Advice(Measurement[Recommendations]):
     part_of = "cost"
 
     def run(self, subject: Subject) -> Recommendations:
-        """Search the library, or the methods that the user named."""
+        """Search the library, or only the methods that the user named."""
         cost = Cost().result(subject)
         known = [features(m.compiled, m.artifact) for m in subject.compiled.measured]
         known += [
@@ -102,7 +108,9 @@ class Advice(Measurement[Recommendations]):
         return [{"need": a.need, "best": [b and asdict(b) for b in a.best]} for a in result.advice]
 
     def verdict(self, result: Recommendations, subject: Subject) -> str:
-        """Return the fastest method without requirements at the largest and the smallest error reached."""
+        """Return a sentence with the fastest methods for the largest and for the smallest error, without
+        requirements.
+        """
         own = result.advice[0].best if result.advice else ()
         choices = [
             f"at an error of {decade(k)}, {best.method.partition(' (')[0]} ({duration(best.seconds)})"
@@ -139,7 +147,7 @@ def searched(task: Task, subject: Subject) -> Searched:
 
 
 def advised(task: Task, k: int, place: Result) -> Advised:
-    """Return a result for the error 10^-k as advice."""
+    """Return the advice for the error 10^-k, given a result of the search."""
     recipe = place.entry.recipe
     return Advised(
         10.0**-k,
@@ -155,10 +163,10 @@ def advised(task: Task, k: int, place: Result) -> Advised:
 def completed(
     lines: Sequence[Line], known: Sequence[Features], entries: Mapping[str, Sequence[Row]]
 ) -> tuple[Line, ...]:
-    """Return lines in which the methods of the page replace missing results of a search.
+    """Return lines in which methods of the page fill the gaps: errors for which the search found no method.
 
-    Their times are interpolated between measured runs. Requirements that include long times are not
-    completed, because only the search makes long runs.
+    Their times are interpolated between measured runs. Gaps remain for requirements that include long times,
+    because only the search makes long runs.
     """
     requirements = {r.name: r for r in REQUIREMENTS}
     result = []
@@ -176,7 +184,9 @@ def completed(
 
 
 def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
-    """Return the fastest peers, interpolated between measured runs; () if no peer was measured."""
+    """Return the fastest peers; their times are interpolated between measured runs. The result is () if no
+    peer was measured.
+    """
     others = {label: rows for label, rows in entries.items() if rows and rows[0].target == "peer"}
     if not others:
         return ()
@@ -185,7 +195,7 @@ def peers(entries: Mapping[str, Sequence[Row]]) -> tuple[Line, ...]:
         times = [(fastest_form(rows, 10.0**-k), label) for label, rows in others.items()]
         reached = sorted((f[0], in_form(label, f[1])) for f, label in times if f is not None)
         best.append(Advised(10.0**-k, reached[0][1], reached[0][0]) if reached else None)
-    return (Line("a peer, for comparison", "other software on the same equations", tuple(best)),)
+    return (Line("a peer, for comparison", "other software that integrates the same equations", tuple(best)),)
 
 
 def table(result: Recommendations, subject: Subject) -> dict[str, object]:

@@ -1,4 +1,6 @@
-"""Order conditions: the independent conditions of each family, and those that each method violates."""
+"""Order conditions: the independent conditions of each family, and the conditions that each method
+violates.
+"""
 
 from __future__ import annotations
 
@@ -18,10 +20,12 @@ from orderconds.derivation import derive
 from orderconds.families import names
 
 DEEPEST = 4
-"""Order up to which all conditions are shown; at higher orders only the violated conditions are shown."""
+"""The highest order for which all conditions are shown. For higher orders only the violated conditions are
+shown.
+"""
 
 LONGEST = 48
-"""Largest number of characters of an exact residual; longer residuals are shown as decimals."""
+"""An exact residual with more characters than this number is shown as a decimal number."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +54,7 @@ class Conditions(Measurement[ConditionTables]):
 
     name = "conditions"
     title = "Order conditions"
-    about = "the independent order conditions, and the residuals of the violated ones"
+    about = "the independent order conditions, and the residuals of the violated conditions"
     part_of = "orders"
 
     def run(self, subject: Subject) -> ConditionTables:
@@ -69,7 +73,7 @@ class Conditions(Measurement[ConditionTables]):
         }
 
     def verdict(self, result: ConditionTables, subject: Subject) -> str:
-        """Return the number of methods that violate a condition of the order after their own."""
+        """Return a sentence with the number of methods that violate a condition of the next higher order."""
         if not result.methods:
             return ""
         exact, total = sum(bool(m.order.failing) for m in result.methods), len(result.methods)
@@ -98,7 +102,8 @@ def _families(study: Sequence[OrderStudy]) -> list[tuple[str, int]]:
     for each in study:
         label = each.method.family_label
         if each.method.family not in names() or each.method.coefficients is None:
-            continue  # a family of the compiler only, without index sums, or one without conditions
+            # The family exists only in the compiler and has no index sums, or it has no order conditions.
+            continue
         highest[label] = max(highest.get(label, 1), min(each.order.order, DEEPEST))
     return list(highest.items())
 

@@ -1,4 +1,4 @@
-"""Cost: error against CPU time, the fastest method for each accuracy, and the operations of a step."""
+"""Cost: error and CPU time of methods, the fastest method for each accuracy, and the operations of a step."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class CostResult:
 
 
 class Cost(Measurement[CostResult]):
-    """Error against CPU time of all methods and peers."""
+    """Measures the error and the CPU time of all methods and peers."""
 
     name = "cost"
     title = "Error against run time"
@@ -67,7 +67,7 @@ class Cost(Measurement[CostResult]):
         return [row.as_json() for row in result.result.rows]
 
     def verdict(self, result: CostResult, subject: Subject) -> str:
-        """Return the methods that are the fastest at some accuracy, each with its accuracies."""
+        """Return the methods that are the fastest for at least one accuracy, each with these accuracies."""
         places = result.result.places
         if not places:
             return ""
@@ -139,7 +139,9 @@ def _decades(numbers: Sequence[int]) -> str:
 
 
 def _operations(entries: Mapping[str, tuple[Row, ...]]) -> list[dict[str, str]]:
-    """Return the operations of a step in the finest run of each candidate, and its set-up times."""
+    """Return the set-up times of each candidate, and the operations of a step in its run with the shortest
+    steps.
+    """
     lines = []
     for label, rows in entries.items():
         chosen = prevailing_form(rows)

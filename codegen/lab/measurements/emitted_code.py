@@ -1,4 +1,4 @@
-"""Emitted code: operations of a step, files, and the simplifications that the scene and method allow."""
+"""Emitted code: operations of a step, files, and the simplifications that the scene and the method permit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from codegen.lab.subject import CompiledMethod, Subject
 
 
 class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
-    """The emitted module of every method, as its manifest describes it."""
+    """The data of the emitted module of every method, taken from the manifest of the module."""
 
     name = "emitted"
     title = "Emitted code"
@@ -33,7 +33,8 @@ class EmittedCode(Measurement[tuple[CompiledMethod, ...]]):
         if len(lengths) == 1:
             return f"The emitted code of {shortest} has {least} lines."
         return (
-            f"{shortest} has the shortest emitted code ({least} lines), {longest} the longest ({most} lines)."
+            f"{shortest} has the shortest emitted code ({least} lines), "
+            f"{longest} has the longest emitted code ({most} lines)."
         )
 
     def section(self, result: tuple[CompiledMethod, ...], subject: Subject) -> Section | None:

@@ -14,13 +14,13 @@ from codegen.lab.page.formatting import Picture, enumeration, scientific
 from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 
 LEAST = 1e-17
-"""Smallest deviation in a logarithmic plot; smaller deviations are drawn at this value."""
+"""The smallest deviation in a logarithmic plot. Smaller deviations are drawn at this value."""
 
 Result = MethodResults[LongRun]
 
 
 class LongRuns(Measurement[Result]):
-    """Drift of conserved quantities over many steps. The step size is a hundredth of the span."""
+    """Measures the drift of conserved quantities over many steps. The step size is span/100."""
 
     name = "long"
     title = "Long runs"
@@ -54,10 +54,12 @@ class LongRuns(Measurement[Result]):
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:
         """Return one line for each method that failed."""
         for failure in result.failures:
-            yield f"{subject.scene.name} {failure.method}: no long run: {failure.reason}"
+            yield f"{subject.scene.name} {failure.method}: the long run failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return the laws of the first quantity on the page, each with its methods."""
+        """Return a sentence on the first quantity of the page: each law of growth with the methods that
+        follow it.
+        """
         for name in _shown(result.measured):
             laws: dict[str, list[str]] = {}
             for run in result.measured:
@@ -88,7 +90,9 @@ def _count(n: int) -> str:
 
 
 def _shown(runs: Sequence[LongRun]) -> list[str]:
-    """Return the quantities with a picture: the energy or the first invariant, and the manifold."""
+    """Return the quantities that have a diagram: the energy or the first invariant, and the manifold
+    equations.
+    """
     names = list(dict.fromkeys(k.name for run in runs for k in run.kept))
     shown = [n for n in names if n == "energy"] or [n for n in names if n != MANIFOLD][:1]
     return [*shown, *([MANIFOLD] if MANIFOLD in names else [])]

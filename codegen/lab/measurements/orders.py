@@ -17,11 +17,11 @@ Result = MethodResults[OrderStudy]
 
 
 class Orders(Measurement[Result]):
-    """Observed orders of emitted code, in every target, against the certified order."""
+    """Compares the observed orders of emitted code, in every target, with the certified order."""
 
     name = "orders"
     title = "Orders"
-    about = "observed orders of emitted code against the order conditions"
+    about = "observed orders of emitted code, compared with the order conditions"
     json_key = "methods"
 
     def run(self, subject: Subject) -> Result:
@@ -58,7 +58,9 @@ class Orders(Measurement[Result]):
         return Section('{% include "sections/orders.html.j2" %}', values)
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return the number of methods whose observed order equals the computed order, and the others."""
+        """Return a sentence with the number of methods whose observed order equals the computed order, and
+        with the exceptions.
+        """
         total = len(result.measured) + len(result.failures)
         held = sum(m.verdict == "holds" for m in result.measured)
         if total == 0:
@@ -78,7 +80,7 @@ class Orders(Measurement[Result]):
 
 
 def agreement(spread: float | None) -> str:
-    """Return the largest difference between targets and interpreter, in words."""
+    """Return a text with the largest difference between the results of the targets and of the interpreter."""
     if spread is None:
         return "no run"
     return scientific(spread) if spread else "bit for bit"

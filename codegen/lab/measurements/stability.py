@@ -17,13 +17,13 @@ from codegen.lab.subject import CompiledMethod, MethodResults, Subject
 OVERVIEW = '<p class="note">Extreme steps: {{ wrong }} silent wrong answers in {{ all }} cases.</p>'
 
 NAMED = 2
-"""Largest number of methods that the verdict names as those with the longest step."""
+"""If at most this number of methods have the longest usable step, the verdict names them."""
 
 Result = MethodResults[Stability]
 
 
 class StabilityTests(Measurement[Result]):
-    """Stress tests of single steps and long runs, and linear stability."""
+    """Makes stress tests of single steps and of long runs, and computes the linear stability."""
 
     name = "stability"
     title = "Stability"
@@ -61,10 +61,12 @@ class StabilityTests(Measurement[Result]):
             for wrong in stability.wrong:
                 yield f"{stability.scene} {stability.method}: {wrong.case.name}: {wrong.verdict}"
         for failure in result.failures:
-            yield f"{subject.scene.name} {failure.method}: no stability tests: {failure.reason}"
+            yield f"{subject.scene.name} {failure.method}: the stability tests failed: {failure.reason}"
 
     def verdict(self, result: Result, subject: Subject) -> str:
-        """Return the number of wrong results, and the methods with the longest usable step."""
+        """Return a sentence with the number of wrong results, and with the methods that have the longest
+        usable step.
+        """
         answers = [(_kind(a), s.method) for s in result.measured for a in s.findings.answers]
         wrong = [method for kind, method in answers if kind == "wrong"]
         parts = []
@@ -157,7 +159,7 @@ def _length(x: float) -> str:
 
 
 def _cases(stability: Stability) -> dict[str, object]:
-    """Return the cases of a method; consecutive cases with the same status are one row."""
+    """Return the cases of a method as rows; consecutive cases with the same status share a row."""
     rows: list[dict[str, object]] = []
     names: list[str] = []
     for a in stability.findings.answers:
@@ -178,7 +180,7 @@ def _cases(stability: Stability) -> dict[str, object]:
 
 
 def endurance_text(run: Endurance) -> str:
-    """Return the end of an endurance run in words."""
+    """Return a text on the final state of an endurance run."""
     if run.failure:
         return run.failure
     parts = [f"{run.steps} steps"]

@@ -24,10 +24,12 @@ from codegen.scene.problem import Problem
 
 ROUNDING = "rounding"
 UNPROVED = ("stated", "claimed")
-"""Certificates of orders that no order conditions prove; very short steps must confirm them."""
+"""Certificates of orders that are not proved by order conditions. Very short steps must confirm these
+orders.
+"""
 
 FEWEST = 4
-"""Number of runs that are needed for three slopes."""
+"""The number of runs that are needed to compute three slopes."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -45,7 +47,7 @@ class Convergence:
 
     @property
     def observed(self) -> float | None:
-        """The last slope of clean runs."""
+        """The last slope of the runs that are not excluded."""
         return self.refinement.observed
 
     @property
@@ -88,14 +90,16 @@ class Convergence:
         return f"{self.verdict}: {about}; {self._short()}"
 
     def _short(self) -> str:
-        """Return the order of very short steps, and why it differs from the observed order."""
+        """Return a text with the order of very short steps and the reason why the order differs from the
+        observed order.
+        """
         text = f"very short steps in 100 digits have order {self.refinement.short:.2f}"
         if not self.refinement.settled:
             return f"the slopes do not settle before rounding errors dominate, but {text}"
-        return f"{text}, so at longer steps a small parameter hides the leading term of the error"
+        return f"{text}, so a small parameter hides the leading term of the error at longer steps"
 
     def _unsettled(self) -> str:
-        """Return why the slopes do not decide, and what the user can do."""
+        """Return the reason why the slopes do not determine the order, and a hint to the user."""
         if self.refinement.settled:
             return f"{self._short()}; try finer steps"
         if any(r.excluded == ROUNDING for r in self.refinement.runs):
@@ -152,10 +156,11 @@ def converge(
 ) -> Convergence:
     """Run a method with shorter and shorter steps and return its convergence.
 
-    ``steps`` prescribes the numbers of steps. By default the first run has five steps, and each next run has
-    twice the number. The last run is the one after which the slopes have settled (with ``to_rounding``: after
-    which rounding dominates), or the longest run that ``runner.most_steps`` permits. ``form`` is the
-    classical form of the equations that ``runner`` integrates; errors are measured on the state of the scene.
+    ``steps`` prescribes the numbers of steps. By default the first run has five steps, and each further run
+    has twice as many steps as the previous run. The runs end when the slopes have settled (with
+    ``to_rounding``: when rounding errors dominate), or when a further run would have more than
+    ``runner.most_steps`` steps. ``form`` is the classical form of the equations that ``runner`` integrates;
+    errors are measured on the state of the scene.
     """
     scene = runner.compiled.scene if form is None else form.scene
     label = runner.compiled.method.label if form is None else f"{runner.compiled.method.label} ({form.name})"

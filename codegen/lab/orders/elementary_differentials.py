@@ -26,14 +26,14 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 
 
 class RingDomain(Domain):
-    """Arithmetic in an exact ring, for polynomial scenes. There is no step size, and ``h`` is one."""
+    """Arithmetic in an exact ring, for polynomial scenes. The step size ``h`` is one."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring = ring
         self.h = ring.one
 
     def number(self, value: Number) -> Element:
-        """Return an exact number, which is rational or in the ring, as an element of the ring."""
+        """Return an exact number as an element of the ring; the number must be rational or in the ring."""
         if value.ring is self.ring:
             return value.element
         fraction = value.fraction()
@@ -75,7 +75,7 @@ class FrozenFields:
         self._known: dict[Tree, Vector] = {}
 
     def tree(self, tree: Tree) -> Vector:
-        """Return F(t) in the algebra: f differentiated along the frozen fields of the branches."""
+        """Return F(t) in the algebra: the derivative of f along the frozen fields of the branches of t."""
         if tree not in self._known:
             point, mask = self._displaced(branches(tree))
             values = evaluate(self.scene.roots, self.domain, self.scene.values(self.domain, point))
@@ -83,7 +83,9 @@ class FrozenFields:
         return self._known[tree]
 
     def forest(self, forest: Forest) -> Vector:
-        """Return the coordinates of the point differentiated along the frozen fields of a forest."""
+        """Return the derivative of the coordinates along the frozen fields of a forest, at the initial
+        point.
+        """
         point, mask = self._displaced(forest)
         return tuple(_coefficient(v, mask, self.ring.zero) for v in point)
 

@@ -2,9 +2,9 @@
 
 A slope only estimates the order. For a scene whose field is polynomial or rational, the Taylor coefficients
 of the local error are exact numbers. The order is p if the coefficients of h, ..., h^p vanish and the
-coefficient of h^(p+1) does not. Coordinates of the initial state that are not in the ring of the method's
-coefficients are replaced by nearby rational numbers. The initial point may then lie off the manifold, where
-the equations, the group action and the order conditions remain valid.
+coefficient of h^(p+1) does not vanish. Coordinates of the initial state that are not in the ring of the
+method's coefficients are replaced by nearby rational numbers. The initial point may then lie off the
+manifold, where the equations, the group action and the order conditions remain valid.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from codegen.scene.problem import Problem, StateField
 from orderconds.ring.protocol import Ring
 
 DENOMINATOR = 64
-"""Largest denominator of a rational number that replaces an initial coordinate."""
+"""The largest denominator of the rational numbers that replace initial coordinates."""
 
 
 @dataclass(frozen=True)
@@ -81,15 +81,15 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     """Return the leading term of the local error of the step program that is emitted for a method on a scene.
 
     Raises :class:`codegen.errors.SceneError` if the field is not rational in the coordinates (for example, if
-    it calls ``sqrt``), and :class:`codegen.errors.MethodError` if the coefficients are balls, whose zeros
-    cannot be decided.
+    it calls ``sqrt``), and :class:`codegen.errors.MethodError` if the coefficients are balls, because a ball
+    does not show if a number is zero.
     """
     ring = method.ring
     third = ring.rational(1, 3)
     if ring.is_zero(third - third) is not True:
         raise MethodError(
-            f"the coefficients of {method.label} are intervals",
-            expected="exact coefficients, so that zeros can be decided",
+            f"the coefficients of {method.label} are intervals and not exact numbers",
+            expected="exact coefficients, so that the program can decide if a number is zero",
         )
     certified = certified_order(method, scene)
     start = with_exact_start(scene, ring)
@@ -105,7 +105,7 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
             f"the local error cannot be computed exactly: {reason}",
             where=scene.name,
             expected="a field and flows that are rational functions of the coordinates",
-            hint="orderconds converge estimates the order from slopes",
+            hint="use orderconds converge, which estimates the order from slopes",
         ) from reason
     power = min(int(x.ring.valuation(x)) for x in error)
     vanishes = power > highest

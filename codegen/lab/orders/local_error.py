@@ -2,9 +2,9 @@
 
 The interpreter runs a program on a polynomial scene over Q[[h]] and returns the series of its step. Picard
 iteration returns the series of the exact flow. The difference of the two series starts at h^(p+1), where p is
-the order. By theory, its leading coefficient is the sum of the residuals of the order conditions times the
-elementary differentials of the scene. The comparison of both values tests the program against the order
-conditions.
+the order. In theory, its leading coefficient is a sum over the order conditions: the residual of each
+condition times an elementary differential of the scene. Comparing the leading coefficient with this sum tests
+the program against the order conditions.
 """
 
 from __future__ import annotations
@@ -75,12 +75,12 @@ def local_error(program: Program, scene: Problem, ring: Ring, order: int) -> Vec
 
 
 def valuation(error: Vector) -> int:
-    """Return the lowest power of h in which a local error does not vanish."""
+    """Return the lowest power of h whose coefficient in a local error is not zero."""
     return min(int(x.ring.valuation(x)) for x in error)
 
 
 def leading_term(error: Vector) -> tuple[int, Vector]:
-    """Return the lowest power of h in which a local error does not vanish, and its coefficients."""
+    """Return the lowest power of h whose coefficient in a local error is not zero, and this coefficient."""
     power = valuation(error)
     return power, tuple(x.coefficients[power] for x in error)
 
@@ -89,8 +89,8 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
     """Return the coefficients of h^power that the order conditions of a method predict.
 
     All lower coefficients must vanish. ``scene`` is the problem in which the method is lowered; it must be
-    autonomous and polynomial. Symplectic partitioned methods are predicted by trees with directed edges, on a
-    Hamiltonian scene on T*R^n.
+    autonomous and polynomial. For symplectic partitioned methods the scene must be Hamiltonian on T*R^n, and
+    the order conditions are those of trees with directed edges.
     """
     if not scene.autonomous:
         raise SceneError("a scene that depends on time", where=scene.name, expected="an autonomous one")
@@ -102,7 +102,9 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
 
 
 def _residuals(method: Method, power: int) -> list[tuple[Scalar, Element]]:
-    """Return pairs of tree or forest and residual, for the conditions of one order that are not satisfied."""
+    """Return the violated order conditions of one order, as pairs: the tree or forest of the condition, and
+    its residual.
+    """
     family = family_of(method)
     conditions = family.all_conditions(power)
     coefficients = family.read(method.tableau)

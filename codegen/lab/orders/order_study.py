@@ -19,19 +19,21 @@ from codegen.method import Method
 from codegen.printers import DEFAULT, names
 
 COMPARED = 4 * FIRST
-"""Number of steps after which all targets and the interpreter are compared. It is larger if a run fails."""
+"""The number of steps after which the states of all targets and of the interpreter are compared. If a run
+with this number of steps fails, a larger number is used.
+"""
 
 MOST_TIMED = 2560
-"""Number of steps of the longest run that is timed."""
+"""The number of steps of the longest run whose CPU time is measured."""
 
 
 @dataclass(frozen=True)
 class OrderStudy:
-    """One method: its certified order, and its convergence by target.
+    """The study of one method: its certified order, and its convergence by target.
 
-    ``times`` and ``artifact`` are those of the default target. ``spread`` is the largest difference of a
-    coordinate between the final states of all targets and of the interpreter, after at least
-    :data:`COMPARED` steps; None if no such run succeeds.
+    ``times`` and ``artifact`` belong to the default target. ``spread`` is the largest difference of a
+    coordinate between the final states of all targets and of the interpreter, after at least :data:`COMPARED`
+    steps; None if no such run succeeds.
     """
 
     method: Method
@@ -48,7 +50,7 @@ class OrderStudy:
 
     @property
     def verdict(self) -> str:
-        """The worst verdict of all targets."""
+        """The worst verdict among all targets."""
         verdicts = {c.verdict for c in self.convergences.values()}
         return next((v for v in ("fails", "undecided") if v in verdicts), "holds")
 
@@ -75,7 +77,9 @@ class _Measured:
 def order_study(
     compiled: Compiled, exact: Reference, progress: Progress, cache: MeasurementCache | None = None
 ) -> OrderStudy:
-    """Return the study of one compiled method; results that ``cache`` holds are not measured again."""
+    """Return the study of one compiled method. Results that are stored in ``cache`` are not measured
+    again.
+    """
     scene, method = compiled.scene, compiled.method
     name = f"{scene.name}, {method.label}"
     progress(f"{name}: order conditions")
@@ -107,9 +111,9 @@ def order_study(
 def largest_difference(runners: Sequence[Runner], steps: Sequence[int]) -> float | None:
     """Return the largest difference of a coordinate between the final states of several runners.
 
-    The number of steps is the first of ``steps``, from :data:`COMPARED` on, that every runner completes. The
-    runners may differ here: Newton's method of emitted code solves some steps that are too long for the
-    interpreter. None if no number of steps is completed by all runners.
+    The number of steps is the first number in ``steps`` that is at least :data:`COMPARED` and with which no
+    runner fails. A long step may fail in some runners only: Newton's method of emitted code solves some steps
+    that the interpreter cannot solve. The result is None if a runner fails for each number of steps.
     """
     for n in steps:
         if n < COMPARED:

@@ -30,7 +30,9 @@ DIGITS = (DOUBLE, 60)
 
 @dataclass(frozen=True)
 class ConvergenceTest:
-    """A test of methods on a scene, whose arguments are checked; :meth:`results` runs the methods."""
+    """A convergence test of methods on a scene; its arguments are already checked. :meth:`results` runs the
+    methods.
+    """
 
     scene: Problem
     equations: Problem
@@ -53,7 +55,7 @@ class ConvergenceTest:
         digits: int = DOUBLE,
         stated: int | None = None,
     ) -> ConvergenceTest:
-        """Return a test; the arguments are those of :func:`converge`."""
+        """Check the arguments and return a test. The arguments are the same as for :func:`converge`."""
         problem = scenes.load(scene) if isinstance(scene, str) else scene
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
@@ -66,7 +68,9 @@ class ConvergenceTest:
         return cached_reference(self.scene)
 
     def result(self, method: Method, exact: Reference, progress: Progress = str) -> Convergence | NotEmitted:
-        """Return the convergence of one method; CompilerMissing if the target needs a compiler."""
+        """Return the convergence of one method; raise CompilerMissing if the target needs a compiler that is
+        not installed.
+        """
         try:
             known = self.stated
             order = (
@@ -75,7 +79,7 @@ class ConvergenceTest:
             run = runner(self.equations, method, self.target, self.digits, order)
             progress(f"running {method.label}")
             return convergence.converge(run, order, exact, steps=self.steps, form=self.form)
-        except CompilerMissing:  # no other method of a compiled target can run either
+        except CompilerMissing:  # Without the compiler, no method can run on this target.
             raise
         except (InputError, ArithmeticError) as error:
             return NotEmitted(self.scene.name, method.label, self.target, str(error))
@@ -83,7 +87,7 @@ class ConvergenceTest:
 
 @dataclass(frozen=True, repr=False)
 class Convergences:
-    """The results of several methods; the sequence is in the order of the methods."""
+    """The results of several methods, in the order in which the methods were named."""
 
     results: tuple[Convergence | NotEmitted, ...]
 
@@ -121,7 +125,7 @@ def converge(
     stated: int | None = None,
     progress: Progress = str,
 ) -> Convergences:
-    """Measure the order of methods on a scene and compare it with the order that the conditions prove.
+    """Measure the order of methods on a scene and compare it with the order that the order conditions prove.
 
     The arguments are those of ``orderconds converge``; a method is a name or an
     :class:`orderconds.Tableau`. A method that cannot be emitted for the scene has a result with the reason.

@@ -1,9 +1,9 @@
 """The order of a step that is far shorter than every time scale of the scene.
 
-A small parameter can hide the leading term of the error: with e << 1, the error e h^p + h^(p+1) has the slope
-p + 1 at every usual step size. In 100 digits a step can be so short that the leading term dominates. The
-difference between one step of h and two steps of h/2 is (1 - 2^-p) C h^(p+1), where C h^(p+1) is the local
-error, so it shows the order p without a reference solution.
+A small parameter e can hide the leading term of the error: if e << h, the error e h^p + h^(p+1) has the slope
+p + 1 and not p. In 100 digits a step can be so short that the leading term dominates. The difference between
+one step of h and two steps of h/2 is (1 - 2^-p) C h^(p+1), where C h^(p+1) is the local error, so its slope
+gives the order p without a reference solution.
 """
 
 from __future__ import annotations
@@ -24,10 +24,10 @@ SMALLEST = 70
 """The shortest steps have local errors of about 10^-SMALLEST."""
 
 STEPS, RATIO = 3, 8
-"""Number of step sizes, and the ratio of neighbouring step sizes."""
+"""The number of step sizes, and the ratio of consecutive step sizes."""
 
 AGREEMENT = 0.1
-"""Largest difference of the two slopes."""
+"""The largest accepted difference between the slopes."""
 
 SWEEPS = 400
 

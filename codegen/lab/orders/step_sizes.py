@@ -1,13 +1,14 @@
-"""The observed order from errors at a sequence of step sizes, with a verdict against the stated order.
+"""The observed order, computed from the errors at a sequence of step sizes and compared with the stated
+order.
 
 A slope is the logarithm of the error ratio of neighbouring runs, divided by the logarithm of the ratio of
-their step sizes. Runs whose error may be rounding are excluded, and so are all finer runs. For a smooth
-problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). Dividing h by r divides this
-difference by r, so the last change of the slope divided by r - 1 estimates the remaining difference. Slopes
-have *settled* when this estimate has been at most :data:`SETTLED` twice in a row. The last slope must then be
-within :data:`TOLERANCE` of the stated order, below or above. The tolerance is two and a half times the bound
-:data:`SETTLED` and a quarter of the distance to the next order, so a method whose order is higher than stated
-fails as well.
+their step sizes. If the error of a run may be a rounding error, this run and all runs with shorter steps are
+excluded. For a smooth problem the error is C h^p (1 + O(h)), so a slope differs from p by O(h). Dividing h by
+r divides this difference by r, so the last change of the slope divided by r - 1 estimates the remaining
+difference. Slopes have *settled* when this estimate is at most :data:`SETTLED` for two consecutive slopes.
+The last slope must then be within :data:`TOLERANCE` of the stated order, below or above. The tolerance is
+larger than :data:`SETTLED`, but far smaller than the distance 1 to the next order, so a method whose order is
+higher than stated fails as well.
 """
 
 from __future__ import annotations
@@ -24,18 +25,20 @@ CLEAR = 100.0
 slope by less than 0.03."""
 
 ZERO = 0.5
-"""Very short steps have order zero if the coefficients are decimals: an order below ZERO is no evidence."""
+"""If the coefficients are rounded decimals, very short steps have the order zero. Orders below ZERO are
+therefore ignored.
+"""
 
 FIRST = 5
 """Number of steps in the first run."""
 
 LONGER = (2, 3, 4)
-"""Numbers of steps, below :data:`FIRST`, of the runs that are added if there are too few slopes."""
+"""The numbers of steps of additional runs, which are made if there are too few slopes."""
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run of ``steps`` steps of size ``h``. ``excluded`` is the reason why it is not used, or ''."""
+    """One run of ``steps`` steps of size ``h``. ``excluded`` is the reason why the run is not used, or ''."""
 
     steps: int
     h: float
@@ -47,8 +50,8 @@ class Run:
 class Refinement:
     """Runs from long to short steps, and the order estimated from their slopes.
 
-    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`); None if it was not
-    needed or is unknown.
+    ``short`` is the order of very short steps (:mod:`codegen.lab.orders.short_steps`); it is None if it was
+    not needed or could not be computed.
     """
 
     runs: tuple[Run, ...]
@@ -68,29 +71,32 @@ class Refinement:
 
     @property
     def slopes(self) -> tuple[float, ...]:
-        """log(error ratio)/log(step ratio) of consecutive clean runs."""
+        """The slopes log(error ratio)/log(step ratio) of consecutive runs that are not excluded."""
         return slopes(self.clean)
 
     @property
     def settled(self) -> bool:
-        """True if the last two changes of the slope leave an estimated error of at most :data:`SETTLED`."""
+        """True if the estimated error of the last two slopes is at most :data:`SETTLED`."""
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
         return len(last) == 3 and all(c <= SETTLED * (r - 1) for c, r in zip(changes, ratio, strict=True))
 
     @property
     def observed(self) -> float | None:
-        """The last slope of the clean runs; None if there are fewer than two clean runs."""
+        """The last slope of the runs that are not excluded; None if there are fewer than two of these
+        runs.
+        """
         return self.slopes[-1] if self.slopes else None
 
     def verdict(self, stated: int) -> str:
         """Return ``holds``, ``fails`` or ``undecided``.
 
-        The slopes decide if they have settled. If very short steps have the stated order, settled slopes
-        above it show that a small parameter hides the leading term, and the order holds. Settled slopes below
-        it are then undecided. If rounding ends the runs before the slopes settle, the order of very short
-        steps decides, provided that the last slope is not below it. An order of very short steps below the
-        stated order is a failure, whatever the slopes are.
+        Slopes that have settled determine the verdict, with one exception: very short steps have the stated
+        order, but the slopes do not. If the slopes are above the stated order, a small parameter hides the
+        leading term, and the verdict is ``holds``; if they are below the stated order, the verdict is
+        ``undecided``. If rounding errors end the runs before the slopes settle, the order of very short steps
+        determines the verdict, provided that the last slope is not below this order. If very short steps have
+        an order below the stated order, the verdict is always ``fails``.
         """
         if self.observed is None:
             return "undecided"
@@ -125,10 +131,10 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
     """Double the number of steps, from :data:`FIRST` up to ``most``, and return the runs.
 
     The refinement ends when the slopes have settled or rounding dominates. With ``to_rounding`` it continues
-    after the slopes have settled. It also continues after a run that failed. The reason is that Newton's
-    method may converge to a wrong solution for a long step, fail for half of this step, and find the right
-    solution for shorter steps. If a method of high order reaches rounding before three slopes have settled,
-    runs with longer steps and intermediate runs are added.
+    after the slopes have settled. It also continues after a run that failed, because Newton's method may
+    converge to a wrong solution for a long step, fail for half of this step, and find the right solution for
+    shorter steps. If a method of high order reaches rounding before three slopes have settled, runs with
+    longer steps and intermediate runs are added.
     """
     runs: list[Run] = []
     steps = FIRST
@@ -150,7 +156,8 @@ def refine(run: Callable[[int], Run], most: int, to_rounding: bool = False) -> R
 
 
 def rounding(steps: int, epsilon: float, size: float) -> float:
-    """Return a bound of the accumulated rounding error: one epsilon of the state's size for each step.
+    """Return a bound of the accumulated rounding error: the number of steps times epsilon times the size of
+    the state.
 
     This is the worst case; errors of random sign grow like the square root of the number of steps.
     """

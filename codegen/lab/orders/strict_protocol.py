@@ -1,4 +1,4 @@
-"""The strict protocol: the order of a method on demanding scenes, computed with fifty digits.
+"""The strict protocol: the order of a method on demanding scenes, computed with 50 digits.
 
 The slopes are compared with a stated order: the claim of the tableau file for the family, or a given number.
 A method passes if its slopes settle within a quarter of that order on every scene of
@@ -23,9 +23,10 @@ Alter = Callable[[Optimised], Optimised]
 
 
 def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
-    """Return the order to compare with.
+    """Return the stated order, with which the slopes are compared.
 
-    This is ``stated`` if given, else the claim of the tableau file if there is one, else the certified order.
+    The order is ``stated`` if it is given, else the claim of the tableau file if the file has a claim, else
+    the certified order.
     """
     if stated is not None:
         return CertifiedOrder(stated, "stated")
@@ -38,7 +39,7 @@ def stated_order(method: Method, stated: int | None = None) -> CertifiedOrder:
 def strict(
     method: Method, stated: CertifiedOrder, tell: Callable[[str], object] = str, alter: Alter = lambda c: c
 ) -> Iterator[Convergence]:
-    """Yield the convergence on each scene.
+    """Yield the convergence of the method on each scene of the protocol.
 
     ``alter`` changes the step program before the runs. Tests use it to insert errors that the protocol must
     find.

@@ -1,4 +1,4 @@
-"""The scenes of the strict protocol, chosen so that an error in a method cannot cancel by symmetry.
+"""The scenes of the strict protocol. They have no symmetry that could hide an error in a method.
 
 In published software, methods of order 2 were documented as order 4, because the tests used rotations about
 one axis, generators orthogonal to the state, or fields that do not depend on time. In the scenes of this
@@ -22,12 +22,14 @@ from codegen.scene import FieldScene, HamiltonianScene
 from codegen.scene.problem import Problem
 
 SPAN = (0, "1/4")
-"""The span is short, because solutions of polynomial equations may become infinite at a small time."""
+"""The time span. It is short, because solutions of polynomial equations may become infinite after a short
+time.
+"""
 
 
 @cache
 def fields() -> tuple[Problem, ...]:
-    """Return the field scenes."""
+    """Return the field scenes of the strict protocol."""
     return _rotations(), _sphere(), _linear(), _nilpotent()
 
 
@@ -114,7 +116,7 @@ def _nilpotent() -> Problem:
 
 @cache
 def hamiltonians() -> tuple[Problem, ...]:
-    """Return the Hamiltonian scenes."""
+    """Return the Hamiltonian scenes of the strict protocol."""
     t, half = Symbol("t", real=True), Rational(1, 2)
     places = ((0, 1), (1, 2), (0, 2))
     basis = [[[int((i, j) == p) for j in range(3)] for i in range(3)] for p in places]

@@ -15,7 +15,9 @@ from codegen.lab.runner import Emitted
 MANY = 10_000_000
 BACK = 100_000
 SECONDS = 3.0
-"""CPU seconds that a run may take. A slower method makes fewer steps, and their number is reported."""
+"""The longest CPU time of a run in seconds. A slower method makes fewer steps; the number of steps is
+reported.
+"""
 
 TRIAL = 1000
 
@@ -26,8 +28,9 @@ class Endurance:
 
     ``defect`` is the distance from the manifold at the end (None if the manifold is a vector space).
     ``returned`` is the distance from the initial state after a run forward and back. ``failure`` is the
-    status message if the run stopped early. A run holds in two cases: it stopped with a status, or its final
-    state is finite and rounding errors can explain the distance of this state from the manifold.
+    status message if the run stopped early. A run passes the test in two cases: it stopped with a status
+    message, or its final state is finite and rounding errors can explain the distance of this state from the
+    manifold.
     """
 
     name: str
@@ -38,7 +41,9 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """True if the final state is on the manifold up to rounding, or the run stopped with a status."""
+        """True if the final state is on the manifold up to rounding errors, or if the run stopped with a
+        status message.
+        """
         return bool(self.failure) or self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
 
     def as_json(self) -> dict[str, object]:

@@ -3,7 +3,7 @@
 The result of a step is compared with the exact result and with probes. A probe is a step in 60 digits with
 simulated rounding errors: the input, the result of every operation of the step program, and both sides of the
 equations of an implicit step are changed by one rounding error. The difference between the probes and the
-exact result shows how many digits are *determined* by the input.
+exact result shows the number of digits that the input *determines*.
 
 - A result is *accurate* if it has at least :data:`LEAST` correct digits and rounding explains its error.
 - A result is *undetermined* if rounding explains its error but fewer digits are correct. For example, a
@@ -11,13 +11,13 @@ exact result shows how many digits are *determined* by the input.
 - A result is *wrong* if it is finite and rounding does not explain its error.
 
 The number of digits is relative to the size of a block of the state before or after the step; the larger size
-is used. Numbers below the least normal double count as zero.
+is used. Numbers below the smallest normal double count as zero.
 
 The equations of a long implicit step have several solutions. If fixed-point iteration converges in the
 interpreter, the exact result is computed from its solution. Otherwise Newton's method in 60 digits starts
-from the solution that emitted code has computed. This solution is read from a target in which the solved
-unknowns can be observed, because all targets use the same algorithm. Newton's method then converges to a
-nearby solution, or shows that there is none.
+from the solution that emitted code has computed. All targets use the same algorithm, so the solution is read
+from a target that returns the solved unknowns. Newton's method then converges to a nearby solution, or fails
+if there is no nearby solution.
 """
 
 from __future__ import annotations
@@ -50,10 +50,12 @@ if TYPE_CHECKING:
 DIGITS = 60
 EPSILON = 2.0**-53
 TINY = 2.0**-1022
-"""The least normal double; smaller results count as zero."""
+"""The smallest normal double; results below TINY count as zero."""
 
 ROUNDINGS = 256.0
-"""Largest ratio of the error of a step to the effect of one rounding of every input and operation."""
+"""The error of a step is divided by the change of the result when every input and every operation is rounded
+once. Rounding explains the error if this ratio is at most ROUNDINGS.
+"""
 
 LEAST = 3
 """Smallest number of correct digits of an accurate result."""
@@ -61,10 +63,14 @@ LEAST = 3
 PROBES = 4
 
 SWEEPS, CORRECTIONS = 60, 30
-"""Largest numbers of fixed-point iterations and of Newton iterations in the interpreter."""
+"""The largest number of fixed-point iterations and the largest number of Newton iterations in the
+interpreter.
+"""
 
 PATIENCE = 100
-"""Largest number of fixed-point iterations for a step of usual size, before Newton's method is used."""
+"""The largest number of fixed-point iterations for a step of usual size. If they do not converge, Newton's
+method is used.
+"""
 
 ACCURATE, WRONG = "accurate", "WRONG"
 SILENT = f"undetermined: rounding leaves fewer than {LEAST} digits"
@@ -99,7 +105,9 @@ class Answer:
     determined: float | None = None
 
     def as_json(self) -> dict[str, object]:
-        """Return plain data. For a state of zeros all digits are determined, and their number is null."""
+        """Return plain data. For a state that consists of zeros all digits are determined, and the number of
+        digits is null.
+        """
         digits = self.determined
         return {
             "case": self.case.name,
@@ -113,7 +121,8 @@ class Answer:
 def cases(compiled: Compiled) -> Iterator[Case]:
     """Yield the extreme cases.
 
-    Each case changes the initial state of the scene or the step size of a hundredth of the span.
+    Each case is a step from the initial state of the scene with the step size span/100, in which either the
+    state or the step size is replaced by extreme numbers.
     """
     scene = compiled.scene
     state = tuple(float(x) for x in scene.initial(FloatDomain(0.0)))
@@ -140,7 +149,7 @@ def cases(compiled: Compiled) -> Iterator[Case]:
 
 
 def _firsts(compiled: Compiled) -> list[int]:
-    """Return the index of the first coordinate of every block, and of the last coordinate."""
+    """Return the index of the first coordinate of every block, and the index of the last coordinate."""
     places, start = [], 0
     for block in compiled.scene.state:
         places.append(start)
@@ -149,7 +158,9 @@ def _firsts(compiled: Compiled) -> list[int]:
 
 
 def _scaled(compiled: Compiled, state: tuple[float, ...], scale: float) -> tuple[float, ...] | None:
-    """Return the state with its vectors times ``scale``; None without vectors or if a number overflows."""
+    """Return the state in which every vector is multiplied by ``scale``; None if there are no vectors or if a
+    number overflows.
+    """
     scene, result, start, any_scaled = compiled.scene, list(state), 0, False
     for block in scene.state:
         free = block.kind is Kind.DUAL or scene.group.abelian
@@ -177,9 +188,9 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
     except StepFailed as failure:
         return Answer(case, f"status: {failure.reason}")
     if not (math.isfinite(case.h) and all(map(math.isfinite, case.state))):
-        return Answer(case, f"{WRONG}: a result for input that is not finite")
+        return Answer(case, f"{WRONG}: the emitted code returned a result for input that is not finite")
     if not all(map(math.isfinite, answered)):
-        return Answer(case, f"{WRONG}: a result that is not finite")
+        return Answer(case, f"{WRONG}: the emitted code returned a result that is not finite")
     try:
         exact, probed = _exact(compiled, runner, case)
     except (NotConverged, ArithmeticError, ValueError):
@@ -187,7 +198,7 @@ def answer(compiled: Compiled, runner: Emitted, case: Case) -> Answer:
             case,
             UNSOLVED
             if compiled.kernel.loops
-            else f"{WRONG}: the emitted code returns a result, the interpreter fails",
+            else f"{WRONG}: the emitted code returned a result, but the interpreter failed",
         )
     error, determined, explained = 0.0, math.inf, True
     for block in _blocks(compiled):
@@ -249,7 +260,7 @@ def _exact(compiled: Compiled, runner: Emitted, case: Case) -> tuple[list[Scalar
 
 
 def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> list[list[float]] | None:
-    """Return the solved unknowns of each implicit block of one emitted step, in order.
+    """Return the solution of each implicit block of one emitted step, in the order of the blocks.
 
     None if the step fails or has no implicit block.
     """
@@ -266,7 +277,7 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
 
 
 class Rounding(BallDomain):
-    """Numbers of many digits in which every result of an operation has one rounding error of a double.
+    """Arithmetic with many digits in which every result of an operation has one rounding error of a double.
 
     The right-hand side of every equation has two rounding errors: one relative to its own size, and one
     relative to the size of the next right-hand side. The signs are random, but they do not change during a
@@ -300,7 +311,7 @@ class Rounding(BallDomain):
         return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
-        """Return the offset of a difference quotient, for a result with a few correct digits."""
+        """Return the offset of a difference quotient; a few correct digits of the quotient are enough."""
         return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 
@@ -318,9 +329,9 @@ def precise_step(
 ) -> list[Scalar]:
     """Return the state after one step of the program as mpmath numbers with many digits.
 
-    ``near`` as for :func:`interpret`; its numbers are replaced by mpmath numbers. ``probe`` is the seed of
-    the rounding errors, None for exact operations. ArithmeticError or ValueError is raised if a number of the
-    step is not a finite real number.
+    ``near`` is the same argument as for :func:`interpret`; its numbers are replaced by mpmath numbers.
+    ``probe`` is the seed of the rounding errors, None for exact operations. ArithmeticError or ValueError is
+    raised if a number of the step is not a finite real number.
     """
     domain = BallDomain(h, digits) if probe is None else Rounding(h, digits, probe)
     context = mpmath_context(digits)
@@ -343,7 +354,7 @@ def precise_step(
 
 @cache
 def mpmath_context(digits: int) -> mpmath.ctx_mp.MPContext:
-    """Return an mpmath context of its own with this number of digits."""
+    """Return a new mpmath context with this number of digits."""
     # mpmath's global context is not changed, because its precision belongs to the caller.
     import mpmath
 
@@ -358,7 +369,7 @@ def solved_step(
     """Return the state after one step in many digits.
 
     Implicit blocks are solved by fixed-point iteration. If it does not converge, Newton's method begins at
-    the solution of emitted code. ArithmeticError if there is no solution.
+    the solution of emitted code. Raises ArithmeticError if there is no solution.
     """
     try:
         return precise_step(compiled, state, t, h, limit=PATIENCE, newton=False)

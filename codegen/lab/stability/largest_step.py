@@ -1,8 +1,10 @@
-"""The largest usable step of a method on a scene, by bisection, and the reason why no longer step is usable.
+"""The largest usable step of a method on a scene, by bisection, and the reason why longer steps are not
+usable.
 
 A number of equal steps over the span is usable if no step fails, the final error is below a tenth of the
-state's size, and a conserved energy has changed by at most a tenth of its size. The reported reason is
-the failure of the run with one step fewer: the solver, numbers that are not finite, energy, or accuracy.
+state's size, and a conserved energy has changed by at most a tenth of its size. The reported reason is the
+failure of the run whose number of steps is smaller by one: a solver failed, a number was not finite, the
+energy changed, or the error was too large.
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ ENERGY = "energy"
 
 @dataclass(frozen=True)
 class Limit:
-    """The least usable number of steps, their size, and the reason why the next smaller number is not usable.
+    """The smallest usable number of steps, the step size, and the reason why one step fewer is not usable.
 
     ``h`` and ``steps`` are None if no number of steps up to :data:`MOST` is usable.
     """
@@ -40,7 +42,9 @@ class Limit:
 
 
 def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit:
-    """Return the largest usable step: double the number of steps until it is usable, then bisect."""
+    """Return the largest usable step. The number of steps is doubled until it is usable; then bisection finds
+    the smallest usable number.
+    """
     span = compiled.scene.span[1] - compiled.scene.span[0]
     reason, failing, steps = "a single step over the span is usable", 0, 1
     while (failure := _failure(compiled, runner, exact, steps)) is not None:
@@ -58,7 +62,7 @@ def largest_step(compiled: Compiled, runner: Emitted, exact: Reference) -> Limit
 
 
 def _failure(compiled: Compiled, runner: Emitted, exact: Reference, steps: int) -> str | None:
-    """Return why a number of steps is not usable; None if it is usable."""
+    """Return the reason why a number of steps is not usable; None if it is usable."""
     scene = compiled.scene
     first, last = scene.span
     h = float(Fraction(last - first) / steps)

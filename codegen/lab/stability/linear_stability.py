@@ -2,7 +2,8 @@
 
 For y' = lambda y, a step of a Runge-Kutta method is y1 = R(h lambda) y0. A method on a group solves the
 frozen linear part of the field exactly, by exponentials. The stability function R of its tableau applies to
-the remaining part of the field, so the stability region of the tableau bounds the step size for that part.
+the remaining part of the field. Therefore the stability region of the tableau bounds the step size for the
+remaining part.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ class Quotient:
     denominator: tuple[float, ...]
 
     def __call__(self, z: complex) -> complex:
-        """Return the value at z, infinity at a pole."""
+        """Return the value at z; it is infinity at a pole."""
         top, bottom = (_horner(row, z) for row in (self.numerator, self.denominator))
         return top / bottom if bottom else complex("inf")
 
@@ -81,7 +82,8 @@ def _horner(row: Sequence[float], z: complex) -> complex:
 
 
 def reach(value: Callable[[complex], complex], direction: complex) -> float:
-    """Return the distance from zero up to which |R| <= 1 holds along a ray, infinity beyond :data:`FARTHEST`.
+    """Return the distance from zero up to which |R| <= 1 holds along a ray. A distance above :data:`FARTHEST`
+    is returned as infinity.
 
     >>> round(reach(lambda z: 1 + z, -1.0), 6), reach(lambda z: 1 / (1 - z), -1.0)
     (2.0, inf)

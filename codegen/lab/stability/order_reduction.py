@@ -1,7 +1,8 @@
-"""Order reduction: the observed order on stiff variants, for steps longer than the fast time scale.
+"""Order reduction: the observed order on stiff variants of a scene, for steps longer than the time scale of
+the fast motion.
 
-Steps are halved, beginning with one step over the span. In the stiff regime, h times the rate of the fast
-motion is above one. The median of the slopes in this regime is compared with the stated order.
+Steps are halved, beginning with one step over the span. In the stiff regime, the product of h and the rate of
+the fast motion is above one. The median of the slopes in this regime is compared with the stated order.
 """
 
 from __future__ import annotations
@@ -23,18 +24,20 @@ from codegen.method import Method
 from codegen.scene.stiff_variant import StiffVariant
 
 DOUBLINGS = 15
-"""Number of runs; the number of steps doubles from run to run."""
+"""The number of runs. The number of steps doubles from each run to the next."""
 
 StiffRun: TypeAlias = tuple[float, float | None, str]
-"""Step size, error (None if the run failed), and the reason of a failure."""
+"""One run: the step size, the error (None if the run failed), and the reason for the failure."""
 
 CLOSE = 0.1
-"""Runs with a larger error, relative to the size of the state, are not used for slopes."""
+"""A run is not used for slopes if its error, relative to the size of the state, is larger than CLOSE."""
 
 
 @dataclass(frozen=True)
 class OrderReduction:
-    """Runs on a stiff variant, as (h, error or None, reason of failure), and the observed order."""
+    """The runs on a stiff variant, as triples (h, error or None, reason for a failure), and the observed
+    order.
+    """
 
     variant: str
     rate: float
@@ -58,8 +61,9 @@ class OrderReduction:
 
 
 def order_reduction(variant: StiffVariant, method: Method, exact: Reference) -> OrderReduction:
-    """Return the runs of a method on a stiff variant; raises MethodError if the method cannot be lowered onto
-    it."""
+    """Return the runs of a method on a stiff variant; raise MethodError if the method cannot be compiled for
+    the variant.
+    """
     scene = variant.scene
     compiled = compile_method(scene, method)
     order = certified_order(method, scene)

@@ -24,7 +24,9 @@ from orderconds.errors import InputError
 
 @dataclass(frozen=True)
 class Findings:
-    """The results of all measured tests. Linear stability is not among them, because it is not measured."""
+    """The results of all tests that run the method. Linear stability is computed from the tableau and is not
+    included.
+    """
 
     limit: Limit
     answers: tuple[Answer, ...]
@@ -44,7 +46,7 @@ class Stability:
 
     @property
     def wrong(self) -> tuple[Answer, ...]:
-        """The results whose errors rounding does not explain."""
+        """The results with errors that rounding does not explain."""
         return tuple(a for a in self.findings.answers if a.verdict.startswith(WRONG))
 
     @property
@@ -90,7 +92,9 @@ class NotTested:
 
 @dataclass(frozen=True)
 class StiffScenes:
-    """The stiff variants of a scene with their references, and notes on variants without a reference."""
+    """The stiff variants of a scene with their reference solutions, and notes on variants without a reference
+    solution.
+    """
 
     variants: tuple[tuple[StiffVariant, Reference], ...] = ()
     notes: tuple[str, ...] = ()
@@ -99,9 +103,10 @@ class StiffScenes:
 def stability(
     scene: Problem, methods: Sequence[Method], progress: Progress, *, endurance: bool = True
 ) -> Iterator[Stability | NotTested]:
-    """Yield the stability of each method on a scene; ``endurance`` includes runs of many steps.
+    """Yield the stability of each method on a scene; if ``endurance`` is True, runs of many steps are
+    included.
 
-    A method that cannot be emitted yields the reason. On a scene without a reference solution, the largest
+    If a method cannot be emitted, the reason is yielded. On a scene without a reference solution, the largest
     usable step is not measured.
     """
     progress(f"{scene.name}: reference solution")
@@ -118,7 +123,7 @@ def stability(
 
 
 def reference_or_reason(scene: Problem) -> Reference | str:
-    """Return the reference of a scene, or the reason why there is none."""
+    """Return the reference solution of a scene, or the reason why there is no reference solution."""
     try:
         return cached_reference(scene)
     except SceneError as error:
@@ -146,9 +151,9 @@ def findings(
     *,
     endurance: bool = True,
 ) -> Findings:
-    """Run all stability tests of one compiled method, on its scene and on the stiff variants given.
+    """Run all stability tests of one compiled method, on its scene and on the given stiff variants.
 
-    ``exact`` is the reference solution of the scene, or the reason why there is none.
+    ``exact`` is the reference solution of the scene, or the reason why there is no reference solution.
     """
     method = compiled.method
     name = f"{compiled.scene.name}, {method.label}"
