@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 @click.option(
     "--adaptive",
     is_flag=True,
-    help="Also emit a function that integrates with step-size control; the embedded row of the tableau estimates the error.",
+    help="Also emit a function with step-size control; the embedded row of the tableau estimates the error.",
 )
 @click.option(
     "--precision", default="double", help="Floating-point precision: double (the default) or single."

@@ -1,4 +1,4 @@
-"""A method whose embedded row controls the step size, as a candidate of a work-precision diagram.
+"""A method with step-size control by its embedded row, as a candidate of a work-precision diagram.
 
 In the rows of this candidate, ``control`` is both the relative and the absolute tolerance. ``steps`` counts
 accepted steps only; the evaluations and the time include rejected steps.
@@ -17,13 +17,15 @@ from codegen.lab.runner import RunFailed
 from codegen.lab.timing import samples
 
 TOLERANCES = tuple(10.0**-k for k in range(1, 14))
-"""Tolerances, from loose to tight. The first tolerance is looser than for peers, because error estimates of
-low order require many short steps for a tight tolerance."""
+"""Tolerances, from loose to tight. The first tolerance is looser than the first tolerance of peers, because a
+method with an error estimate of low order needs many short steps for a tight tolerance.
+"""
 
 
 @dataclass
 class AdaptiveCandidate(EmittedCandidate):
-    """A method with an embedded row, emitted to a target, run over the span with step-size control.
+    """A candidate: a method with an embedded row that is emitted to a target and run over the span with
+    step-size control.
 
     Raises MethodError for a method without an error estimate.
     """
@@ -38,7 +40,9 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no finer run is needed; False after a run that diverged: a finer one may succeed."""
+        """Return True if no run with a smaller tolerance is needed. After a run that diverged the result is
+        False, because a run with a smaller tolerance may succeed.
+        """
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
         return not diverged and super().enough(rows)
@@ -46,7 +50,7 @@ class AdaptiveCandidate(EmittedCandidate):
     def arrive(self, tolerance: float, statistics: Statistics | None = None) -> Arrival:
         """Return the result of a run with this tolerance at the end of the span.
 
-        If the tolerance is infinite, the span is empty; the time of this run is the overhead of a call.
+        An infinite tolerance denotes a run over an empty interval, whose time is the overhead of a call.
         """
         first, last = map(float, self.scene.span)
         if math.isinf(tolerance):

@@ -1,4 +1,6 @@
-"""A recommendation as one call: the fastest method of the library for a scene, an error and needs."""
+"""The Python function that recommends a method: the fastest method of the library for a scene, an error and
+needs.
+"""
 
 from __future__ import annotations
 
@@ -25,7 +27,7 @@ SECONDS = 50.0
 
 @dataclass(frozen=True)
 class AdvisedMethod:
-    """A method that reaches the error: its name, its step size or its tolerance, and what was measured.
+    """A method that reaches the error: its name, its step size or its tolerance, and the measured values.
 
     ``h`` is None for a method with step-size control, ``tolerance`` is None for equal steps. ``command``
     emits the integrator.
@@ -49,8 +51,9 @@ class AdvisedMethod:
 
 @dataclass(frozen=True, repr=False)
 class Advice:
-    """The ``best`` method and the ``runner_up``, None if no method reaches the error; ``search`` has all
-    details. An advice is true if there is a best method."""
+    """The ``best`` method and the second best method ``runner_up``; None if no method reaches the error.
+    ``search`` contains all details. In a condition, an advice is true if there is a best method.
+    """
 
     scene: str
     best: AdvisedMethod | None
@@ -61,7 +64,7 @@ class Advice:
         return self.best is not None
 
     def emit(self, target: str = DEFAULT) -> Artifact:
-        """Return the integrator of the best method; ValueError if no method reaches the error."""
+        """Return the integrator of the best method; raise ValueError if no method reaches the error."""
         if self.best is None:
             raise ValueError("no method reaches the error")
         best = self.best
@@ -95,8 +98,8 @@ def recommend(
 ) -> Advice:
     """Search the library for the fastest method that reaches an error at the end of the span.
 
-    The arguments are those of ``orderconds recommend``; ``needs`` are names such as ``"symplectic"``. Errors:
-    SceneError, UnknownName and InputError for wrong arguments.
+    The arguments are those of ``orderconds recommend``; ``needs`` are names such as ``"symplectic"``. Wrong
+    arguments raise SceneError, UnknownName or InputError.
     """
     words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
     text(scene, "scene", "a name of the gallery, or a path of a Python file")
@@ -116,7 +119,7 @@ def recommend(
 
 
 def _interval(span: object) -> tuple[Fraction, Fraction]:
-    """Return an interval of time; InputError unless it is a pair of rational numbers."""
+    """Return a time interval; raise InputError unless it is a pair of rational numbers."""
     try:
         first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):
@@ -124,7 +127,7 @@ def _interval(span: object) -> tuple[Fraction, Fraction]:
             described(span), where="span", expected="a pair of rational numbers, such as (0, 1)"
         ) from None
     if first >= last:
-        raise InputError(f"{first}, {last}", where="span", expected="an end after the beginning")
+        raise InputError(f"{first}, {last}", where="span", expected="an end that is later than the beginning")
     return first, last
 
 

@@ -1,4 +1,4 @@
-"""The bench: measure emitted methods and peers on a scene, rank them, and write a table and a picture."""
+"""The bench: measure emitted methods and peers on a scene, rank them, and write a table and a diagram."""
 
 from __future__ import annotations
 
@@ -36,7 +36,9 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class Result:
-    """The rows of each candidate, the fastest candidate for each accuracy, and the files written."""
+    """The result of a bench: the rows of each candidate, the fastest candidate for each accuracy, and the
+    written files.
+    """
 
     scene: Problem
     entries: dict[str, tuple[Row, ...]]
@@ -54,12 +56,13 @@ class Result:
 
     @property
     def rows(self) -> tuple[Row, ...]:
-        """Every row in order."""
+        """The rows of all candidates, one candidate after another."""
         return tuple(row for rows in self.entries.values() for row in rows)
 
     @property
     def setups(self) -> tuple[tuple[str, float, float], ...]:
-        """For each candidate: name, seconds of emission, and seconds of the longest compilation of a run.
+        """For each candidate: its name, the time of emission, and the longest time to compile the code of a
+        run, in seconds.
 
         Each form of the equations is emitted and compiled separately.
         """
@@ -72,7 +75,9 @@ class Result:
 
 @dataclass(frozen=True)
 class Bench:
-    """Candidates on one scene; :meth:`run` measures them and writes the results to ``folder`` if given."""
+    """Candidates on one scene. :meth:`run` measures the candidates and writes the results to ``folder``,
+    unless it is None.
+    """
 
     scene: Problem
     exact: Reference
@@ -130,7 +135,8 @@ def bench(
     fixed = () if adaptive and not methods else methods_for(problem, methods)
     controlled = methods_for(problem, adaptive) if adaptive else ()
     for method in controlled:
-        replace(method, adaptive=True).embedded()  # raises MethodError if the tableau has no embedded row
+        # This call raises MethodError if the tableau has no embedded row.
+        replace(method, adaptive=True).embedded()
     others = find(peers)
     equations = all_equations(problem, forms)
     folder = _folder(output)
@@ -156,7 +162,7 @@ def emitted_forms(
 ) -> list[Candidate]:
     """Return the candidates of a method: one for each form of the equations that suits the method.
 
-    A method on the manifold of the scene has one candidate.
+    A method that integrates on the manifold of the scene has one candidate.
     """
     suited = equations if lowering(method.family).in_coordinates else [Equations(scene)]
     return [emitted(scene, method, exact, target, budget, adaptive=adaptive, equations=e) for e in suited]
@@ -167,7 +173,7 @@ def peer_forms(
 ) -> list[Candidate]:
     """Return the candidates of peers: one for each form of the equations.
 
-    A peer that projects its states has one candidate, on the manifold of the scene.
+    A peer that projects its states onto the manifold has one candidate, for the equations as printed.
     """
     return [
         PeerCandidate(scene, peer, exact, budget, equations=e)
@@ -192,7 +198,9 @@ def emitted(
     adaptive: bool = False,
     equations: Equations | None = None,
 ) -> Candidate:
-    """Return the candidate of a method; a :class:`Refused` if the method cannot be emitted for the scene."""
+    """Return the candidate of a method, or a :class:`Refused` if the method cannot be emitted for the
+    scene.
+    """
     kind = AdaptiveCandidate if adaptive else EmittedCandidate
     try:
         return kind(scene, method, exact, target, budget, equations=equations)
@@ -209,7 +217,9 @@ def _folder(output: str | None) -> Path | None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise InputError(
-            f"cannot write there: {error.strerror}", where=output, expected="a folder that can be written to"
+            f"cannot write there: {error.strerror}",
+            where=output,
+            expected="a folder that can be written to",
         ) from None
     return folder
 
@@ -229,7 +239,8 @@ def table(rows: Sequence[Row]) -> str:
 def curves(result: Result, styles: Styles) -> list[Curve]:
     """Return error against CPU time of every candidate with at least one successful run.
 
-    A candidate that was measured on several forms of the equations has one curve, of the fastest runs.
+    If a candidate was measured on several forms of the equations, its curve contains the fastest runs of all
+    forms.
     """
     drawn = []
     for label, rows in result.entries.items():

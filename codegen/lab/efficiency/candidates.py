@@ -1,4 +1,6 @@
-"""The recipes of a scene: every method of the library that suits it, with equal or controlled steps."""
+"""The recipes of a scene: the methods of the library that can integrate it, with equal steps or step-size
+control.
+"""
 
 from __future__ import annotations
 
@@ -17,20 +19,23 @@ from orderconds.tableau import RungeKutta, Tableau, available, find
 from orderconds.tableau.method_properties import explicit
 
 SEARCHED = 5
-"""The search for the fewest brackets takes seconds from order six on, so such methods have a cut-off only."""
+"""The largest order for which the fewest brackets are searched. For higher orders the search takes seconds,
+so methods of higher order use the cut-off only.
+"""
 
 
 DEGREES = (4, 6, 8, 10, 12, 14, 16, 18, 20, 24)
-"""The degrees of families without tableau."""
+"""The degrees with which families without a tableau are tried."""
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """A way to integrate a scene: the name of a method, the form of the equations, the choice of step sizes.
+    """A way to integrate a scene: the name of a method, the form of the equations, and equal steps or
+    step-size control.
 
-    ``order`` is the order that the file of the tableau claims, 0 if it claims none. ``stages`` is the number
-    of stages or factors of the tableau; recipes of one ``tableau`` share it. ``explicit`` says that no stage
-    of the tableau depends on itself or on a later stage.
+    ``order`` is the order that the file of the tableau claims; it is 0 if the file claims no order.
+    ``stages`` is the number of stages or factors of the tableau; recipes of one ``tableau`` share it.
+    ``explicit`` is True if each stage of the tableau depends only on earlier stages.
     """
 
     method: str
@@ -78,8 +83,8 @@ def candidates(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recip
 def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[Recipe]:
     """Yield the recipes for the equations of a scene as printed.
 
-    On an abelian group, families that reduce to one classical family give the same methods; only the first
-    of them is used. A recipe may still be refused when its method is compiled.
+    On an abelian group, several families reduce to the same classical family and give the same methods; only
+    the first of these families is used. The compiler may refuse a recipe later.
     """
     families = [f for f in families_for(problem) if family_class(f).has_tableau]
     if not tableaux:
@@ -101,7 +106,9 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 
 
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
-    """Return True if a family reads a tableau, and a step does not divide by a zero weight."""
+    """Return True if a family accepts a tableau, and the formulas of the step do not divide by a zero
+    weight.
+    """
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
     method = tableau.read_as(("rk",))
@@ -113,8 +120,8 @@ def readable(tableau: Tableau, kind: type[Family]) -> bool:
 def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem) -> Iterator[Recipe]:
     """Yield the recipes of one tableau in one family, without and with step-size control.
 
-    For each order only the smallest cut-off is used. An order below half the classical order wastes stages:
-    other tableaux have this order with fewer stages.
+    For each order only the smallest cut-off is used. Orders below half the classical order are omitted,
+    because other tableaux reach these orders with fewer stages.
     """
     stages, name, ordered = size(tableau), tableau.name, is_explicit(tableau)
     controlled = tableau.lower() is not None and family in with_estimate()
@@ -122,10 +129,10 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
     own = {c.cutoff: c.order for c in tableau.claims.orders if c.family.partition("(")[0] == family}
     least = max((2 * stated.get("rk", 0) + 3) // 4, 1)
     if not kind.takes_cutoff:
-        # On some scenes a family has fewer conditions, and a method has a higher order.
+        # On some scenes a family has fewer order conditions, so a method has a higher order.
         try:
             here = lowering(family).conditions(Method(family, tableau), problem).label()
-        except MethodError:  # the tableau does not suit the scene
+        except MethodError:  # the family cannot use the tableau on this scene
             return
         order = stated.get(here) or max(own.values(), default=0) or kind().implied_order(stated)
         if order >= least:
@@ -143,13 +150,14 @@ def recipes(tableau: Tableau, kind: type[Family], family: str, problem: Problem)
 
 
 def size(tableau: Tableau) -> int:
-    """Return the number of stages, or of factors of a splitting or composition."""
+    """Return the number of stages of a tableau, or the number of factors of a splitting or composition."""
     return getattr(tableau.read_as(("rk",)) or tableau.method, "s", 1)
 
 
 def is_explicit(tableau: Tableau) -> bool:
-    """Return True if each stage depends on earlier stages only; true for tableaux that are not read as A and
-    b."""
+    """Return True if each stage depends on earlier stages only. The result is True for tableaux without
+    coefficients A and b.
+    """
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
         return True
@@ -157,7 +165,7 @@ def is_explicit(tableau: Tableau) -> bool:
 
 
 def degrees(family: str) -> Iterator[Recipe]:
-    """Yield the recipes of a family without tableau, with the degree as its number."""
+    """Yield the recipes of a family without a tableau, one recipe for each degree."""
     for degree in DEGREES:
         yield from _both(f"{family}({degree})", degree, degree, "", family_class(family).controls_steps)
 
@@ -171,16 +179,17 @@ def _both(
 
 
 def method_of(recipe: Recipe, problem: Problem) -> Method:
-    """Return the method of a recipe; MethodError if the scene or the family refuses it."""
+    """Return the method of a recipe; raise MethodError if the scene or the family does not accept the
+    method.
+    """
     method = replace(parse(recipe.method, families_for(problem)), adaptive=recipe.adaptive)
     method.embedded()
     return method
 
 
 def named(problem: Problem, methods: Sequence[tuple[str, bool]]) -> Iterator[Recipe]:
-    """Yield the recipes of named methods, with or without step-size control, in every form that suits them.
-
-    The order of a method is the one that is proved for the scene.
+    """Yield the recipes of named methods, with or without step-size control, in every form of the equations
+    that they can integrate. The order of a method is the order that is proved for the scene.
     """
     forms = [form.key for form in classical_forms(problem)]
     for label, adaptive in methods:

@@ -33,11 +33,11 @@ from codegen.scene.problem import Problem
 
 @dataclass
 class EmittedCandidate:
-    """A method emitted to a target, compiled, and run over the span in equal steps.
+    """A candidate: a method that is emitted to a target, compiled, and run over the span with equal steps.
 
-    ``equations`` are the equations in some form of the scene; by default they are those as printed.
-    ``precompiled`` is the result of :func:`compile_method`, if the caller has it. ``emit_seconds`` then does
-    not include the time of :func:`compile_method`.
+    ``equations`` are the equations in one form of the scene, by default the form as printed. ``precompiled``
+    may be the result of :func:`compile_method`. In this case ``emit_seconds`` does not include the time of
+    :func:`compile_method`.
     """
 
     scene: Problem
@@ -101,7 +101,7 @@ class EmittedCandidate:
         spans = max(1, LEAST_STEPS // steps)
         try:
             self.runner.final(steps, spans=spans)
-        except ArithmeticError:  # the solution ends beyond the span
+        except ArithmeticError:  # The solution may not exist beyond the span.
             spans = 1
         times = self._net(
             lambda: samples(lambda: self.runner.final(steps, spans=spans)), lambda: self.runner.final(0)

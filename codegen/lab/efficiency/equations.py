@@ -14,9 +14,10 @@ from codegen.scene.problem import Problem
 
 @dataclass(frozen=True)
 class Equations:
-    """The equations of a scene in a form; None: as the scene states them, on its manifold.
+    """The equations of a scene in one form; if ``form`` is None, the equations as the scene states them, on
+    its manifold.
 
-    ``alone`` says that the scene has no other form, so that no table needs the name of this form.
+    ``alone`` is True if the scene has no other form; tables then omit the name of the form.
     """
 
     scene: Problem
@@ -25,12 +26,14 @@ class Equations:
 
     @property
     def printed(self) -> bool:
-        """True if the coordinates are those of the scene."""
+        """True if the coordinates are the coordinates of the scene."""
         return self.form is None or self.form.printed
 
     @property
     def problem(self) -> Problem:
-        """The problem to integrate. For the form as printed it is the scene, which knows its manifold."""
+        """The problem to integrate. For the form as printed it is the scene, which also contains the
+        equations of its manifold.
+        """
         return self.scene if self.form is None or self.form.printed else self.form.problem
 
     @property
@@ -48,7 +51,7 @@ class Equations:
 def all_equations(scene: Problem, keys: Sequence[str] = ()) -> tuple[Equations, ...]:
     """Return the equations of a scene in all its forms, or in the forms with the given keys.
 
-    :class:`SceneError` for a key that the scene does not have.
+    Raises :class:`SceneError` for a key that the scene does not have.
     """
     forms = classical_forms(scene)
     chosen = {find_form(scene, key).key for key in keys}

@@ -17,8 +17,8 @@ class Features:
 
     ``on_manifold``: a step acts by group elements, so the state stays on the manifold up to rounding.
     ``explicit``: no equations are solved, so all steps take the same time. ``stack`` is an upper bound of the
-    stack of a call in bytes, 0 if it is not known. ``lines`` is the number of lines of the file that contains
-    the step.
+    stack memory of a call in bytes; it is 0 if no bound is known. ``lines`` is the number of lines of the
+    file that contains the step.
     """
 
     label: str
@@ -49,8 +49,8 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 def is_symplectic(compiled: Compiled) -> bool:
     """Return True if steps of constant size are symplectic maps.
 
-    False for methods with step-size control, because variable steps destroy the long-time behaviour of
-    symplectic methods.
+    The result is False for methods with step-size control, because symplectic methods lose their long-time
+    behaviour with variable steps.
     """
     scene, method = compiled.scene, compiled.method
     if not scene.is_hamiltonian or method.adaptive:

@@ -16,7 +16,9 @@ from orderconds.errors import InputError, UnknownName
 
 @dataclass(frozen=True)
 class Need:
-    """A requirement on recipes: its name, its meaning; ``long`` says that it includes long times."""
+    """A requirement on recipes: its name and its meaning. ``long`` is True if it includes the behaviour over
+    long times.
+    """
 
     name: str
     meaning: str
@@ -36,7 +38,9 @@ NEEDS = (
 
 @dataclass(frozen=True)
 class Goal:
-    """The error at the end of the span, the needs, and the bytes of stack that a call may use."""
+    """A goal: the error at the end of the span, the needs, and the largest stack memory of a call in
+    bytes.
+    """
 
     error: float
     needs: tuple[str, ...] = ()
@@ -52,7 +56,7 @@ class Goal:
 
     @property
     def long(self) -> bool:
-        """True if a need includes long times."""
+        """True if a need includes the behaviour over long times."""
         return any(need.long for need in NEEDS if need.name in self.needs)
 
     @property
@@ -61,7 +65,7 @@ class Goal:
         return "explicit" in self.needs
 
     def met(self, properties: Features) -> bool:
-        """Return True if a compiled recipe meets the needs."""
+        """Return True if a compiled recipe satisfies the needs."""
         given = {
             "manifold": properties.on_manifold,
             "symplectic": properties.symplectic,
@@ -75,7 +79,9 @@ class Goal:
 
 
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
-    """Return True if a recipe may meet the needs; other needs are tested when the recipe is compiled."""
+    """Return True if a recipe may satisfy the needs. Some needs can only be tested after the recipe is
+    compiled.
+    """
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False
     if "manifold" in needs and not stays_on_manifold(recipe, problem):

@@ -1,4 +1,8 @@
-"""The order in which recipes are predicted, and what each of them must reach to be interpreted."""
+"""The order in which recipes are predicted, and the bar of each recipe.
+
+The bar is an error and a time. Steps of a recipe are interpreted only if the recipe can reach the error in
+this time.
+"""
 
 from __future__ import annotations
 
@@ -11,14 +15,20 @@ from codegen.lab.efficiency.goal import Goal
 from codegen.lab.efficiency.prediction import Bar, Prediction
 
 MARGIN = 5.0
-"""A prediction ends if a step takes so long that MARGIN times the least predicted time is exceeded."""
+"""The prediction of a recipe ends when its time is certain to exceed MARGIN times the least predicted
+time.
+"""
 
 FRESH = 8
-"""Results that depend on all predictions are computed again when 1/FRESH of the predictions are new."""
+"""A result that depends on all predictions is computed again when the number of predictions has grown by the
+factor 1 + 1/FRESH.
+"""
 
 
 EVEN = 4.0
-"""EVEN turns, or a distance of EVEN from the usual order, count as much as a family that is twice as slow."""
+"""In the priority of a queue, EVEN turns weigh as much as a family that is twice as slow, and so does a
+distance of EVEN from the usual order.
+"""
 
 
 def usual_order(error: float) -> float:
@@ -34,7 +44,9 @@ Kind = tuple[str, str, bool]
 """Family, form, and whether the tableau is explicit: recipes of one kind have similar costs."""
 
 Queue = tuple[Kind, int]
-"""Kind and order: a queue contains their recipes, those with few stages first."""
+"""A kind and an order. The queue contains the recipes of this kind and order, sorted by the number of
+stages.
+"""
 
 Job = tuple[Recipe, tuple[Bar, ...]]
 
@@ -42,9 +54,10 @@ Job = tuple[Recipe, tuple[Bar, ...]]
 class Jobs(Sequence[Job]):
     """The recipes to predict, each with the bars of its goals.
 
-    A job is formed when a worker is ready for it, so it depends on the predictions until then. The queues
-    take turns; orders that are usual for an error are first. A kind that is predicted to be slower than
-    another one waits: the wait increases with the logarithm of the ratio.
+    A job is created only when a worker process is free, so its bars use all predictions up to this time. The
+    queues take turns, and queues of orders that are usual for an error are first. If a kind of recipe is
+    predicted to be slower than another kind, its queues wait: the number of turns is the logarithm of the
+    ratio of the times.
     """
 
     def __init__(self, goals: Mapping[Recipe, Iterable[Goal]]) -> None:
@@ -64,7 +77,9 @@ class Jobs(Sequence[Job]):
         return len(self.goals)
 
     def __getitem__(self, k: int) -> Job:  # type: ignore[override]
-        """Return the next job; jobs are read once, in order. IndexError ends an iteration."""
+        """Return the next job. Each job is read once, and jobs are read in order. IndexError ends an
+        iteration.
+        """
         if k >= len(self):
             raise IndexError(k)
         queue = min((q for q in self.queues if self.queues[q]), key=self._place)
@@ -75,12 +90,16 @@ class Jobs(Sequence[Job]):
         return recipe, tuple(bar for bar in bars if not bar.hopeless(recipe.family))
 
     def _place(self, queue: Queue) -> float:
-        """Return the priority of a queue: small for a fast family, few turns and an order that is usual."""
+        """Return a number that is small for queues with a fast family, few turns and a usual order. The queue
+        with the smallest number is next.
+        """
         distance = min(abs(queue[1] - order) for order in self.usual)
         return self._behind(queue) + (self.turns[queue] + distance) / EVEN
 
     def _behind(self, queue: Queue) -> float:
-        """Return the turns for which a queue waits: log2 of its time relative to the least time."""
+        """Return the number of turns for which a queue waits: log2 of the ratio of its predicted time to the
+        least predicted time.
+        """
         kind, _ = queue
         goals = self.goals[self.queues[queue][0]]
         ratios = [
@@ -102,7 +121,7 @@ class Jobs(Sequence[Job]):
                 self.least[goal] = min(self.least.get(goal, math.inf), seconds)
 
     def _bar(self, goal: Goal, order: int) -> Bar:
-        """Return the bar of a goal for an order; it may be older than the last few predictions."""
+        """Return the bar of a goal for an order. The bar may ignore the most recent predictions."""
         known = self.known[goal]
         age, bar = self.bars.get((goal, order), (0, None))
         if bar is None or len(known) >= age + 1 + age // FRESH:
@@ -117,11 +136,12 @@ def kind_of(recipe: Recipe) -> Kind:
 
 
 def bar_of(goal: Goal, order: int, known: Sequence[Prediction], least_seconds: float) -> Bar:
-    """Return what a method of an order must reach to be interpreted, given the predictions for a goal."""
+    """Return the bar for methods of an order, given the predictions for a goal."""
     seconds = MARGIN * least_seconds
     if not math.isfinite(seconds):
         return Bar(goal.error, explicit=goal.explicit)
-    # All methods need short steps on a fast scene, so that long steps need not be tried again.
+    # On a scene with fast motion all methods need short steps, so longer steps than in earlier predictions
+    # are not tried.
     steps = min(p.steps for p in known if math.isfinite(p.error))
     least: dict[tuple[str, bool], float] = {}
     for p in known:

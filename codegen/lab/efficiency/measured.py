@@ -1,4 +1,4 @@
-"""A bench as one call: methods and other integrators on a scene, measured and ranked."""
+"""The Python function that measures and ranks methods and other integrators on a scene."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 MOST_SECONDS = 1e5
-"""The longest time that a measurement may take."""
+"""The longest CPU time that one run may take, in seconds."""
 
 
 def bench(
@@ -31,10 +31,10 @@ def bench(
     output: str | None = None,
     progress: Progress = str,
 ) -> Result:
-    """Measure error against CPU time of methods, and of the integrators in ``against``, on a scene.
+    """Measure the error and the CPU time of methods, and of the integrators in ``against``, on a scene.
 
-    The arguments are those of ``orderconds bench``. A notebook shows the result as a diagram. Errors:
-    InputError for wrong arguments; a method that cannot be emitted has a row with the reason.
+    The arguments are those of ``orderconds bench``. A notebook shows the result as a diagram. Wrong arguments
+    raise InputError. If a method cannot be emitted, its row contains the reason.
     """
     if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):
         raise InputError(described(adaptive), where="adaptive", expected="a list of methods")

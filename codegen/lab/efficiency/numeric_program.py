@@ -1,7 +1,7 @@
 """Step programs whose operations are Python functions of doubles, for many interpreted steps.
 
-Each operation is evaluated once with symbols. Its expressions become one Python function, which is called
-instead of the operation. The interpreter then runs about ten times as fast as with the operations themselves.
+Each operation is evaluated once with symbols. Its expressions become one Python function, which replaces the
+operation. The interpreter then runs about ten times as fast as with the original operations.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Symbolic:
 
 
 def symbolic(assign: Assign, problem: Problem, shape: Shape) -> Symbolic:
-    """Return an operation evaluated on symbols."""
+    """Evaluate an operation on symbols and return the expressions of its results."""
     domain = ExprDomain(problem.roots[0].space)
     names: list[str] = []
     values: list[object] = []
@@ -102,7 +102,7 @@ class NumericLinear(Operation):
     name = "lin"
 
     def evaluate(self, problem: Evaluated, domain: Domain, args: Values) -> Values:
-        """Return the sum for doubles."""
+        """Return the value of the linear combination for doubles."""
         h = domain.h
         factors = [c * h**power for c, power in self.coefficients]
         if len(factors) == 1:
@@ -113,12 +113,16 @@ class NumericLinear(Operation):
 
 @dataclass
 class NumericPrograms:
-    """The functions of one problem's operations, each compiled when it is first used."""
+    """The Python functions of the operations of one problem. Each function is compiled when it is first
+    used.
+    """
 
     functions: dict[object, Evaluate] = field(default_factory=dict)
 
     def of(self, program: Program, problem: Problem, widths: dict[Var, int]) -> Program:
-        """Return the program with Python functions; ``widths`` are those of all variables."""
+        """Return the program in which Python functions replace the operations; ``widths`` contains the number
+        of components of each variable.
+        """
 
         def replaced(assign: Assign) -> Assign:
             return replace(assign, operation=self._numeric(assign, problem, widths))

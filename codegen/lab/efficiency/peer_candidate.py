@@ -27,7 +27,7 @@ from orderconds.errors import InputError
 class PeerCandidate:
     """A peer on a scene. If the peer does not support the scene, its only row contains the reason.
 
-    ``equations`` are the equations in some form of the scene; by default they are those as printed.
+    ``equations`` are the equations in one form of the scene, by default the form as printed.
     """
 
     scene: Problem
@@ -48,7 +48,9 @@ class PeerCandidate:
         return iter(TOLERANCES) if self.peer.controlled == "tolerance" else doubled_steps()
 
     def prepare(self) -> None:
-        """Do nothing: the code of a peer may depend on the tolerance, so each run prepares its own code."""
+        """Do nothing. The code of a peer may depend on the tolerance, so it is prepared separately for each
+        run.
+        """
 
     def measure(self, control: float) -> Row:
         """Prepare the peer for one tolerance or number of steps, run it, and measure its CPU time."""
@@ -63,7 +65,7 @@ class PeerCandidate:
                 raise PeerFailed("the final state is not finite")
             idle = prepared.idle
             times = net_times(lambda: samples(prepared.run), lambda: cost(idle) if idle is not None else 0.0)
-        # A peer may raise any exception; the other candidates must still be measured.
+        # A peer may raise any exception. After the exception all other candidates must still be measured.
         except Exception as failure:
             self.refused = not isinstance(failure, PeerFailed)
             setup = time.perf_counter() - start
@@ -90,10 +92,10 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Return True if no finer run is needed: the budget is reached, the peer does not support the scene,
-        or rounding dominates.
+        """Return True if no more accurate run is needed: the budget is used, the peer does not support the
+        scene, or rounding errors dominate.
 
-        Rounding is tested only for peers with equal steps.
+        Rounding errors are tested only for peers with equal steps.
         """
         if self.refused or beyond_budget(rows, self.budget):
             return True

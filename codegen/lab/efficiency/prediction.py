@@ -1,9 +1,10 @@
 """The predicted time of a recipe for an error, from a few interpreted steps and counted operations.
 
 The step program is interpreted with a small number of steps; its error and the order of the method give the
-number of steps for another error. The cost of a step is the sum of the costs of its operations, each counted
-once for the scene in expressions. The prediction does not know what the compiler shares between operations,
-so it is used to choose what is compiled and measured first, and to leave out what cannot win.
+number of steps for another error. The cost of a step is the sum of the costs of its operations. The cost of
+an operation is computed once for each scene from its expressions. The prediction ignores common
+subexpressions of different operations, which the compiler computes once. Therefore it only decides which
+recipes are compiled and measured first, and which recipes are too slow to be compiled.
 """
 
 from __future__ import annotations
@@ -36,35 +37,40 @@ SMALL = 1e-2
 """An error below SMALL, relative to the size of the state, follows the order of the method approximately."""
 
 PATIENCE = 0.4
-"""CPU seconds after which the interpreted steps of one recipe end."""
+"""The interpretation of one recipe ends after this CPU time in seconds."""
 
 MOST_SWEEPS = 40
 FEWEST_SWEEPS = 3
 USUAL_SWEEPS = 5
-"""Sweeps of a solved block at least, and usually; a method that cannot win with USUAL_SWEEPS is not
-interpreted."""
+"""The smallest and the usual number of sweeps (iterations) over an implicit block. If a method is too slow
+with USUAL_SWEEPS sweeps, it is not interpreted.
+"""
 
 SETTLED = 1e-9
-"""Interpreted blocks are solved to this relative change; the error of a method is much larger."""
+"""The iteration of an interpreted implicit block ends when the relative change is at most SETTLED. The error
+of a method is much larger.
+"""
 
 FAR = 10.0
 """An error is far from another error if it is FAR times as large."""
 
 CALL = 8.0
-"""Nanoseconds of the loop around a step, and of the state that it reads and writes."""
+"""The time in nanoseconds of the loop around a step, which reads and writes the state."""
 
 DIGITS = 16
-"""Decimal digits of a solved block of emitted code; interpreted blocks have half as many."""
+"""Emitted code solves an implicit block to this number of decimal digits. The interpreter solves it to half
+as many digits.
+"""
 
 
 @dataclass(frozen=True)
 class Prediction:
     """The error of a recipe with ``steps`` steps, and the cost of a step.
 
-    ``outside`` are nanoseconds of a step outside of blocks of equations, ``sweep`` those of one sweep of
-    all blocks, ``sweeps`` the average number of sweeps. ``explicit`` says that no equation is solved. If the
-    interpreted runs failed, ``error`` is infinite. ``failure`` is the reason why the scene or the family
-    refuses the method.
+    A step takes ``outside`` + ``sweeps`` * ``sweep`` nanoseconds: ``sweep`` is the time of one iteration over
+    all implicit blocks, ``sweeps`` the average number of iterations, ``outside`` the time of the remaining
+    operations. ``explicit`` is True if no equation is solved. If the interpreted runs failed, ``error`` is
+    infinite. ``failure`` is the reason if the scene or the family does not accept the method.
     """
 
     method: str
@@ -91,18 +97,21 @@ class Prediction:
             return math.inf
         sweeps = self.sweeps
         if sweeps:
-            # The rate of a fixed-point iteration is proportional to h: short steps need fewer sweeps.
+            # Each iteration reduces the error by a factor proportional to h, so short steps need fewer
+            # sweeps.
             sweeps = DIGITS / max(DIGITS / sweeps + math.log10(count / self.steps), 0.5)
         return 1e-9 * count * (CALL + self.outside + max(sweeps, FEWEST_SWEEPS) * self.sweep)
 
     def error_within(self, seconds: float) -> float:
-        """Return the predicted error of a run that takes some seconds; infinite if a step takes longer."""
+        """Return the predicted error of a run that takes the given time in seconds; infinite if a single step
+        takes longer.
+        """
         steps = seconds / (1e-9 * (CALL + self.outside + max(self.sweeps, FEWEST_SWEEPS) * self.sweep))
         return self.error * math.pow(self.steps / steps, self.order) if steps >= 1 else math.inf
 
 
 class _Counted(FloatDomain):
-    """Double precision with a count of the sweeps over blocks."""
+    """Double precision arithmetic that counts the sweeps (iterations) over implicit blocks."""
 
     def __init__(self, h: float) -> None:
         super().__init__(h)
@@ -110,7 +119,7 @@ class _Counted(FloatDomain):
         self.swept = [0]
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
-        """Return whether the change is below SETTLED, and the change; count the sweep."""
+        """Return True if the relative change is at most SETTLED, and the change. The sweep is counted."""
         self.swept[0] += 1
         done, change = super().settled(old, new, previous)
         return done or change <= SETTLED * max(map(abs, old), default=0.0), change
@@ -118,12 +127,12 @@ class _Counted(FloatDomain):
 
 @dataclass(frozen=True)
 class Bar:
-    """What a recipe must reach: an ``error`` within ``seconds``.
+    """The bar that a recipe must reach: an error of at most ``error`` in at most ``seconds``.
 
-    ``least`` are the least errors within these seconds of the methods of the next higher orders, by family
-    and by whether they are explicit; the family '' is the least of all families.
-    ``steps`` is the number of steps of the first interpreted run. If ``explicit`` is true, methods that solve
-    equations are excluded.
+    ``least`` contains the least errors that methods of the next higher orders reach in this time, as triples:
+    family, explicit or not, error. The family '' denotes the least error of all families. ``steps`` is the
+    number of steps of the first interpreted run. If ``explicit`` is true, methods that solve equations are
+    excluded.
     """
 
     error: float
@@ -135,7 +144,8 @@ class Bar:
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
         """Return True if a method whose step takes at least ``step_seconds`` cannot reach the bar.
 
-        If the methods of the next higher orders are far from the error, lower orders are even farther.
+        If the methods of the next higher orders do not come close to the error, methods of lower order do not
+        either.
         """
         if step_seconds > self.seconds or (self.explicit and not explicit):
             return True
@@ -143,7 +153,9 @@ class Bar:
         return known.get((family, explicit), known.get(("", explicit), 0.0)) > FAR * self.error
 
     def most(self, step_seconds: float) -> float:
-        """Return the largest number of steps that is interpreted: more steps would exceed the time."""
+        """Return the largest number of steps to interpret; a run with more steps would exceed the time of the
+        bar.
+        """
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
     def hopeless(self, family: str) -> bool:
@@ -153,7 +165,7 @@ class Bar:
 
 @dataclass
 class Predictor:
-    """Predicts recipes for one form of a scene; the costs of its operations are computed once."""
+    """Predicts the times of recipes for one form of a scene. The cost of each operation is computed once."""
 
     equations: Equations
     exact: Reference
@@ -161,7 +173,8 @@ class Predictor:
     numeric: NumericPrograms = field(default_factory=NumericPrograms)
 
     def predict(self, method: Method, order: int, *bars: Bar) -> Prediction:
-        """Return the prediction for a method of an order; InputError if it does not suit the scene.
+        """Return the prediction for a method of the given order; raise InputError if the scene does not
+        accept the method.
 
         If the method cannot reach any bar, no step is interpreted and the error is infinite.
         """
@@ -186,7 +199,9 @@ class Predictor:
     def _reached(
         self, program: Program, problem: Problem, steps: int, most: float
     ) -> tuple[int, float, float]:
-        """Return a number of steps with a small error, the error, and the sweeps of a step."""
+        """Return a number of steps with a small error, the error, and the average number of sweeps of a
+        step.
+        """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         end, best = time.process_time() + PATIENCE, (FEW_STEPS, math.inf, 0.0)
         while steps <= most and time.process_time() < end:
@@ -203,9 +218,11 @@ class Predictor:
         return best
 
     def cost(self, program: Program, problem: Problem, widths: dict[Var, int]) -> tuple[float, float]:
-        """Return the nanoseconds of a step outside of blocks, and of one sweep of all blocks.
+        """Return two times in nanoseconds: the operations of a step outside of implicit blocks, and one sweep
+        over all implicit blocks.
 
-        ``widths`` contains the widths of the inputs; those of all other variables are added.
+        ``widths`` contains the numbers of components of the inputs. The numbers of components of all other
+        variables are added to it.
         """
         outside = sweep = 0.0
         for statement in program.body:
@@ -219,9 +236,11 @@ class Predictor:
         return parts * outside, parts * sweep
 
     def _operation(self, assign: Assign, problem: Problem, widths: dict[Var, int]) -> float:
-        """Return the nanoseconds of one assignment; record the widths of its targets."""
+        """Return the time of one assignment in nanoseconds; record the numbers of components of its
+        targets.
+        """
         shape = tuple((a.kind.value, widths[a]) for a in assign.args)
-        # Problems of one scene differ by the group in which the state is represented.
+        # Problems of the same scene may have different groups, so the key contains the group.
         key = f"{problem.group.name} {len(problem.roots)} {assign.operation!r} {shape}"
         if key not in self.costs:
             known = symbolic(assign, problem, shape)
@@ -255,10 +274,11 @@ def amounts(roots: Sequence[Expr]) -> Amounts:
 
 
 def run(program: Program, problem: Problem, steps: int, end: float = math.inf) -> tuple[Vector, float]:
-    """Return the state at the end of the span after equal steps, and the average sweeps of a step.
+    """Return the state at the end of the span after equal steps, and the average number of sweeps of a step.
 
-    Blocks are solved by fixed-point iteration only, because difference quotients would take too long.
-    ArithmeticError if the run is not finished when the process has used ``end`` CPU seconds.
+    Implicit blocks are solved by fixed-point iteration only, because the difference quotients of Newton's
+    method would take too long. Raises ArithmeticError if the run is not finished when the process has used
+    ``end`` CPU seconds.
     """
     first, last = problem.span
     domain = _Counted(float((last - first) / steps))

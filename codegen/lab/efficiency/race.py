@@ -1,8 +1,10 @@
-"""The race: emitted recipes run in C, and the cheapest run that reaches an error is found and timed.
+"""The race: each recipe is emitted as C and run, and the fastest run that reaches an error is found and
+timed.
 
-A run has a control: a number of equal steps, or the exponent k of a tolerance 10^-k. The control is refined
-until the error is reached by two runs in sequence, so that an accidentally small error is not used, and then
-coarsened by bisection.
+A run has a control: a number of equal steps, or the exponent k of a tolerance 10^-k. First the number of
+steps is increased, or the tolerance reduced, until two consecutive runs reach the error. A single run is not
+enough, because its error may be small by accident. Then bisection finds a run with fewer steps or a larger
+tolerance that also reaches the error.
 """
 
 from __future__ import annotations
@@ -29,24 +31,28 @@ from codegen.printers import target as known_target
 from codegen.scene.classical_forms import PRINTED
 
 HALVINGS = 6
-"""Bisections of the number of steps or of the tolerance."""
+"""The number of bisections of the number of steps or of the tolerance."""
 
 FINEST = 15.0
-"""The exponent of the tightest tolerance."""
+"""The exponent k of the smallest tolerance 10^-k."""
 
 LONGEST = 0.2
-"""CPU seconds of the longest run, if no other recipe has reached the error."""
+"""The longest CPU time of a run in seconds, if no other recipe has reached the error."""
 
 BRIEF = 0.01
-"""Runs shorter than BRIEF CPU seconds never end the race of a recipe: the first run of a module is slow."""
+"""A run shorter than BRIEF CPU seconds never excludes a recipe from the race, because the first run of a
+module is slow.
+"""
 
 PATIENT = 8.0
-"""A recipe leaves the race if one of its runs takes PATIENT times as long as the best time so far."""
+"""A recipe leaves the race if one of its runs takes PATIENT times as long as the least time of all other
+recipes.
+"""
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A recipe as an emitted module, with its properties."""
+    """An entry of the race: a recipe with its emitted module and its properties."""
 
     recipe: Recipe
     artifact: Artifact
@@ -55,7 +61,9 @@ class Entry:
 
     @property
     def code(self) -> str:
-        """The step without comments and names, equal for recipes with the same code."""
+        """The code of the step without comments and names. It is equal for two recipes that differ only in
+        comments and names.
+        """
         manifest = self.artifact.manifest
         source = self.artifact.files[known_target(manifest["target"]).step_file(manifest["module"])]
         body = source.replace(manifest["interface"]["prefix"], "").replace(manifest["module"], "")
@@ -68,17 +76,17 @@ def entry(recipe: Recipe, compiled: Compiled) -> Entry:
     artifact = emit_compiled(compiled, DEFAULT, order=order)
     properties = features(compiled, artifact, recipe.label)
     if recipe.form != PRINTED:
-        # The coordinates of a form are a vector space, but the state of the scene is not.
+        # The states of a form are a vector space, but the states of the scene may be a manifold.
         properties = replace(properties, on_manifold=False)
     return Entry(recipe, artifact, properties, compiled.method.label)
 
 
 @dataclass(frozen=True)
 class Result:
-    """The cheapest run that reaches the error: its control, its error, and its CPU seconds.
+    """The fastest run that reaches the error: its control, its error, and its CPU time in seconds.
 
-    ``steps`` is the number of (accepted) steps. ``reached`` is false if no run reaches the error; the run is
-    then the most accurate one.
+    ``steps`` is the number of (accepted) steps. If no run reaches the error, ``reached`` is False and the
+    result describes the most accurate run.
     """
 
     entry: Entry
@@ -97,7 +105,9 @@ class Result:
 
 @dataclass
 class Racer:
-    """One entry; ``equations`` are those of its form, ``exact`` is the reference at the end of the span."""
+    """Runs one entry. ``equations`` are the equations in the form of its recipe; ``exact`` is the reference
+    solution at the end of the span.
+    """
 
     equations: Equations
     exact: Reference
@@ -138,8 +148,8 @@ class Racer:
     def seconds(self, control: float, batch: float = 0.002, batches: int = 5) -> float:
         """Return the CPU seconds of a run without the overhead of a call.
 
-        A short run is continued beyond the span, because the overhead of a call from Python would hide its
-        time.
+        A short run is continued beyond the span, because the overhead of a call from Python exceeds the time
+        of a short run.
         """
         steps = self.counts[control]
         times = max(1, LEAST_STEPS // max(steps, 1))
@@ -154,8 +164,8 @@ class Racer:
     def reach(self, error: float, best: float = math.inf) -> Result:
         """Return the cheapest run that reaches an error.
 
-        ``best`` are the CPU seconds of the best recipe so far. The result is not ``reached`` if the runs take
-        much longer.
+        ``best`` is the least CPU time of all other recipes in seconds. If the runs take much longer than
+        ``best``, the search ends and ``reached`` is False.
         """
         longest = min(LONGEST, PATIENT * best + BRIEF)
         control, fine = self._refined(error, longest)
@@ -169,7 +179,9 @@ class Racer:
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
-        """Return the first control from which two runs reach the error, and whether there is one."""
+        """Return the first control with which two consecutive runs reach the error, and True; if there is no
+        such control, return the last control and False.
+        """
         control, seen = 1.0, [self.error(1.0)]
         while control <= (FINEST if self.entry.recipe.adaptive else MOST_STEPS):
             start = time.process_time()
@@ -182,7 +194,9 @@ class Racer:
         return control, False
 
     def _at_rounding(self, values: list[float]) -> bool:
-        """Return True if the last three refinements did not reduce an error that is near rounding."""
+        """Return True if the error is as small as rounding errors and the last three refinements did not
+        reduce it.
+        """
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
 
@@ -190,7 +204,9 @@ class Racer:
         return control + 1.0 if self.entry.recipe.adaptive else 2.0 * control
 
     def _coarsened(self, control: float, error: float) -> float:
-        """Return the coarsest control found by bisection that reaches the error."""
+        """Return the control with the fewest steps or the largest tolerance that bisection finds and that
+        reaches the error.
+        """
         adaptive = self.entry.recipe.adaptive
         low = control - 1.0 if adaptive else control / 2
         for _ in range(HALVINGS):

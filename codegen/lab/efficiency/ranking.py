@@ -1,7 +1,7 @@
 """The time to reach an accuracy, interpolated between runs, and the fastest candidate for each decade.
 
-A candidate may have runs on several forms of the equations. Its time to an accuracy is that of the fastest
-form.
+A candidate may have runs on several forms of the equations. Its time for an accuracy is the time of the
+fastest form.
 """
 
 from __future__ import annotations
@@ -15,9 +15,10 @@ from codegen.lab.efficiency.work_precision import Row
 
 @dataclass(frozen=True)
 class Place:
-    """The fastest candidate for an error of 10^-decade, and the second fastest, with their CPU seconds.
+    """The fastest and the second fastest candidate for an error of 10^-decade, with their CPU times in
+    seconds.
 
-    The name of a form follows the label of a candidate that was measured on several forms.
+    If a candidate was measured on several forms, its label is followed by the name of the form.
     """
 
     decade: int
@@ -33,22 +34,22 @@ def by_form(rows: Sequence[Row]) -> dict[str, list[Row]]:
 
 
 def fastest_form(rows: Sequence[Row], error: float) -> tuple[float, str] | None:
-    """Return the CPU seconds and the name of the form with which a candidate is the first to reach ``error``.
+    """Return the CPU seconds and the name of the form with which a candidate reaches ``error`` fastest.
 
-    None if no form reaches it.
+    The result is None if no form reaches the error.
     """
     times = [(_seconds_to(own, error), form) for form, own in by_form(rows).items()]
     return min(((t, form) for t, form in times if t is not None), default=None, key=lambda pair: pair[0])
 
 
 def seconds_to(rows: Sequence[Row], error: float) -> float | None:
-    """Return the CPU seconds that a candidate needs to reach ``error``; None if it does not reach it.
+    """Return the CPU seconds that a candidate needs to reach ``error``; None if it does not reach the error.
 
     The search begins at the row with the smallest error and continues to coarser runs while their errors are
     at most ``error``. In this way an accidentally small error of a coarse run is not used. Time and error are
     interpolated logarithmically between the last row found and the next coarser row. If there is no coarser
-    row, the time of the coarsest row is returned. If a finer row took less time, its time is returned, so
-    that the result never increases with ``error``.
+    row, the time of the coarsest row is returned. If a more accurate run took less time, this time is
+    returned, so that the result never increases with ``error``.
 
     >>> from codegen.lab.efficiency.work_precision import Row
     >>> row = lambda e, s: Row("", "", "", 0, None, None, e, s, None, None, None, None, None, 0.0, 0.0)
@@ -80,7 +81,7 @@ def _seconds_to(rows: Sequence[Row], error: float) -> float | None:
 
 
 def in_form(label: str, form: str) -> str:
-    """Return the label of a candidate, followed by the name of a form in brackets unless the name is empty.
+    """Return the label of a candidate. If the name of a form is not empty, it follows in brackets.
 
     >>> in_form("heyoka", "as printed"), in_form("cf:cf4", "")
     ('heyoka (as printed)', 'cf:cf4')
@@ -89,7 +90,7 @@ def in_form(label: str, form: str) -> str:
 
 
 def frontier(rows: Sequence[Row]) -> list[Row]:
-    """Return the successful rows, without those that another form of the equations beats.
+    """Return the successful rows, except rows for which another form of the equations is faster.
 
     The rows of several forms are ordered by their errors, from large to small.
     """
@@ -127,7 +128,7 @@ DECADES = range(2, 15)
 
 
 def places(entries: Mapping[str, Sequence[Row]], decades: Sequence[int] = DECADES) -> tuple[Place, ...]:
-    """Return the fastest candidate for each decade of accuracy that some candidate reaches."""
+    """Return the fastest candidate for each decade of accuracy that at least one candidate reaches."""
     result = []
     for decade in decades:
         fastest = {label: fastest_form(rows, 10.0**-decade) for label, rows in entries.items()}

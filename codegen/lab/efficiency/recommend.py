@@ -1,4 +1,4 @@
-"""The recommendation: the fastest recipe of the library that reaches an error and meets the needs."""
+"""The recommendation: the fastest recipe of the library that reaches an error and satisfies the needs."""
 
 from __future__ import annotations
 
@@ -20,10 +20,11 @@ from orderconds.processes import in_processes
 
 @dataclass(frozen=True)
 class Request:
-    """What is asked for: ``scene`` as the user names it, the error at the end of the span, and the needs.
+    """A request of the user: the name of the scene, the largest error at the end of the span, and the needs.
 
-    ``stack`` are the bytes that a call may use. ``span`` replaces the span of the scene. ``budget`` are the
-    seconds that the search may take. ``tableaux`` restrict the library.
+    ``stack`` is the largest stack memory of a call in bytes. ``span`` replaces the span of the scene.
+    ``budget`` is the longest time of the search in seconds. If ``tableaux`` is not empty, only these tableaux
+    are searched.
     """
 
     scene: str
@@ -35,7 +36,7 @@ class Request:
     tableaux: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        assert self.goal  # raises the errors of the goal
+        assert self.goal  # The property raises InputError for a wrong goal.
 
     @property
     def goal(self) -> Goal:
@@ -54,11 +55,11 @@ class Request:
 
 @dataclass(frozen=True)
 class Recommendation:
-    """The result of a search: the recipes that reach the error, fastest first, and what was examined.
+    """The result of a search: the recipes that reach the error, fastest first, and the extent of the search.
 
-    ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are numbers
-    of recipes. ``complete`` is false if the budget ended the search. ``lost`` names the recipes that were
-    excluded by a long run.
+    ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are the
+    numbers of recipes that were predicted and that were measured. ``complete`` is False if the budget ended
+    the search. ``lost`` contains the labels of recipes that lose a conserved quantity in a long run.
     """
 
     request: Request
@@ -111,13 +112,13 @@ def place_json(task: Task, place: Result) -> dict[str, object]:
 
 
 def step_of(task: Task, place: Result) -> float | None:
-    """Return the step size of a run; None if it is controlled."""
+    """Return the step size of a run; None for a run with step-size control."""
     first, last = task.problem().span
     return None if place.entry.recipe.adaptive or not place.steps else float((last - first) / place.steps)
 
 
 def recommend(request: Request, progress: Progress = str) -> Recommendation:
-    """Return the recommendation for a request; errors of the scene and of the request are InputErrors."""
+    """Return the recommendation for a request; raise InputError if the scene or the request is wrong."""
     search = Search(request.task, (request.goal,), progress)
     search.run()
     places, lost = search.leaders(request.goal)
@@ -135,7 +136,9 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
 
 
 def race_all(request: Request, errors: Sequence[float]) -> dict[float, list[Result]]:
-    """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark."""
+    """Emit and race every recipe for each error, without predictions. A benchmark compares the search with
+    this function.
+    """
     search = Search(request.task, (request.goal,))
     results: dict[float, list[Result]] = {error: [] for error in errors}
     for candidate in in_processes(partial(emitted, request.task), list(search.suited)):

@@ -1,4 +1,6 @@
-"""Requirements that tables of recommended methods have as columns, and the errors that they have as rows."""
+"""The requirements and the errors of tables of recommended methods: one column for each requirement, one row
+for each error.
+"""
 
 from __future__ import annotations
 
@@ -10,12 +12,14 @@ DECADES = range(2, 13)
 """Methods are recommended for errors of 10^-k, for each k in this range."""
 
 STACK = 4096
-"""The largest stack of a call, in bytes, that the requirement ``embedded target`` permits."""
+"""The largest stack memory of a call, in bytes, that the requirement ``embedded target`` permits."""
 
 
 @dataclass(frozen=True)
 class Requirement:
-    """A requirement: its name, its meaning, the needs of its goals, and the largest stack of a call."""
+    """A requirement: its name, its meaning, the needs of its goals, and the largest stack memory of a
+    call.
+    """
 
     name: str
     meaning: str

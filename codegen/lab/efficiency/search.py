@@ -1,13 +1,13 @@
 """The search for the fastest recipes of the library for several goals.
 
 The search has three stages. First, each recipe is predicted by a few interpreted steps
-(:mod:`codegen.lab.efficiency.prediction`). Methods are dropped without a run if their steps take too long,
-or if methods of higher order are far from the error. Then recipes are emitted and raced in C in the order of
-their predicted times. The ratio of measured to predicted times of each kind of recipe corrects the later
-predictions. A recipe is left out if its corrected prediction exceeds the best measured time by a safety
-factor. Last, the leaders are timed again, with more repetitions.
+(:mod:`codegen.lab.efficiency.prediction`). A recipe is dropped without interpreted steps if one step takes
+too long, or if methods of higher order do not come close to the error. Second, recipes are emitted and
+measured in C, in the order of their predicted times. For each kind of recipe, the ratio of measured to
+predicted times corrects later predictions. A recipe is not emitted if its corrected prediction exceeds the
+best measured time by a safety factor. Third, the fastest recipes are timed again with more repetitions.
 
-Goals differ in the error and in the needs. They share predictions, compiled modules and runs.
+Several goals, which differ in the error and in the needs, share predictions, compiled modules and runs.
 """
 
 from __future__ import annotations
@@ -32,28 +32,30 @@ from codegen.lab.reference import Reference, cached_reference
 from orderconds.processes import in_processes
 
 SAFETY = 2.5
-"""A recipe is raced if its corrected prediction is at most SAFETY times the best measured time."""
+"""A recipe is emitted and measured if its corrected prediction is at most SAFETY times the best measured
+time.
+"""
 
 UNSEEN = 4.0
-"""The safety factor for a kind of recipe of which none was raced yet."""
+"""The safety factor for a kind of recipe of which no recipe was measured yet."""
 
 LEADERS, CLOSE = 4, 1.4
-"""At most LEADERS recipes within a factor CLOSE of the best are timed again."""
+"""At most LEADERS recipes are timed again. Their times are at most CLOSE times the best time."""
 
 ROUND = 6
-"""Recipes that are emitted between two corrections."""
+"""The number of recipes that are emitted between two corrections of the predictions."""
 
 GROUP = 50
-"""Predictions between two messages."""
+"""The number of predictions between two progress messages."""
 
 PREDICTING = 0.5
-"""The part of the budget that predictions may take."""
+"""The largest part of the time budget that predictions may use."""
 
 UNREACHED = 1e-3
-"""The gain of a recipe for a goal that no recipe reaches according to the predictions."""
+"""The gain that is assigned to a recipe for a goal that, according to the predictions, no recipe reaches."""
 
 LONG_STEPS = 20_000
-"""Steps of the long run that a recommendation for long times must survive."""
+"""The number of steps of the long run that tests recommendations for long times."""
 
 Kind = tuple[str, bool, bool]
 """Family, explicit or not, adaptive or not: predictions of one kind have similar errors."""
@@ -64,7 +66,7 @@ Key = tuple[str, str]
 
 @dataclass
 class Search:
-    """One search; :meth:`run` fills ``results``, :meth:`leaders` ranks them for a goal."""
+    """One search. :meth:`run` computes ``results``, and :meth:`leaders` ranks the results for a goal."""
 
     task: Task
     goals: tuple[Goal, ...]
@@ -94,7 +96,7 @@ class Search:
 
     @property
     def spent(self) -> float:
-        """The part of the budget that is used."""
+        """The fraction of the time budget that is already used."""
         return (time.monotonic() - self.start) / self.task.budget
 
     def run(self) -> None:
@@ -105,7 +107,7 @@ class Search:
     def predict(self) -> None:
         """Predict all recipes until the part of the budget for predictions is used.
 
-        Families and forms take turns (:class:`Jobs`), and those that are slower than others have fewer turns.
+        Families and forms take turns (:class:`Jobs`); slow families and slow forms have fewer turns.
         """
         methods: dict[Recipe, list[Goal]] = defaultdict(list)
         for recipe, suited in self.suited.items():
@@ -123,7 +125,9 @@ class Search:
                 return
 
     def expected(self, recipe: Recipe, error: float) -> float:
-        """Return the predicted seconds of a recipe for an error, corrected by the ratio of its kind."""
+        """Return the predicted time of a recipe for an error in seconds, corrected by the ratio for its kind
+        of recipe.
+        """
         prediction = self.predictions.get((recipe.method, recipe.form))
         if prediction is None or prediction.failure:
             return math.inf
@@ -135,7 +139,7 @@ class Search:
         return seconds * self._least / UNSEEN
 
     def _correct(self) -> None:
-        """Compute the corrections of predictions from the ratios."""
+        """Compute the corrections of predictions from the ratios of measured to predicted times."""
         self._corrections = {key: geometric_mean(x) for key, x in self.ratios.items() if x}
         joined: dict[Kind, list[float]] = defaultdict(list)
         for (kind, _), ratios in self.ratios.items():
@@ -149,7 +153,7 @@ class Search:
         return recipe.family, prediction is None or prediction.explicit, recipe.adaptive
 
     def race(self) -> None:
-        """Emit and time recipes, the most promising first."""
+        """Emit and measure recipes, in the order of their predicted gains."""
         while True:
             self._correct()
             ready = self._next()
@@ -170,9 +174,9 @@ class Search:
                     break
 
     def _next(self) -> list[Recipe]:
-        """Return the next recipes to emit: those that promise the largest gains for all goals.
+        """Return the next recipes to emit: the recipes with the largest predicted gains for all goals.
 
-        A kind that was not raced yet is represented by one recipe.
+        If no recipe of a kind was measured yet, only one recipe of this kind is returned.
         """
         gains: dict[Recipe, float] = defaultdict(float)
         open_ = {r: suited for r, suited in self.suited.items() if r not in self.raced and self._known(r)}
@@ -204,13 +208,13 @@ class Search:
         return prediction is not None and not prediction.failure
 
     def best(self, goal: Goal) -> float:
-        """The best measured seconds for a goal so far."""
+        """Return the least measured time for a goal in seconds."""
         return min((r.seconds for r in self._reached(goal)), default=math.inf)
 
     def _reached(self, goal: Goal) -> Iterable[Result]:
-        """Yield the fastest result of each recipe that reaches a goal and meets its needs.
+        """Yield the fastest result of each recipe that reaches a goal and satisfies its needs.
 
-        A run with a smaller error is a run that reaches the goal.
+        A run for a smaller error than the error of the goal also reaches the goal.
         """
         fastest: dict[Recipe, Result] = {}
         for error, results in self.results.items():
@@ -225,7 +229,9 @@ class Search:
         return Racer(self.task.equations(candidate.recipe.form), self.exact, candidate)
 
     def _measure(self, recipe: Recipe) -> None:
-        """Race an entry for each error where it may win, and record the ratios of its kind."""
+        """Measure a recipe for each error for which it may be the fastest, and record the ratios of measured
+        to predicted times.
+        """
         racer = self.racers[recipe]
         prediction = self.predictions[recipe.method, recipe.form]
         met = [goal for goal in self.suited[recipe] if goal.met(racer.entry.features)]
@@ -237,13 +243,14 @@ class Search:
             self.results[error][recipe] = result
             known = prediction.seconds(error)
             if math.isfinite(known):
-                # A recipe that left the race is slower than the best by more than its safety factor.
+                # If a recipe did not reach the error, its time is unknown; it counts as twice the safety
+                # factor times the best time.
                 seconds = result.seconds if result.reached else max(known, 2 * self.safety * worst)
                 if math.isfinite(seconds):
                     self.ratios[self.kind(recipe), error].append(seconds / known)
 
     def time_again(self, goal: Goal) -> None:
-        """Time the leaders for a goal again, each run once."""
+        """Time the fastest recipes for a goal again. No run is timed again twice."""
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         for result in [r for r in ranked[:LEADERS] if r.seconds <= CLOSE * ranked[0].seconds]:
             recipe = result.entry.recipe
@@ -255,7 +262,9 @@ class Search:
                         results[recipe] = replace(results[recipe], seconds=seconds)
 
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
-        """Time the leaders for a goal again; return all places, and the labels that a long run excludes."""
+        """Time the fastest recipes for a goal again; return the ranking, and the labels of recipes that a
+        long run excludes.
+        """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         lost: list[str] = []
@@ -267,8 +276,9 @@ class Search:
         return ranked, lost
 
     def _loses(self, result: Result) -> bool:
-        """Return True if a conserved quantity is lost, or a step fails, in a long run with the step of a
-        result."""
+        """Return True if a long run loses a conserved quantity or fails; the run has the step size of the
+        given result.
+        """
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps
         done = record(self.problem, racer.integrator, racer.initial, h, LONG_STEPS, racer.first)

@@ -1,4 +1,6 @@
-"""The task of a search: a scene with its span and the methods of the search; the work of its processes."""
+"""The task of a search: the scene, its span and the methods; and the functions that worker processes
+execute.
+"""
 
 from __future__ import annotations
 
@@ -18,16 +20,17 @@ from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 BUDGET = 50.0
-"""Seconds that a search may take by default; the recipe in work is finished."""
+"""The default time of a search in seconds. When the time is over, the search finishes the current recipe."""
 
 
 @dataclass(frozen=True)
 class Task:
-    """A scene as the user names it, and the extent of the search.
+    """The name of a scene, and the extent of the search.
 
-    ``span`` replaces the span of the scene. ``budget`` are the seconds that the search may take. ``tableaux``
-    restrict the library. ``methods`` are the labels of the methods to search, with whether each has
-    step-size control; if it is empty, the library is searched.
+    ``span`` replaces the span of the scene. ``budget`` is the longest time of the search in seconds. If
+    ``tableaux`` is not empty, only these tableaux are searched. ``methods`` contains pairs: the label of a
+    method to search, and True if the method has step-size control. If ``methods`` is empty, the library is
+    searched.
     """
 
     scene: str

@@ -1,8 +1,8 @@
 """Work-precision diagrams: error against CPU time, over a sequence of step sizes or tolerances.
 
 A :class:`Candidate` is an emitted method or a peer. Each run produces one :class:`Row`: the error at the end
-of the span in the norm of the scene, and CPU time as :mod:`codegen.lab.timing` measures it. A run that fails
-produces a row with the reason. A candidate that cannot be prepared produces a row with the reason as well.
+of the span in the norm of the scene, and the CPU time, measured by :mod:`codegen.lab.timing`. If a run fails
+or a candidate cannot be prepared, the row contains the reason.
 """
 
 from __future__ import annotations
@@ -18,20 +18,26 @@ from codegen.lab.reference import Reference
 from orderconds.errors import InputError
 
 BUDGET = 1.0
-"""CPU seconds that one run may take."""
+"""The longest CPU time of one run, in seconds."""
 
 MOST_STEPS = 5 * 2**21
 COUNTED = 1e-3
 """The overhead of a call from Python is subtracted from times below this number of CPU seconds."""
 
 RESOLVED = 0.1
-"""The time of a run is resolved if a second batch takes at most RESOLVED longer, without the overhead."""
+"""The time of a run without the overhead is resolved if the times of the two fastest batches differ by at
+most this fraction.
+"""
 
 AGAIN = 3
-"""How often runs are measured again whose times are not resolved, or in the wrong order."""
+"""The largest number of repeated measurements of a run whose time is not resolved or is longer than the time
+of a run with more steps.
+"""
 
 NEAR_ROUNDING = 1e-9
-"""Below this error, relative to the size of the state, rounding errors may prevent further convergence."""
+"""If the error relative to the size of the state is below NEAR_ROUNDING, rounding errors may prevent further
+convergence.
+"""
 
 
 @dataclass(frozen=True)
@@ -40,8 +46,8 @@ class Row:
 
     ``form`` is the name of the classical form of the equations, '' if the scene has one form only.
     ``seconds`` is the least CPU time of several batches. Three quarters of the batches take at most 1 +
-    ``spread`` times as long. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run;
-    None if they are not counted. ``failure`` is the reason if the run failed, else ''.
+    ``spread`` times as long. ``evaluations``, ``exponentials`` and ``iterations`` are totals of the run; they
+    are None if they are not counted. ``failure`` is the reason if the run failed, else ''.
     """
 
     scene: str
@@ -68,7 +74,8 @@ class Row:
 
 
 class Candidate(Protocol):
-    """A method or peer to measure: ``label`` and ``target`` name it; ``key`` identifies its code.
+    """A method or peer to measure. ``label`` and ``target`` are its names in tables; ``key`` identifies its
+    code.
 
     ``form`` is the name of the form of the equations; '' if the scene has one form only.
     """
@@ -82,7 +89,7 @@ class Candidate(Protocol):
         """Yield numbers of steps or tolerances, from coarse to fine."""
 
     def prepare(self) -> None:
-        """Prepare the first run; raises InputError if the candidate cannot run on the scene."""
+        """Prepare the first run; raise InputError if the candidate cannot run on the scene."""
 
     def measure(self, control: float) -> Row:
         """Run once for the error, then several times for the CPU time."""
@@ -94,9 +101,9 @@ class Candidate(Protocol):
 def net_times(sample: Callable[[], Sequence[float]], overhead: Callable[[], float]) -> list[float]:
     """Return the times of a run without the overhead of a call, sorted.
 
-    Times of :data:`COUNTED` seconds or more are not changed, because the overhead is negligible there. A
-    short run may take hardly longer than its overhead. It is then measured again, at most :data:`AGAIN`
-    times, until two batches agree on the difference.
+    Times of :data:`COUNTED` seconds or more are not changed, because the overhead is negligible for them. If
+    a short run takes hardly longer than its overhead, it is measured again, at most :data:`AGAIN` times,
+    until two batches give nearly the same difference.
     """
     spent, least = sorted(sample()), math.inf
     for attempt in range(1 + AGAIN):
@@ -119,8 +126,8 @@ def measure_rows(
 ) -> tuple[Row, ...]:
     """Return the rows of a candidate; ``done`` is called with each row.
 
-    Rows in ``cache`` are not measured again. The candidate is prepared only if some row is missing. If it
-    cannot be prepared, the last row contains the reason.
+    Rows in ``cache`` are not measured again. The candidate is prepared only if a row is not in the cache. If
+    it cannot be prepared, the last row contains the reason.
     """
     rows: list[Row] = []
     ready = False
@@ -153,10 +160,12 @@ def measure_rows(
 
 
 def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collection[float]) -> list[Row]:
-    """Return the rows with times that increase with the number of steps, as far as measurements permit.
+    """Return the rows after new measurements, which are made if times do not increase with the number of
+    steps.
 
-    If a run took longer than a run with more steps, both are measured again, at most :data:`AGAIN` times; the
-    smaller time counts. Only runs whose controls are in ``fresh`` are measured again.
+    If a run took longer than a run with more steps, both runs are measured again, at most :data:`AGAIN`
+    times, and for each run the smallest time is used. Only runs whose controls are in ``fresh`` are measured
+    again.
     """
     kept = list(rows)
     for _ in range(AGAIN):
@@ -173,7 +182,7 @@ def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collec
 
 
 def _inverted(a: Row, b: Row) -> bool:
-    """Return True if the first of two rows has fewer steps and took longer."""
+    """Return True if the first row has fewer steps than the second row but took longer."""
     if None in (a.seconds, b.seconds, a.steps, b.steps):
         return False
     return (a.steps or 0) < (b.steps or 0) and (a.seconds or 0.0) > (b.seconds or 0.0)
@@ -190,7 +199,7 @@ class Refused:
     form: str = ""
 
     def controls(self) -> Iterator[float]:
-        """Yield one control, for the row with the reason."""
+        """Yield a single control, so that the candidate has one row, which contains the reason."""
         yield 0.0
 
     def prepare(self) -> None:
@@ -202,7 +211,7 @@ class Refused:
         raise InputError(self.reason)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Stop at once."""
+        """Return True, because no run is possible."""
         return True
 
 
@@ -221,8 +230,9 @@ def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
 
 
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
-    """Return True if the errors are near rounding and the last two halvings of the step hardly reduced
-    them."""
+    """Return True if the errors are near rounding and the last two halvings of the step size hardly reduced
+    the errors.
+    """
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))
     return len(errors) == 3 and errors[0] <= NEAR_ROUNDING * size and min(errors[1:]) > errors[0] / 3

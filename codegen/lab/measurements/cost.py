@@ -99,9 +99,9 @@ def data(result: Result, subject: Subject) -> dict[str, object]:
     return {
         "picture": Picture(
             picture,
-            "Error against the CPU time of the whole run (least of several measurements). Broad lines: up to "
-            "the time within which three quarters of the measurements are. Dashed, with open "
-            "markers: peers. Dash-dotted: step-size control. Dotted: slopes of order p with equal steps.",
+            "Error against the CPU time of the whole run (least of several measurements). Broad lines end "
+            "at the upper quartile of the measured times. Dashed, with open markers: peers. Dash-dotted: "
+            "step-size control. Dotted: slopes of order p with equal steps.",
             subject.bench_command(),
         ),
         "places": [

@@ -1,7 +1,7 @@
 """The documents of the report: a page for each scene, and an overview with links to the pages.
 
-Each document contains its style, its pictures and a script, and loads nothing from elsewhere. Without the
-script, a document can be read in full: the script only adds the values of markers and hides series.
+Each document contains its style sheet, its figures and a script, and loads no other files. A browser without
+scripts shows the whole document, because the script only displays the values of markers and hides series.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def page_name(results: SceneResults) -> str:
 
 
 def render(results: SceneResults, command: str) -> str:
-    """Return the page of one scene; ``command`` is the command that reproduces it."""
+    """Return the page of one scene; ``command`` is the command line that writes the same page."""
     scene = results.scene
     first, last = scene.span
     values = {
@@ -60,7 +60,7 @@ def render(results: SceneResults, command: str) -> str:
 
 
 def render_overview(every: Sequence[SceneResults], command: str) -> str:
-    """Return the overview of several scenes."""
+    """Return the overview page of several scenes."""
     summaries = [
         {
             "title": _title(results.scene),
@@ -84,7 +84,7 @@ def _html(section: Section, styles: Styles) -> Markup:
 
 
 def _marked(sentence: str, labels: Sequence[str]) -> Markup:
-    """Return a sentence as HTML with the labels of methods as code."""
+    """Return a sentence as HTML in which the labels of methods are marked as code."""
     pattern = "|".join(re.escape(escape(label)) for label in sorted(labels, key=len, reverse=True))
     text = str(escape(sentence))
     return Markup(re.sub(rf"(?<![\w:])({pattern})(?![\w:])", r"<code>\1</code>", text) if labels else text)

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SIZE = (4.7, 3.9)
-"""Width and height in inches. On a phone the picture is shown at about this size, so its text is readable."""
+"""Width and height in inches. A phone shows the figure at about this size, so the text of the figure is
+readable.
+"""
 
 LINE = 0.175
 """Height of a line of labels in inches. The figure becomes higher by LINE for each line after the third."""
@@ -29,17 +31,17 @@ LONG_LABEL = 27
 """If a label has more characters, the legend has one column."""
 
 MARKS = 9
-"""Number of markers on a line without measured points of its own."""
+"""The number of markers on a line that has no measured points, such as a computed boundary."""
 
 Function: TypeAlias = tuple[str, Style, Callable[[complex], complex]]
 
 
 @dataclass(frozen=True)
 class Curve:
-    """A labelled sequence of points (x, y) with its style, and the order for a reference line (None: no
-    line).
+    """A labelled sequence of points (x, y) with its style. ``order`` is the slope of a reference line; None
+    means no line.
 
-    ``upper`` are the upper ends of the intervals of x, one for each point, or nothing.
+    ``upper`` contains the upper end of the interval of x for each point, or is empty.
     """
 
     label: str
@@ -50,7 +52,7 @@ class Curve:
 
 
 class _Appearance(TypedDict):
-    """The arguments of Matplotlib for a style."""
+    """The keyword arguments of Matplotlib for a style."""
 
     color: str
     marker: str
@@ -68,7 +70,7 @@ class _Drawing:
     values: dict[int, list[str]] = field(default_factory=dict)
 
     def draw(self, curve: Curve, value: Callable[[float, float], str], marks: Sequence[int]) -> None:
-        """Draw a curve with markers at the points with the numbers ``marks``."""
+        """Draw a curve; ``marks`` contains the indices of the points with markers."""
         number, style = len(self.values), curve.style
         x, y = zip(*curve.points, strict=True)
         (line,) = self.axes.plot(
@@ -146,14 +148,17 @@ def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) ->
 
 
 PLANE = (-8.0, 4.0, -6.0, 6.0)
-"""Bounds of a picture of linear stability: interval of real parts, then interval of imaginary parts."""
+"""Bounds of a figure of linear stability: the interval of real parts, then the interval of imaginary
+parts.
+"""
 
 GRID = 120
-"""Number of grid points in each direction. It is even, so that no grid line is on an axis, which is the
-boundary of many stable regions."""
+"""The number of grid points in each direction. The number is even, so that no grid line is on an axis: the
+imaginary axis is the boundary of many stable regions.
+"""
 
 MARGIN = 0.7
-"""Distance of the stable regions from the frame of the picture."""
+"""The distance of the stable regions from the frame of the figure."""
 
 SHADE = 0.09
 """Opacity of a stable region."""
@@ -162,8 +167,8 @@ SHADE = 0.09
 def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
     """Return the stable regions |R(z)| <= 1, shaded, with their boundaries.
 
-    ``functions`` are triples of label, style and stability function R. Each method has its markers at other
-    points, so that two methods with the same boundary are both visible.
+    ``functions`` are triples of label, style and stability function R. The markers of different methods are
+    at different points, so that two methods with the same boundary are both visible.
     """
     drawing, plane = _canvas(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes
@@ -226,14 +231,16 @@ class _Plane:
         return cls.between(left, min(max(right, 1.0), PLANE[1]), -high, high)
 
     def sizes(self, function: Callable[[complex], complex], step: int = 1) -> list[list[float]]:
-        """Return |R| at every point with a number divisible by ``step``; large values are cut off."""
+        """Return |R| at every point of the grid whose indices are multiples of ``step``. Values above 1000
+        are replaced by 1000.
+        """
         return [[min(abs(function(complex(x, y))), 1e3) for x in self.xs[::step]] for y in self.ys[::step]]
 
 
 def spread(positions: Sequence[float], count: int, shift: float) -> list[int]:
-    """Return the numbers of at most ``count`` points at about equal distances.
+    """Return the indices of at most ``count`` points at about equal distances.
 
-    ``shift``, from 0 to 1, moves the points by this part of a distance.
+    ``shift``, from 0 to 1, moves the points by this fraction of the distance between neighbouring points.
 
     >>> spread([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0], 3, 0.5)
     [1, 4, 7]
@@ -276,7 +283,7 @@ def _canvas(*, log: bool = True) -> _Drawing:
 
 
 def _appearance(style: Style) -> _Appearance:
-    """Return the arguments of Matplotlib for a style."""
+    """Return the keyword arguments of Matplotlib for a style."""
     colour = PLACEHOLDERS[style.colour]
     return {
         "color": colour,
@@ -295,7 +302,7 @@ def _label(axes: Axes, x: str, y: str) -> None:
 
 
 def _legend(figure: Figure, axes: Axes) -> None:
-    """Put the labels above the axes, where they do not overlap curves."""
+    """Put the legend above the axes, so that it does not overlap curves."""
     labels = axes.get_legend_handles_labels()[1]
     if not labels:
         return
@@ -323,7 +330,9 @@ def _all(curve: Curve) -> list[int]:
 
 
 def _description(x: str, y: str, curves: Sequence[Curve]) -> str:
-    """Return the ends of each curve in words, for readers who cannot see the figure."""
+    """Return a text with the first and the last point of each curve, for readers who cannot see the
+    figure.
+    """
     ends = []
     for curve in curves:
         (a, b), (c, d) = curve.points[0], curve.points[-1]
@@ -345,8 +354,8 @@ def _reference_line(axes: Axes, order: int, curve: Curve) -> None:
 def _slopes(axes: Axes, points: Sequence[Point]) -> None:
     """Draw the slope of each order of :data:`SLOPES`, in the corner with fewer points.
 
-    The corners are the one at the left below and the one at the right above, which work-precision curves
-    seldom reach. All lines begin at the upper left of a box, and end at its lower or right side.
+    The two corners are the lower left and the upper right corner, because work-precision curves seldom reach
+    them. All lines begin at the upper left corner of a box and end at the lower or right side of the box.
     """
     if not points:
         return

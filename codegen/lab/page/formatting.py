@@ -1,4 +1,4 @@
-"""The formats of numbers, times and pictures on a page."""
+"""The formats of numbers, times and figures on a page."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def seconds(x: float) -> str:
 
 
 def duration(time: float | None) -> str:
-    """Return a time with three digits and a unit; a dash for None.
+    """Return a time with three digits and a unit; if the time is None, return a dash.
 
     >>> duration(1.234e-5), duration(None)
     ('12.3 µs', '–')
@@ -73,7 +73,7 @@ def duration(time: float | None) -> str:
 
 
 def decade(k: int) -> str:
-    """Return 10^-k.
+    """Return the number 10^-k as text.
 
     >>> decade(6)
     '10⁻⁶'
@@ -82,7 +82,7 @@ def decade(k: int) -> str:
 
 
 def enumeration(words: Sequence[str]) -> str:
-    """Return words as a list in a sentence.
+    """Return words joined by commas and "and", as in a sentence.
 
     >>> enumeration(["a"]), enumeration(["a", "b"]), enumeration(["a", "b", "c"])
     ('a', 'a and b', 'a, b and c')

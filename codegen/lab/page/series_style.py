@@ -1,9 +1,9 @@
 """The colour, marker and dash of each method in the pictures and tables of all pages.
 
 A method has the same colour and marker in every section, on every page and in the pictures of the README. The
-line shows how the method runs: solid with equal steps, dash-dotted with step-size control, dotted in a target
-other than the default. Peers are drawn in the colours of text, dashed, with open markers. The colours differ
-for readers without red, green or blue receptors. In grey print, markers and dashes distinguish the methods.
+line is solid for equal steps, dash-dotted for step-size control, and dotted for a target that is not the
+default target. Peers have dashed lines in the colours of text, and open markers. Colour-blind readers can
+distinguish the colours. In grey print, markers and dashes distinguish the methods.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ DOTTED: Dash = (1, 1.6)
 DASH_DOTTED: Dash = (6, 2, 1, 2)
 
 Place = tuple[int, int]
-"""The numbers of a colour and of a marker."""
+"""A place: the index of a colour and the index of a marker."""
 
 
 @dataclass(frozen=True)
@@ -44,8 +44,8 @@ class Style:
     """The appearance of a series.
 
     ``colour`` is a CSS variable of the page, ``marker`` a marker of :data:`MARKERS`. ``dash`` contains the
-    lengths of dashes and gaps in line widths; an empty tuple is a solid line. ``hollow`` markers are
-    outlines.
+    lengths of dashes and gaps in line widths; an empty tuple is a solid line. If ``hollow`` is True, markers
+    are drawn as outlines.
     """
 
     colour: str
@@ -57,8 +57,9 @@ class Style:
 class Styles:
     """The styles of all methods and peers of a report or picture, by label.
 
-    The default methods of the commands have fixed places. The place of another method depends on its label;
-    if another method of the same report has this colour or marker, the next free one is taken.
+    Each default method of the commands has a fixed colour and marker. For any other method they depend on its
+    label. If another method of the same report already has this colour or marker, the next free colour or
+    marker is used.
 
     >>> styles = Styles(["cf:cf4", "rkmk:heun"])
     >>> styles.of("adaptive cf:cf4").colour == styles.of("cf:cf4").colour
@@ -105,9 +106,9 @@ def _digest(name: str) -> int:
 
 @cache
 def _fixed() -> Mapping[str, Place]:
-    """Return the places of the default methods.
+    """Return the places (colour and marker) of the default methods.
 
-    Methods of one list differ in colour and marker, if possible.
+    If possible, any two methods of the same list differ in both colour and marker.
     """
     places: dict[str, Place] = {}
     for name in dict.fromkeys(name for group in PICTURED for name in group):
@@ -118,9 +119,9 @@ def _fixed() -> Mapping[str, Place]:
 
 
 def _free(used: Iterable[Place], first: int, taken: Iterable[Place] = ()) -> Place:
-    """Return the place whose colour and marker occur least in ``used``, and which is not in ``taken``.
+    """Return a place whose colour and marker occur least often in ``used``, if possible not in ``taken``.
 
-    Among equal places the search begins with the number ``first``.
+    ``first`` is the index at which the search begins; it decides between places that occur equally often.
     """
     used, taken = tuple(used), set(taken) | set(used)
     colours, markers = ([place[k] for place in used] for k in (0, 1))

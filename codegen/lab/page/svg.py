@@ -35,7 +35,7 @@ PLACEHOLDERS = {"var(--ink)": INK, "var(--muted)": MUTED, "var(--rule)": RULE, "
 
 SERIES_LIGHT = ("#4963de", "#e55900", "#589457", "#85176f", "#662836", "#009fa9", "#3644a0", "#684a00")
 SERIES_DARK = ("#20a5ee", "#d2790e", "#98e57d", "#b341a8", "#cf3452", "#6bcaca", "#6a6dee", "#dfb127")
-"""The colours of the series. Any two differ for readers without red, green or blue receptors."""
+"""The colours of the series. Colour-blind readers can distinguish any two of them."""
 
 LIGHT = {
     "var(--ink)": "#1d1c1a",
@@ -44,7 +44,9 @@ LIGHT = {
     "var(--paper)": "#ffffff",
     "var(--sans)": "Helvetica, Arial, 'Liberation Sans', sans-serif",
 } | {f"var(--series-{k})": colour for k, colour in enumerate(SERIES_LIGHT, start=1)}
-"""The colour for each CSS variable, for pictures with a white background that are not part of a page."""
+"""The colour for each CSS variable. These colours are used in figures that are not part of a page; they have
+a white background.
+"""
 
 STYLE: dict[str, object] = {
     "svg.fonttype": "none",
@@ -66,7 +68,7 @@ STYLE: dict[str, object] = {
     "lines.linewidth": 1.3,
     "lines.markersize": 4.8,
 }
-"""Parameters of Matplotlib."""
+"""Settings of Matplotlib for all figures."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,7 @@ class Text:
     """The name, title and description of a figure, and the texts of the markers of each series.
 
     The name is unique on a page. Title and description are read by screen readers. ``values`` contains one
-    text for each marker of a series, by the number of the series.
+    text for each marker of a series, by the index of the series.
     """
 
     name: str
@@ -113,7 +115,9 @@ def _with_series(drawn: str, values: Mapping[int, Sequence[str]]) -> str:
 
 
 def _with_titles(body: str, values: Sequence[str]) -> str:
-    """Add a title to each marker; the legend after the last series has markers without a title."""
+    """Add a title to each marker of a series. The markers of the legend, which follow the last series, have
+    no title.
+    """
     titles = iter(values)
 
     def titled(match: re.Match[str]) -> str:

@@ -1,9 +1,11 @@
-"""Peers: other integrators, run on the ambient equations of a scene for comparison with emitted code.
+"""Peers: other integrators, which are compared with emitted code. They solve the ambient equations of a
+scene.
 
-A peer integrates y' = f(y).y in the coordinates of the state, with compiled code if its library permits. A
-peer whose name ends in *projected* projects the state onto the manifold after each step. LSODA has no
-projected variant, because its steps depend on past values. The time before the first step (compilation,
-Taylor recurrences) is set-up time and is reported separately, as for emitted code.
+A peer integrates y' = f(y).y in the coordinates of the state, with a compiled right-hand side if the library
+of the peer permits this. A peer whose name ends in *projected* projects the state onto the manifold after
+each step. LSODA has no projected variant, because it is a multistep method, whose
+steps use past values that are not projected. The time before the first step (compilation, Taylor recurrences) is set-up time and is reported
+separately, as for emitted code.
 """
 
 from __future__ import annotations
@@ -19,7 +21,9 @@ from orderconds.errors import InputError, UnknownName
 
 
 class PeerFailed(ArithmeticError):
-    """A peer did not reach the end of the span; the message is the reason that the peer reports."""
+    """Raised if a peer does not reach the end of the span. The message is the reason that the peer
+    reports.
+    """
 
 
 @dataclass(frozen=True)
@@ -33,11 +37,11 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Prepared:
-    """A peer prepared for one scene and one tolerance or number of steps.
+    """A peer that is prepared for one scene and for one tolerance or one number of steps.
 
-    ``run`` integrates over the span; it raises :class:`PeerFailed` if it does not reach the end. ``idle``
-    integrates over an empty interval, to measure the overhead of a call; it is None if the overhead is
-    negligible.
+    ``run`` integrates over the span; it raises :class:`PeerFailed` if the run does not reach the end.
+    ``idle`` integrates over an empty interval, to measure the overhead of a call; it is None if the overhead
+    is negligible.
     """
 
     run: Callable[[], Outcome]
@@ -50,7 +54,7 @@ class Peer:
 
     ``controlled`` is ``"tolerance"`` or ``"steps"``. ``prepare(scene, control)`` returns a run over the span
     of the scene with this tolerance or number of steps. ``version`` is the name and version of the software.
-    A peer that ``projects`` needs the manifold of the scene.
+    If ``projects`` is True, the peer projects states and needs the manifold of the scene.
     """
 
     name: str
@@ -61,7 +65,7 @@ class Peer:
 
 
 class PeerModule(Protocol):
-    """A module of this package that runs peers."""
+    """The interface of the modules of this package that run peers."""
 
     def peer(self, name: str) -> Peer:
         """Return the named peer."""
@@ -78,7 +82,9 @@ PEERS = {
     "c-dop853": ("compiled", ""),
     "c-rk4-projected": ("compiled", ""),
 }
-"""For each peer: the module of this package that runs it, and the package that it needs ('' if none)."""
+"""For each peer: the module of this package that runs the peer, and the name of the package to install ('' if
+none).
+"""
 
 TOLERANCES = tuple(10.0**-k for k in range(3, 14))
 """The tolerances of peers, from loose to tight. Absolute and relative tolerance are equal."""
@@ -113,7 +119,9 @@ def find(names: Sequence[str]) -> tuple[Peer, ...]:
             raise UnknownName(f"unknown peer {name!r}", expected=f"one of {', '.join([*GROUPS, *PEERS])}")
         if name in PEERS and not installed(name):
             package = PEERS[name][1]
-            raise InputError(f"the peer {name} is not installed", hint=f"type: pip install {package}")
+            raise InputError(
+                f"the software of the peer {name} is not installed", hint=f"type: pip install {package}"
+            )
         chosen |= {n for n in GROUPS.get(name, (name,)) if installed(n)}
     return tuple(_peer(name) for name in PEERS if name in chosen)
 

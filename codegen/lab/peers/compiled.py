@@ -2,8 +2,9 @@
 
 The code is generated from the straight-line field that the other peers use, and is built with the flags of
 emitted modules. Coefficients of DOP853 come from the library of tableaux. The second error estimator of
-DOP853 is the rule of order 3 through nodes 1, 9 and 12 that the authors of DOP853 chose (Hairer, Norsett and
-Wanner I, section II.10). The step size is controlled as in section II.4 of that book.
+DOP853 uses the quadrature rule of order 3 with the nodes 1, 9 and 12, which the authors of DOP853 chose
+(Hairer, Norsett and Wanner I, section II.10). The step size is controlled as in section II.4 of the same
+book.
 """
 
 from __future__ import annotations

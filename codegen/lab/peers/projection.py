@@ -1,8 +1,9 @@
-"""Projection of a state onto its manifold, which users of general integrators apply after each step.
+"""Projection of a state onto its manifold. Users of general ODE solvers often apply it after each step.
 
-A rotation matrix g is replaced by g (3 - g^T g)/2, one Newton step towards the polar factor of g. A small
-distance e of g from orthogonality becomes O(e^2). A point on which a rotation group acts is scaled to its
-initial distance from the origin. Momenta do not change.
+A rotation matrix g is replaced by g (3 - g^T g)/2, one Newton step towards the polar factor of g. If g has
+the small distance e from the orthogonal matrices, the distance after the step is O(e^2). A point on which a
+rotation group acts is scaled so that its distance from the origin has the initial value. Momenta do not
+change.
 """
 
 from __future__ import annotations
@@ -42,7 +43,9 @@ def project(scene: Problem, domain: Domain, state: Sequence[Scalar]) -> Vector:
             result += values
         else:
             raise SceneError(
-                f"no projection onto {scene.group.name}", where=scene.name, expected="SO(3) or a sphere"
+                f"there is no projection onto the manifold of {scene.group.name}",
+                where=scene.name,
+                expected="SO(3) or a sphere",
             )
     return tuple(result)
 

@@ -90,7 +90,7 @@ def test_an_error_that_nothing_reaches_exits_1_with_the_best_error() -> None:
 def test_needs_that_nothing_meets_exit_1() -> None:
     result = run("free_rigid_body", "--error", "1e-3", "--need", "symplectic", "--tableau", "rk4")
     assert result.exit_code == 1
-    assert "no method meets the needs" in result.stdout
+    assert "no method satisfies the needs" in result.stdout
 
 
 def test_a_span_replaces_that_of_the_scene() -> None:

@@ -425,7 +425,7 @@ def test_what_is_stated_to_be_a_flow_and_is_none_is_refused(flow, message):
 def test_a_flow_is_that_of_a_part():
     group = Rn(1)
     q, p = group.point("q"), group.dual("p")
-    with pytest.raises(SceneError, match="a flow of 'W'; expected a flow of one of the parts: T"):
+    with pytest.raises(SceneError, match="a flow of 'W'; expected a flow for one of the parts T"):
         HamiltonianScene(
             group=group,
             q=q,

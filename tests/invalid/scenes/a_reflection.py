@@ -1,4 +1,4 @@
-# 9: an initial state that violates det g = 1 by -2.0; expected an element of T*SO(3)
+# 9: the initial state violates det g = 1 by -2.0; expected an element of T*SO(3)
 from sympy import Matrix, diag
 
 from codegen.groups import SO3

@@ -1,4 +1,4 @@
-# 8: the span (1, 0); expected an end later than the beginning
+# 8: the span (1, 0); expected two times, the first less than the second
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation

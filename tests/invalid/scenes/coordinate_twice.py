@@ -1,4 +1,4 @@
-# 9: a coordinate symbol twice
+# 9: two coordinates have the same symbol
 from sympy import Matrix, symbols
 
 from codegen.groups import SO3, Rotation
