@@ -216,7 +216,7 @@ class TaylorDomain:
             return ELEMENTARY[function](args[0])
         if function == "quotient":
             return quotient(*args)
-        return (slope if function.startswith("slope") else stumpff)(int(function[-1]), args[0])
+        return (slope if "slope" in function else stumpff)(int(function[-1]), args[0])
 
     def settled(self, old: Sequence[Taylor], new: Sequence[Taylor], previous: int | None) -> tuple[bool, int]:
         """Return whether the last change is a rounding error, and the number of sweeps so far."""

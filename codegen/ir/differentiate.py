@@ -96,8 +96,8 @@ def _derivatives(node: Expr) -> list[Expr]:
             return [space.call(f"slope{name[-1]}", x)]
         case name if name in ELEMENTARY:
             return [ELEMENTARY[name].slope(x, node)]
-        case "signed_stumpff1":
-            return [space.call("signed_slope1", x)]
+        case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
+            return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
             # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
             # infinite there.

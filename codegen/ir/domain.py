@@ -65,7 +65,7 @@ class Differenced(Domain, Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z of either sign.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
     result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, so its number of full
@@ -75,9 +75,15 @@ def stumpff(k: int, z: float) -> float:
     """
     if z > 2.0**52:
         return math.nan
-    if z < 0:
+    if z < 0 and (k < 3 or z < -4):
         root = math.sqrt(-z)
-        return math.cosh(root) if k == 0 else math.sinh(root) / root
+        if k == 0:
+            return math.cosh(root)
+        if k == 2:
+            ratio = math.sinh(root / 2) / (root / 2)
+            return ratio * ratio / 2
+        ratio = math.sinh(root) / root
+        return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
     # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
@@ -99,7 +105,7 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 1, 2, 3 and z >= 0; for k = 1 also for z < 0.
+    """Return c_k'(z) for k = 1, 2, 3 and z of either sign.
 
     The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
