@@ -23,15 +23,24 @@ if TYPE_CHECKING:
     from codegen.groups.rn import Rn
     from codegen.groups.s3 import S3
     from codegen.groups.se2 import SE2
+    from codegen.groups.se3 import SE3
+    from codegen.groups.se23 import SE23
+    from codegen.groups.semidirect import Semidirect
     from codegen.groups.sl2 import SL2
+    from codegen.groups.so2 import SO2
     from codegen.groups.so3 import SO3
+    from codegen.groups.su2 import SU2
 
 __all__ = [
     "GL",
     "S3",
     "SE2",
+    "SE3",
+    "SE23",
     "SL2",
+    "SO2",
     "SO3",
+    "SU2",
     "Action",
     "Cotangent",
     "LeftMultiplication",
@@ -42,13 +51,17 @@ __all__ = [
     "Product",
     "Rn",
     "Rotation",
+    "Semidirect",
     "get",
     "listing",
     "register",
     "unregister",
 ]
 
-LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2", "SO3")
+LISTED = (
+    *("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SE23", "SE3", "SL2", "SO2", "SO3"),
+    *("SU2", "Semidirect"),
+)
 
 lazy(
     __name__,
@@ -61,8 +74,13 @@ lazy(
     rn=("Rn",),
     s3=("S3",),
     se2=("SE2",),
+    se23=("SE23",),
+    se3=("SE3",),
+    semidirect=("Semidirect",),
     sl2=("SL2",),
+    so2=("SO2",),
     so3=("SO3",),
+    su2=("SU2",),
 )
 
 GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)

@@ -88,7 +88,7 @@ class MatrixGroup(MatrixElements, Coadjoint):
         """Return the matrix exponential: exact over power series in h, and accurate to rounding over
         numbers."""
         a = self.hat(d, x)
-        return _entire(d, self.identity(d), lambda term: matmul(a, term, self.n), 0)
+        return entire(d, self.identity(d), lambda term: matmul(a, term, self.n), 0)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return [x, y] by the structure constants."""
@@ -125,7 +125,7 @@ class MatrixGroup(MatrixElements, Coadjoint):
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return dexp*_x mu = sum (ad*_x)^k mu/(k+1)!."""
-        return _entire(d, mu, lambda term: self.adt(d, x, term), 1)
+        return entire(d, mu, lambda term: self.adt(d, x, term), 1)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return hat(x) g."""
@@ -151,7 +151,7 @@ def _added(d: Domain, total: S, w: Fraction, x: S) -> S:
     return total + factor * x
 
 
-def _entire(d: Domain, first: Vector[S], advance: Callable[[Vector[S]], Vector[S]], shift: int) -> Vector[S]:
+def entire(d: Domain, first: Vector[S], advance: Callable[[Vector[S]], Vector[S]], shift: int) -> Vector[S]:
     """Return the sum over k >= 0 of advance^k(first) shift!/(k + shift)!, up to the first term that does not
     change the sum.
 
