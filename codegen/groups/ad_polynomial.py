@@ -37,9 +37,12 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = Fal
     elif shift:
         total = _exponentials(d, [(shift, Fraction(1))], 0, z, signed)
     for factor in rest:
-        b, c = _single(d, factor, z, signed)
-        if factor.power < 0:
-            b, c = _inverted(d, b, c, z)
+        if signed and factor.function == "dexp" and factor.power < 0:
+            b, c = _inverse_dexp(d, factor.scale, z)
+        else:
+            b, c = _single(d, factor, z, signed)
+            if factor.power < 0:
+                b, c = _inverted(d, b, c, z)
         e, f = total
         total = (e + b - z * (e * c + f * b), f + c + e * b - z * (f * c))
     return total
@@ -78,6 +81,17 @@ def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
         place = (k + 1) % 2
         sums[place] = d.rational(weight.numerator, weight.denominator) - z * sums[place]
     return sums[0], sums[1]
+
+
+def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
+    """Return b and c of 1/dexp(s t) = 1 - s t/2 + (c_2 - c_3)/(4 c_1) s^2 t^2, with c_k at s^2 z/4.
+
+    Nothing cancels for negative z. :func:`_inverted` would subtract numbers of the size exp(2 sqrt(-z)).
+    """
+    argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
+    c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
+    weight: S = d.rational((s * s).numerator, 4 * (s * s).denominator)
+    return d.rational(-s.numerator, 2 * s.denominator), weight * ((c2 - c3) / c1)
 
 
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:
