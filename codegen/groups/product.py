@@ -77,6 +77,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
         """Return the products."""
         return self._each(LieGroup, lambda f, a, b: f.mul(d, a, b), g, k)
 
+    def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return exp(x) g of each factor."""
+        return self._each(LieGroup, lambda f, a, b: f.expmul(d, a, b), x, g)
+
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return the brackets."""
         return self._each(LieGroup, lambda f, a, b: f.ad(d, a, b), x, y)

@@ -10,6 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from math import isqrt
+from typing import ClassVar
 
 from codegen.errors import SceneError
 from codegen.groups.ad_polynomial import ad_polynomial
@@ -39,6 +40,8 @@ class Representation(ABC):
     """
 
     needs: type[LieGroup] = Coadjoint
+    of_algebra: ClassVar[bool] = False
+    """Whether rho is Ad, which covering groups share."""
 
     def __init__(self, copies: int = 1) -> None:
         if copies < 1:
@@ -84,18 +87,11 @@ class Representation(ABC):
         """
         return entire(d, u, lambda term: self.velocity(d, group, x, term), 1)
 
-    def advance(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], a: Vector[S]) -> Vector[S]:
-        """Return rho(exp x) a + phi(x) u, the vector of exp(x, u) (g, a)."""
-        moved = self.act(d, group, group.exp(d, x), a)
-        return tuple(p + q for p, q in zip(moved, self.translation(d, group, x, u), strict=True))
-
     def closed(self, group: LieGroup) -> bool:
         """Whether :meth:`series` has a closed form for this group."""
         return False
 
-    def series(
-        self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]
-    ) -> Pair[S]:
+    def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Return a function of ad_(x, u) applied to (y, v), where (x, u) and (y, v) contain one copy."""
         raise NotImplementedError
 
@@ -116,6 +112,8 @@ class AlgebraVectors(Representation):
     x.v = [x, v] and phi(x) = dexp_x. One copy with the algebra itself is the algebra over dual numbers x + u
     e with e^2 = 0, so the functions of ad are those of the group over dual numbers.
     """
+
+    of_algebra = True
 
     def dim(self, group: LieGroup) -> int:
         """Return the dimension of the group."""
@@ -158,9 +156,7 @@ class AlgebraVectors(Representation):
         """Whether the group has closed forms for functions of ad."""
         return group.offers(ClosedFormSeries) is not None
 
-    def series(
-        self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]
-    ) -> Pair[S]:
+    def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Return the function of ad over dual numbers."""
         closed = group.require(ClosedFormSeries)
         found = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
@@ -258,9 +254,7 @@ class PlaneVectors(MatrixColumns):
         """Return True: with one copy ad^3 = -w^2 ad."""
         return True
 
-    def series(
-        self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]
-    ) -> Pair[S]:
+    def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Return y and v + (b + c w J)(w J v - y J u) for the function 1 + b ad + c ad^2."""
         (w,), u = x
         b, c = ad_polynomial(d, word, w * w)

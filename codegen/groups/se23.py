@@ -16,6 +16,8 @@ class SE23(Semidirect):
     (2017), 1797-1812).
     """
 
+    covering_formula = f"{SO3.covering_formula}; the vectors are equal"
+
     def __init__(self, attitude: LieGroup | None = None) -> None:
         attitude = SO3() if attitude is None else attitude
         named = attitude.name == SO3.name

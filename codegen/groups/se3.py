@@ -18,6 +18,8 @@ class SE3(Semidirect):
     matrix is the default, because formulas of a scene then contain R itself.
     """
 
+    covering_formula = f"{SO3.covering_formula}; the vectors are equal"
+
     def __init__(self, attitude: LieGroup | None = None) -> None:
         attitude = SO3() if attitude is None else attitude
         named = attitude.name == SO3.name

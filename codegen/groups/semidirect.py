@@ -10,6 +10,7 @@ from codegen.groups.base import C, LieGroup
 from codegen.groups.capabilities import (
     ClosedFormSeries,
     Coadjoint,
+    Covered,
     LeftTranslation,
     MatrixRepresentation,
     PointMotions,
@@ -30,7 +31,13 @@ if TYPE_CHECKING:
 
 
 class Semidirect(
-    ClosedFormSeries, LeftTranslation, RightTrivialisation, Projection, PointMotions, MatrixRepresentation
+    ClosedFormSeries,
+    LeftTranslation,
+    RightTrivialisation,
+    Projection,
+    PointMotions,
+    MatrixRepresentation,
+    Covered,
 ):
     """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
 
@@ -40,6 +47,8 @@ class Semidirect(
     of x^k/(k+1)!. The product has a capability if the linear factor has it and the formulas of the
     representation permit it.
     """
+
+    covering_formula = "the image of q in the linear factor; the vectors are those of q"
 
     def __init__(self, linear: LieGroup, representation: Representation, name: str = "") -> None:
         linear.require(representation.needs)
@@ -78,6 +87,8 @@ class Semidirect(
             return own if self.representation.closed(self.linear) else None
         if issubclass(capability, MatrixRepresentation):
             return own if self.representation.of_matrices(self.linear) is not None else None
+        if issubclass(capability, Covered) and not self.representation.of_algebra:
+            return None
         return own if self.linear.offers(capability) is not None else None
 
     def variants(self) -> Sequence[Semidirect]:
@@ -107,9 +118,9 @@ class Semidirect(
 
     def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return (exp(x) g, rho(exp x) a + phi(x) u)."""
-        (y, u), (q, a) = self._split(x), self._element(g)
-        moved = self._each(lambda v, b: self.representation.advance(d, self.linear, y, v, b), u, a)
-        return self.linear.expmul(d, y, q) + moved
+        q, y = self._element(g)[0], self._split(x)[0]
+        # A variant of the linear factor may have a shorter formula for the first part.
+        return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return ([x, y], x.v - y.u)."""
@@ -229,9 +240,7 @@ class Semidirect(
         q, a = self._element(g)
         return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
 
-    def point_velocity(
-        self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True
-    ) -> Vector[S]:
+    def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
         """Return x.z + u; without ``translated`` return x.z."""
         y, u = self._split(x)
         turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
@@ -276,6 +285,43 @@ class Semidirect(
         n, size = self.width, self.order
         block = tuple(matrix[size * i + j] for i in range(n) for j in range(n))
         return block, tuple(matrix[size * i + n + k] for k in range(size - n) for i in range(n))
+
+    @property
+    def cover(self) -> LeftTranslation:
+        """The semidirect product of the cover of the linear factor with the same vectors."""
+        return Semidirect(self._covered().cover, self.representation)
+
+    def _covered(self) -> Covered:
+        return self.linear.require(Covered)
+
+    def _over(self, q: Vector[S]) -> Pair[S]:
+        """Return the two parts of an element of the cover."""
+        size = self._covered().cover.size
+        return tuple(q[:size]), tuple(q[size:])
+
+    def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the image of the linear factor, and the vector."""
+        g, a = self._over(q)
+        return self._covered().covering(d, g) + a
+
+    def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the image of the projected linear factor, and the vector."""
+        g, a = self._over(q)
+        return self._covered().projected_covering(d, g) + a
+
+    def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the lifted velocity of the linear factor, and u."""
+        y, u = self._split(x)
+        return self._covered().lifted_velocity(d, y) + u
+
+    def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the pivots of the linear factor."""
+        return self._covered().pivots(d, self._element(g)[0])
+
+    def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
+        """Return an element of the cover of the linear factor, and the vector."""
+        q, a = self._element(g)
+        return self._covered().lift(d, q, formula) + a
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
         """Return the symbols of the linear factor, and ``name`` with an index for each component of a.

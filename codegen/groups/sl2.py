@@ -33,7 +33,8 @@ class SL2(CubicAd, MatrixGroup, Projection):
 
     def squared_rate(self, d: Domain, x: Vector[S]) -> S:
         """Return 4 det A."""
-        return d.rational(4) * _determinant(x)
+        four: S = d.rational(4)
+        return four * _determinant(x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g x g^-1."""

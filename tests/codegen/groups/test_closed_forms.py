@@ -110,7 +110,15 @@ def emitted(name, target):
     x = Matrix(y[: group.dim])
     return load(
         emit(
-            FieldScene(group=Rn(group.dim), action=Probe(group), y=Matrix(y), f=x, y0=start, span=(0, 1), name="probe"),
+            FieldScene(
+                group=Rn(group.dim),
+                action=Probe(group),
+                y=Matrix(y),
+                f=x,
+                y0=start,
+                span=(0, 1),
+                name="probe",
+            ),
             "rkmk(0):euler",
             target,
         )

@@ -1,4 +1,4 @@
-"""Methods on SE(3), SU(2) and SL(2): the orders of emitted code, and the symplectic form of variational steps."""
+"""Methods on SE(3), SU(2) and SL(2): orders of emitted code, and the symplectic form of variational steps."""
 
 from __future__ import annotations
 
@@ -74,7 +74,18 @@ def free_body():
         action=LeftMultiplication(),
         y=[*g, *P],
         f=[*w, *(R * linear / 2 - w.cross(a)), *angular.cross(W), *linear.cross(W)],
-        y0=[*quarter_turn(), Rational(1, 2), 0, -1, Rational(9, 5), Rational(2, 5), Rational(-9, 10), 1, 2, -1],
+        y0=[
+            *quarter_turn(),
+            Rational(1, 2),
+            0,
+            -1,
+            Rational(9, 5),
+            Rational(2, 5),
+            Rational(-9, 10),
+            1,
+            2,
+            -1,
+        ],
         span=(0, 1),
         name="free body",
     )
@@ -85,9 +96,7 @@ def spin():
     group = SU2()
     q = group.point("q")
     f = [q[0] * q[1] + 1, q[2] - q[3] * q[0], Rational(1, 2) - q[1]]
-    return FieldScene(
-        group=group, action=LeftMultiplication(), y=q, f=f, y0=UNIT, span=(0, 1), name="spin"
-    )
+    return FieldScene(group=group, action=LeftMultiplication(), y=q, f=f, y0=UNIT, span=(0, 1), name="spin")
 
 
 SCENES = {"body": body_on_a_spring, "shear": shear, "free body": free_body, "spin": spin}
@@ -127,9 +136,7 @@ PAIRS += [("body", "rkmk:rk4")]
 @pytest.mark.parametrize(
     ("name", "method", "target"),
     [
-        pytest.param(
-            *case, id="-".join(case), marks=() if case in QUICK else pytest.mark.slow
-        )
+        pytest.param(*case, id="-".join(case), marks=() if case in QUICK else pytest.mark.slow)
         for case in ((*pair, target) for pair in PAIRS for target in ("c", "python"))
     ],
 )
