@@ -159,8 +159,8 @@ class AlgebraVectors(Representation):
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Return the function of ad over dual numbers."""
         closed = group.require(ClosedFormSeries)
-        found = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
-        return tuple(a.real for a in found), tuple(a.rate for a in found)
+        result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
+        return tuple(a.real for a in result), tuple(a.rate for a in result)
 
     def dual_series(
         self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
@@ -170,8 +170,8 @@ class AlgebraVectors(Representation):
         <m, y> + <p, v> is the coefficient of e in <p + m e, y + v e>, so p is the real part.
         """
         closed = group.require(ClosedFormSeries)
-        found = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
-        return tuple(a.rate for a in found), tuple(a.real for a in found)
+        result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
+        return tuple(a.rate for a in result), tuple(a.real for a in result)
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
         """Return the rotations of R^3; for other groups Ad_g is not the matrix of g."""

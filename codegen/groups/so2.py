@@ -131,4 +131,4 @@ class SO2(LeftTranslation, RightTrivialisation, Projection, PointMotions, Matrix
         """Return the symbols of the cosine and the sine: ``name`` with c and s."""
         from sympy import Symbol
 
-        return [Symbol(f"{name}{i}", real=True) for i in ("c", "s")]
+        return [Symbol(f"{name}{i}", real=True) for i in "cs"]
