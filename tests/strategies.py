@@ -25,6 +25,7 @@ from codegen.groups import (
     SO3,
     SU2,
     Cotangent,
+    Galilean,
     LeftMultiplication,
     LieGroup,
     Linear,
@@ -73,6 +74,7 @@ GROUPS: dict[str, LieGroup] = {
     "SE(3)": SE3(),
     "SE(3) over SU(2)": SE3(SU2()),
     "SE_2(3)": SE23(),
+    "Gal(3)": Galilean(),
     "affine": Semidirect(GL(2), MatrixColumns(), "affine"),
 }
 """The groups that tests draw from."""

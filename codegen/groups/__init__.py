@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from codegen.groups.actions import Action, LeftMultiplication, Linear, Motion, Rotation
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
+    from codegen.groups.galilean import Galilean
     from codegen.groups.gl import GL
     from codegen.groups.matrix import MatrixGroup
     from codegen.groups.product import Product
@@ -43,6 +44,7 @@ __all__ = [
     "SU2",
     "Action",
     "Cotangent",
+    "Galilean",
     "LeftMultiplication",
     "LieGroup",
     "Linear",
@@ -59,8 +61,8 @@ __all__ = [
 ]
 
 LISTED = (
-    *("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SE23", "SE3", "SL2", "SO2", "SO3"),
-    *("SU2", "Semidirect"),
+    *("Cotangent", "GL", "Galilean", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SE23", "SE3", "SL2"),
+    *("SO2", "SO3", "SU2", "Semidirect"),
 )
 
 lazy(
@@ -68,6 +70,7 @@ lazy(
     actions=("Action", "LeftMultiplication", "Linear", "Motion", "Rotation"),
     base=("LieGroup",),
     cotangent=("Cotangent",),
+    galilean=("Galilean",),
     gl=("GL",),
     matrix=("MatrixGroup",),
     product=("Product",),
