@@ -42,7 +42,7 @@ def partials(node: Expr) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
     The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
-    raised for the slopes.
+    raised for second derivatives of Stumpff functions.
     """
     space, args = node.space, node.args
     match node.op:
@@ -94,6 +94,8 @@ def _derivatives(node: Expr) -> list[Expr]:
         # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
+        case "slope2" | "slope3" as name:
+            return [space.call(f"curvature{name[-1]}", x)]
         case name if name in ELEMENTARY:
             return [ELEMENTARY[name].slope(x, node)]
         case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:

@@ -40,6 +40,9 @@ FUNCTIONS = (
     # derivatives of stumpff2 and stumpff3: c_2' = (2 c_4 - c_3)/2 and c_3' = (3 c_5 - c_4)/2
     "slope2",
     "slope3",
+    # second derivatives of stumpff2 and stumpff3
+    "curvature2",
+    "curvature3",
     # derivatives of signed_stumpff1, signed_stumpff2 and signed_stumpff3
     "signed_slope1",
     "signed_slope2",

@@ -13,7 +13,7 @@ from functools import cache
 
 from codegen.ir.domain import FloatDomain
 from codegen.ir.precision import DOUBLE
-from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised, limit, slopes
+from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures, economised, limit, slopes
 
 
 class EmittedFloats(FloatDomain):
@@ -74,7 +74,18 @@ class EmittedFloats(FloatDomain):
             return self.together([int(function[-1])], z)[0]
         if "slope" in function:
             return self._slope(int(function[-1]), z, signed=function.startswith("signed"))
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), z)
         return super().call(function, *args)
+
+    def _curvature(self, k: int, z: float) -> float:
+        if z > 1.0:
+            a, b, c = self.together([k - 2, k - 1, k], z)
+            return 0.25 * ((a - float(2 * k + 1) * b) + float(k * (k + 2)) * c) / (z * z)
+        *rest, total = curvatures(k)
+        for term in reversed(rest):
+            total = term + z * total
+        return total
 
     def _slope(self, k: int, z: float, *, signed: bool) -> float:
         # The quotient divides by z and cancels for small z; there the series is used.

@@ -46,6 +46,8 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     for k in (2, 3):
         variables = {"k": k, "terms": stumpff.slopes(k, precision)}
         listed.append(Snippet(f"slope{k}", "slope", (f"stumpff_{k - 1}{k}",), variables))
+        variables = {"k": k, "terms": stumpff.curvatures(k, precision)}
+        listed.append(Snippet(f"curvature{k}", "curvature", (f"stumpff_{k - 2}{k - 1}{k}",), variables))
     switch = [float(z) for z in stumpff.SWITCH]
     for k, hyperbolic in enumerate(("cosh", "sinh", "sinh", "sinh")):
         needs = (f"stumpff_{k}", "sqrt", hyperbolic, *(("stumpff_series_3",) if k == 3 else ()))

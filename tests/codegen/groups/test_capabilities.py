@@ -42,7 +42,7 @@ PROJECTED = sorted(set(BASE_GROUPS) - {"GL(2)", "Heisenberg", "affine"})
 POSES = {"SE(3)", "SE(3) over SU(2)", "SE_2(3)"}
 DECLARED = {
     Coadjoint: set(BASE_GROUPS),
-    RightTrivialisation: {"SO(3)", "R^3", "S^3", "SO(3) x R^2", "SO(2)", "SU(2)", *POSES},
+    RightTrivialisation: {"SO(3)", "R^3", "S^3", "SL(2)", "SO(3) x R^2", "SO(2)", "SU(2)", *POSES},
     LeftTranslation: {"SO(3)", "R^3", "S^3", "SO(3) x R^2", "SO(2)", "SU(2)", *POSES},
     BodyFrame: {"SO(3)"},
     Covered: {"SO(3)", "SE(3)", "SE_2(3)"},
