@@ -8,13 +8,14 @@ import pytest
 from sympy import Matrix, Rational, diag
 
 from codegen.certify import certified_order
-from codegen.emitter import compile_method
+from codegen.emitter import compile_method, emit
 from codegen.groups import SE3, SL2, SU2, LeftMultiplication, Product, Rn
 from codegen.ir.domain import FloatDomain
 from codegen.lab.long_runs.symplecticity import symplectic_defect
 from codegen.lab.orders.convergence import converge
 from codegen.lab.reference import reference
 from codegen.lab.runner import Emitted
+from codegen.loader import load
 from codegen.scene import FieldScene, HamiltonianScene
 from tests.strategies import UNIT, quarter_turn
 
@@ -179,3 +180,19 @@ def test_attitude_and_position_of_a_free_body_have_order_four_each():
     for coarse, fine in ((errors[0], errors[1]), (errors[1], errors[2])):
         for a, b in zip(coarse, fine, strict=True):
             assert 12 < a / b < 20
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "size"), [("body", 6), ("shear", 3)])
+def test_the_jacobian_of_a_variational_step_is_the_limit_of_differences(name, size):
+    integrator = load(emit(scene(name), "vcg:midpoint", "c", jacobian=True))
+    state, h, eps = [float(x) for x in scene(name).initial(FloatDomain(0.0))], 2.0**-4, 2.0**-12
+    first = len(state) - size
+    jacobian = integrator.jacobian(state, h)
+    for k in range(size):
+        ends = []
+        for sign in (1, -1):
+            start = [x + sign * eps * (i == first + k) for i, x in enumerate(state)]
+            ends.append(integrator.step(start, h)[first:])
+        for i, (a, b) in enumerate(zip(*ends, strict=True)):
+            assert jacobian[size + i][size + k] == pytest.approx((a - b) / (2 * eps), abs=1e-6)
