@@ -15,6 +15,7 @@ from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
     from codegen.groups.actions import Action, LeftMultiplication, Linear, Motion, Rotation
+    from codegen.groups.affine import Affine
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
     from codegen.groups.galilean import Galilean
@@ -27,10 +28,15 @@ if TYPE_CHECKING:
     from codegen.groups.se3 import SE3
     from codegen.groups.se23 import SE23
     from codegen.groups.semidirect import Semidirect
+    from codegen.groups.sl import SL
     from codegen.groups.sl2 import SL2
+    from codegen.groups.so import SO
     from codegen.groups.so2 import SO2
     from codegen.groups.so3 import SO3
+    from codegen.groups.sp import Sp
     from codegen.groups.su2 import SU2
+    from codegen.groups.unitary import SU, Unitary
+    from codegen.groups.unitriangular import Heisenberg, Unitriangular
 
 __all__ = [
     "GL",
@@ -38,13 +44,18 @@ __all__ = [
     "SE2",
     "SE3",
     "SE23",
+    "SL",
     "SL2",
+    "SO",
     "SO2",
     "SO3",
+    "SU",
     "SU2",
     "Action",
+    "Affine",
     "Cotangent",
     "Galilean",
+    "Heisenberg",
     "LeftMultiplication",
     "LieGroup",
     "Linear",
@@ -54,6 +65,9 @@ __all__ = [
     "Rn",
     "Rotation",
     "Semidirect",
+    "Sp",
+    "Unitary",
+    "Unitriangular",
     "get",
     "listing",
     "register",
@@ -61,13 +75,35 @@ __all__ = [
 ]
 
 LISTED = (
-    *("Cotangent", "GL", "Galilean", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SE23", "SE3", "SL2"),
-    *("SO2", "SO3", "SU2", "Semidirect"),
+    "Affine",
+    "Cotangent",
+    "Galilean",
+    "GL",
+    "Heisenberg",
+    "MatrixGroup",
+    "Product",
+    "Rn",
+    "S3",
+    "SE2",
+    "SE23",
+    "SE3",
+    "Semidirect",
+    "SL",
+    "SL2",
+    "SO",
+    "SO2",
+    "SO3",
+    "Sp",
+    "SU",
+    "SU2",
+    "Unitary",
+    "Unitriangular",
 )
 
 lazy(
     __name__,
     actions=("Action", "LeftMultiplication", "Linear", "Motion", "Rotation"),
+    affine=("Affine",),
     base=("LieGroup",),
     cotangent=("Cotangent",),
     galilean=("Galilean",),
@@ -84,6 +120,11 @@ lazy(
     so2=("SO2",),
     so3=("SO3",),
     su2=("SU2",),
+    sl=("SL",),
+    so=("SO",),
+    sp=("Sp",),
+    unitary=("SU", "Unitary"),
+    unitriangular=("Heisenberg", "Unitriangular"),
 )
 
 GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)

@@ -76,6 +76,10 @@ class DualDomain:
             slope = d.call(f"{name.removesuffix('stumpff')}slope{k}", x.real)
         return Dual(d.call(function, x.real), slope * x.rate)
 
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Raise ArithmeticError: groups with closed forms call no vector functions."""
+        raise ArithmeticError(f"{function} of dual numbers; expected a Stumpff function")
+
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise ArithmeticError, because no iteration runs over dual numbers."""
         raise ArithmeticError("dual numbers are not iterated")

@@ -25,7 +25,6 @@ from codegen.groups.capabilities import (
 from codegen.groups.cubic_ad import DEXP
 from codegen.groups.dual_numbers import DualDomain, duals
 from codegen.groups.linear_algebra import S, Vector, dot, invert, matvec, units
-from codegen.groups.matrix import entire
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain, FloatDomain
 
@@ -80,12 +79,14 @@ class Representation(ABC):
     def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
         """Return the momentum map J(v, p) in the dual of the algebra: <J(v, p), x> = <p, x.v>."""
 
+    @abstractmethod
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
-        """Return phi(x) u = sum of x^k.u/(k+1)!, the translation of exp(x, u).
+        """Return phi(x) u = sum of x^k.u/(k+1)!, the translation of exp(x, u)."""
 
-        By default the series is summed; over expressions it ends only for a nilpotent x.
-        """
-        return entire(d, u, lambda term: self.velocity(d, group, x, term), 1)
+    def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
+        """Return the derivatives of <p, phi(x) u> with respect to x and u; needed if :meth:`closed` is
+        false."""
+        raise NotImplementedError
 
     def closed(self, group: LieGroup) -> bool:
         """Whether :meth:`series` has a closed form for this group."""
@@ -114,6 +115,8 @@ class AlgebraVectors(Representation):
     """
 
     of_algebra = True
+
+    needs = ClosedFormSeries
 
     def dim(self, group: LieGroup) -> int:
         """Return the dimension of the group."""
@@ -149,12 +152,11 @@ class AlgebraVectors(Representation):
 
     def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
         """Return dexp_x u."""
-        closed = group.offers(ClosedFormSeries)
-        return super().translation(d, group, x, u) if closed is None else closed.series(d, DEXP, False, x, u)
+        return group.require(ClosedFormSeries).series(d, DEXP, False, x, u)
 
     def closed(self, group: LieGroup) -> bool:
-        """Whether the group has closed forms for functions of ad."""
-        return group.offers(ClosedFormSeries) is not None
+        """Return True, because the group has closed forms for functions of ad."""
+        return True
 
     def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
         """Return the function of ad over dual numbers."""
@@ -223,6 +225,34 @@ class MatrixColumns(Representation):
         """Return p.(x v) for each basis vector x of the algebra."""
         basis: tuple[Vector[S], ...] = units(d, group.dim)
         return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
+
+    def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
+        """Return the last column of the exponential of the matrix [[x, u], [0, 0]], without its last
+        entry."""
+        n, bordered = self._bordered(d, group, x, u)
+        exponential: Vector[S] = d.vector(f"expm{n}", bordered)
+        return tuple(exponential[n * i + n - 1] for i in range(n - 1))
+
+    def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
+        """Return both derivatives from the derivative of the exponential.
+
+        The transpose of the derivative at a is the derivative at the transpose of a.
+        """
+        n, bordered = self._bordered(d, group, x, u)
+        zero: S = d.rational(0)
+        direction = (*(a for q in p for a in (*(zero,) * (n - 1), q)), *(zero,) * n)
+        both: Vector[S] = d.vector(f"expm{n}_d1", (*_transposed(bordered), *direction))
+        slope = both[n * n :]
+        block = tuple(slope[n * i + j] for i in range(n - 1) for j in range(n - 1))
+        basis: tuple[Vector[S], ...] = units(d, group.dim)
+        forces = tuple(dot(block, self._matrices(group).hat(d, e)) for e in basis)
+        return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
+
+    def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
+        """Return the number of rows of [[x, u], [0, 0]], and the matrix."""
+        n, hat = len(u), self._matrices(group).hat(d, x)
+        rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
+        return n + 1, (*rows, *(d.rational(0),) * (n + 1))
 
     def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
         """Return the group."""

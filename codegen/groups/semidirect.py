@@ -20,7 +20,6 @@ from codegen.groups.capabilities import (
 )
 from codegen.groups.cubic_ad import DEXP
 from codegen.groups.linear_algebra import S, Vector
-from codegen.groups.matrix import entire
 from codegen.groups.representations import Pair, Representation
 from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
@@ -173,10 +172,19 @@ class Semidirect(
         return _sum(self.linear.Adtinv(d, q, m), self._momentum(d, a, turned)) + turned
 
     def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return dexp*_(x, u) (m, p), by a closed form or by its series."""
+        """Return dexp*_(x, u) (m, p).
+
+        With t = phi(x) u, dexp_(x, u) maps (y, 0) to dexp_x y and D phi(x)[y] u - (dexp_x y).t. Without a
+        closed form, the result is therefore dexp*_x (m - J(t, p)) + D_x <p, t> and D_u <p, t>.
+        """
         if self.representation.closed(self.linear):
             return self.series(d, DEXP, True, x, mu)
-        return entire(d, mu, lambda term: self.adt(d, x, term), 1)
+        (y, u), (m, p) = self._split(x), self._split(mu)
+        moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
+        pairs = zip(self._copies(u), self._copies(p), strict=True)
+        slopes = [self.representation.gradient(d, self.linear, y, a, b) for a, b in pairs]
+        central = self.linear.dexpt(d, y, _difference(m, self._momentum(d, moved, p)))
+        return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
 
     def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
         """Return the product of the functions of ad_(x, u) in ``word``, or of ad*, applied to v."""

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from codegen.groups.capabilities import Projection, RightTrivialisation
+from codegen.groups.capabilities import Coadjoint, Projection
 from codegen.groups.cubic_ad import CubicAd
-from codegen.groups.linear_algebra import S, Vector, dot, matmul, rescaled, units
+from codegen.groups.linear_algebra import S, Vector, dot, rescaled, units
 from codegen.groups.matrix import MatrixGroup
 from codegen.ir.domain import Domain
 
 
-class SL2(CubicAd, MatrixGroup, RightTrivialisation, Projection):
+class SL2(CubicAd, MatrixGroup, Projection):
     """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H.
 
     The basis is the basis of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]],
@@ -50,9 +50,13 @@ class SL2(CubicAd, MatrixGroup, RightTrivialisation, Projection):
         """Return Ad*_{g^-1} mu."""
         return self.Adt(d, _adjugate(g), mu)
 
-    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return x where v = x.g: the coordinates of v g^-1."""
-        return self.vee(d, matmul(v, _adjugate(g), 2))
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the adjugate matrix."""
+        return _adjugate(g)
+
+    def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n by the closed forms."""
+        return Coadjoint.transport(self, d, x, n, mu)
 
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the error of the determinant is then O(e^3)."""

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from codegen.groups.cubic_ad import CubicAd
+from codegen.groups.cubic_ad import DEXP
 from codegen.groups.linear_algebra import S, Vector, cross, dot
 from codegen.groups.s3 import S3
 from codegen.ir.domain import Domain
 
 
-class SU2(CubicAd, S3):
+class SU2(S3):
     """Unitary 2 x 2 matrices [[a, b], [-b^c, a^c]] of determinant 1 as unit quaternions, real part first.
 
     The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
@@ -35,6 +35,10 @@ class SU2(CubicAd, S3):
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return -x cross mu."""
         return cross(mu, x)
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
+        return self.series(d, DEXP, True, x, mu)
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return the quaternion product (0, x/2) g."""

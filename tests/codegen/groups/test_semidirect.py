@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from codegen.errors import SceneError
-from codegen.groups import GL, S3, SE2, SE3, SE23, SO2, SO3, SU2, Rn, Semidirect
+from codegen.groups import GL, S3, SE2, SE3, SE23, SO2, SO3, SU2, Affine, Rn, Semidirect
 from codegen.groups.capabilities import ClosedFormSeries, LeftTranslation, MatrixRepresentation, Projection
 from codegen.groups.linear_algebra import matvec
 from codegen.groups.representations import AlgebraVectors, MatrixColumns, PlaneVectors
@@ -84,7 +84,7 @@ def test_a_motion_is_the_product_with_its_matrix():
         (SO3(), ClosedFormSeries, True),
         (SO3(), MatrixRepresentation, True),
         (SU2(), MatrixRepresentation, False),
-        (S3(), ClosedFormSeries, False),
+        (S3(), ClosedFormSeries, True),
         (S3(), LeftTranslation, True),
     ],
 )
@@ -108,6 +108,25 @@ def test_columns_of_a_group_without_matrices_are_refused():
         Semidirect(S3(), MatrixColumns())
 
 
+def test_vectors_of_an_algebra_without_closed_forms_are_refused():
+    with pytest.raises(SceneError, match=r"GL\(2\) has no closed form of functions of ad"):
+        Semidirect(GL(2), AlgebraVectors())
+
+
+@pytest.mark.parametrize("sample", ["exact, series", "40 digits, uniform"])
+def test_linear_maps_with_columns_are_the_affine_maps(sample):
+    """The elements of one group are matrices of the other, and the bases of the algebras are permuted."""
+    product, matrices = Semidirect(GL(2), MatrixColumns()), Affine(2)
+    s = sampler(product, sample)
+    d, x, mu = s.domain, s.vector(), s.covector()
+
+    def permuted(v):
+        return (v[0], v[1], v[4], v[2], v[3], v[5])
+
+    assert s.equal(product.matrix(d, product.exp(d, x)), matrices.exp(d, permuted(x)))
+    assert s.equal(permuted(product.dexpt(d, x, mu)), matrices.dexpt(d, permuted(x), permuted(mu)))
+
+
 def test_no_copies_are_refused():
     with pytest.raises(SceneError, match="0 copies"):
         AlgebraVectors(0)
@@ -115,7 +134,7 @@ def test_no_copies_are_refused():
 
 def test_equations_on_se3_have_a_form_with_a_unit_quaternion():
     problem = body_on_a_spring()
-    _, form = classical_forms(problem)
+    form = classical_forms(problem)[-1]
     assert len(form.problem.symbols) == 4 + 3 + 6
     d = PreciseDomain(0, 40)
     state = tuple(problem.initial(d))
