@@ -28,7 +28,8 @@ class SO2(LeftTranslation, RightTrivialisation, Projection, PointMotions, Matrix
     functions c_k. The group is abelian, so Ad and dexp are the identity.
     """
 
-    name, layout = "SO(2)", ", cosine and sine of the angle"
+    name = "SO(2)"
+    layout = ", cosine and sine of the angle"
     dim, size, point_size = 1, 2, 2
     abelian = True
 
