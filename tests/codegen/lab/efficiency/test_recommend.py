@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
@@ -11,6 +12,7 @@ from codegen import scenes
 from codegen.emitter import compile_method
 from codegen.ir.program import Solve
 from codegen.lab.distance import distance
+from codegen.lab import timing
 from codegen.lab.efficiency import race
 from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.equations import Equations
@@ -223,6 +225,31 @@ def test_a_racer_reaches_the_same_error_after_it_has_reached_larger_errors() -> 
     fresh = Racer(equations, exact, known).reach(1e-10)
     assert fresh.reached
     assert used.reach(1e-10).steps == fresh.steps
+
+
+@pytest.mark.parametrize(("seconds", "most"), [(1e-6, 32), (1.0, 1)])
+@pytest.mark.parametrize("adaptive", [False, True])
+def test_only_short_races_are_timed_over_several_spans(
+    monkeypatch: pytest.MonkeyPatch, adaptive: bool, seconds: float, most: int
+) -> None:
+    """The clock advances by ``seconds`` for each span; the run has four steps."""
+    problem = scenes.load("free_rigid_body")
+    method = replace(parse("ambient:dormand_prince5", families_for(problem)), adaptive=adaptive)
+    recipe = Recipe("ambient:dormand_prince5", 5, 7, "dormand_prince5", adaptive)
+    racer = Racer(Equations(problem), cached_reference(problem), entry(recipe, compile_method(problem, method)))
+    clock, asked = SimpleNamespace(now=0.0), set[int]()
+
+    def run(control: float, spans: int = 1) -> tuple[tuple[float, ...], int]:
+        asked.add(spans)
+        clock.now += 1e-7 + seconds * spans
+        return (), 4 * spans
+
+    time = SimpleNamespace(process_time=lambda: clock.now, thread_time=lambda: clock.now)
+    monkeypatch.setattr(timing, "time", time)
+    monkeypatch.setattr(racer, "run", run)
+    racer.counts[4.0] = 4
+    racer.seconds(4.0)
+    assert max(asked) == most
 
 
 def test_named_methods_alone_are_searched() -> None:
