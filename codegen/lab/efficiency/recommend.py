@@ -58,7 +58,7 @@ class Recommendation:
 
     ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are numbers
     of recipes. ``complete`` is false if the budget ended the search. ``lost`` names the recipes that were
-    excluded by a long run.
+    excluded by a long run. ``referred`` is the part of the budget that the reference solution took.
     """
 
     request: Request
@@ -69,6 +69,7 @@ class Recommendation:
     seconds: float
     complete: bool = True
     lost: tuple[str, ...] = ()
+    referred: float = 0.0
 
     def as_json(self) -> dict[str, object]:
         """Return plain data."""
@@ -131,6 +132,7 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
         time.monotonic() - search.start,
         search.complete,
         tuple(lost),
+        search.referred,
     )
 
 

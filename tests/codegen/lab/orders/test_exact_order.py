@@ -108,5 +108,7 @@ def test_a_method_without_exact_coefficients_is_a_row_and_the_others_go_on() -> 
     assert "intervals" in unknown["failure"]
     assert (known["verdict"], known["order"], known["failure"]) == ("holds", 3, "")
     assert known.keys() == unknown.keys()
-    (dipole,) = json.loads(CliRunner().invoke(program, ["localerror", "dipole", "-m", "cf:cf4", "--json"]).stdout)
+    (dipole,) = json.loads(
+        CliRunner().invoke(program, ["localerror", "dipole", "-m", "cf:cf4", "--json"]).stdout
+    )
     assert (dipole["verdict"], "sqrt" in dipole["failure"]) == ("undecided", True)
