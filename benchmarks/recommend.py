@@ -4,7 +4,7 @@
 
 Each recipe of the library is emitted, compiled and raced for each error. The recommended recipe and the best
 of the exhaustive search are then timed alternately. The column "ratio" is the ratio of their CPU times. The
-exit status is 1 if a ratio is above 1.25. The scenes share the minutes: a search that takes too long ends, and
+exit status is 1 if a ratio is above 1.25. The scenes share the minutes. A search that takes too long ends;
 the column "raced" shows how many recipes it has tried. Progress is written to stderr.
 """
 
