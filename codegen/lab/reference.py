@@ -9,6 +9,7 @@ of different order and tolerance must agree, and their distance is the stated un
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import dataclass
 
 from flint import arb
@@ -69,14 +70,17 @@ class _Stored:
     uncertainty: float
 
 
-def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> Reference:
+def cached_reference(
+    scene: Problem, cache: MeasurementCache | None = None, end: float = math.inf
+) -> Reference:
     """Return the reference of a scene from the cache; compute and store it if it is missing.
 
-    The default of ``cache`` is the cache of this user. Errors: those of :func:`reference`.
+    The default of ``cache`` is the cache of this user. The computation ends at the time ``end``. Errors:
+    those of :func:`reference`.
     """
 
     def compute() -> _Stored:
-        computed = reference(scene)
+        computed = reference(scene, end)
         return _Stored(computed.digits(DIGITS), computed.uncertainty)
 
     stored = (cache or user_cache()).get(_key(scene), _Stored, compute)
@@ -99,13 +103,14 @@ def _key(scene: Problem) -> tuple[object, ...]:
     )
 
 
-def reference(scene: Problem) -> Reference:
+def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
-    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
-    the two runs do not agree to 28 digits.
+    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, if the
+    two runs do not agree to 28 digits, or if they are not finished at the time ``end`` of the clock
+    ``time.monotonic``.
     """
-    checked, answer = (_end(scene, columns, exponent) for columns, exponent in RUNS)
+    checked, answer = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
     gap = max(float(abs(a - b)) for a, b in zip(checked, answer, strict=True))
     if not gap <= AGREEMENT * size:
@@ -118,13 +123,24 @@ def reference(scene: Problem) -> Reference:
     return Reference(scene.name, answer, gap)
 
 
-def _end(scene: Problem, columns: int, exponent: int) -> Vector:
+def _end(scene: Problem, columns: int, exponent: int, end: float) -> Vector:
     """Return the final state of one run of the extrapolation method, with step-size control."""
+
+    def punctual(y: Vector, t: Scalar) -> Vector:
+        if time.monotonic() > end:
+            raise SceneError(
+                "the reference solution is not finished in time",
+                where=scene.name,
+                expected="a part of the budget",
+                hint="allow more time, or shorten the span",
+            )
+        return field(y, t)
+
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
         field = ambient_field(scene)
         y = tuple(arb(context.context.nstr(x, DIGITS + 5)) for x in scene.initial(context))
-        final = _integrate(scene, field, tuple(x.mid() for x in y), columns, 10.0**exponent)
+        final = _integrate(scene, punctual, tuple(x.mid() for x in y), columns, 10.0**exponent)
         return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final)
 
 
