@@ -243,11 +243,18 @@ def test_closed_forms_are_accurate_from_zero_to_beyond_a_turn(name, target):
 
 
 @pytest.mark.parametrize("target", ["c", "python"])
-@pytest.mark.parametrize(
-    "x", [(1.0, 2.0, 0.25), (3.0, -3.0, 3.0), (1e-300, 2e-160, 0.0), (0.5, -2.0, 1.0), (1.0, 0.999, 1e-9)]
-)
-def test_closed_forms_of_sl2_hold_for_real_eigenvalues(x, target):
-    check("SL(2)", target, x, (0.3, -0.8, 0.5))
+def test_closed_forms_of_sl2_hold_for_all_eigenvalues(target):
+    """Hyperbolic and parabolic elements, and rotations by angles up to a turn of the adjoint map."""
+    elements = [
+        (1.0, 2.0, 0.25),
+        (3.0, -3.0, 3.0),
+        (1e-300, 2e-160, 0.0),
+        (0.5, -2.0, 1.0),
+        (1.0, 0.999, 1e-9),
+    ]
+    angles = (1e-300, 1e-8, 1.5, 3.0, math.pi - 1e-9, math.pi + 1e-9)
+    for x in (*elements, *((a, -a, 0.0) for a in angles)):
+        check("SL(2)", target, x, (0.3, -0.8, 0.5))
 
 
 @pytest.mark.parametrize("name", [name for name, group in GROUPS.items() if group.offers(ClosedFormSeries)])
