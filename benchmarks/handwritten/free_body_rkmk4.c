@@ -3,7 +3,8 @@
  * (Munthe-Kaas and Owren 1999), by hand: k2 = h f(exp(k1/2) y0), k3 = h f(exp(k2/2 - [k1,k2]/8) y0), k4 = h f(exp(k3) y0),
  * y1 = exp((k1 + 2 k2 + 2 k3 + k4 - [k1,k4]/2)/6) y0.
  *
- * The state is the attitude R and the position a. exp(w, u) moves a to a + u + w x (c1 a + c2 (u + w x a) + c3 w x u).
+ * The state is the attitude R and the position a. exp(w, u) moves a to a + u + c1 s + c2 (w x s + r) + c3 w x r with
+ * s = w x a and r = w x u: all vectors are known before c1, c2 and c3.
  */
 #include "rotation.h"
 #include <stddef.h>
@@ -24,15 +25,14 @@ static inline void move(const double x[static 6], const double y[static 12], dou
     sinc_cosc_defect(w[0] * w[0] + w[1] * w[1] + w[2] * w[2], &c1, &c2, &c3);
     cross(w, a, s);
     cross(w, u, r);
-    t[0] = (c1 * a[0] + c2 * (u[0] + s[0])) + c3 * r[0];
-    t[1] = (c1 * a[1] + c2 * (u[1] + s[1])) + c3 * r[1];
-    t[2] = (c1 * a[2] + c2 * (u[2] + s[2])) + c3 * r[2];
-    cross(w, t, b);
-    z[9] = (a[0] + u[0]) + b[0];
-    z[10] = (a[1] + u[1]) + b[1];
-    z[11] = (a[2] + u[2]) + b[2];
-    const double s0 = c1 * w[0], s1 = c1 * w[1], s2 = c1 * w[2], p = c2 * w[0], q = c2 * w[1];
-    const double xy = p * w[1], xz = p * w[2], yz = q * w[2], xx = p * w[0], yy = q * w[1], zz = c2 * (w[2] * w[2]);
+    cross(w, s, b);
+    cross(w, r, t);
+    z[9] = (a[0] + u[0]) + ((c1 * s[0] + c2 * (b[0] + r[0])) + c3 * t[0]);
+    z[10] = (a[1] + u[1]) + ((c1 * s[1] + c2 * (b[1] + r[1])) + c3 * t[1]);
+    z[11] = (a[2] + u[2]) + ((c1 * s[2] + c2 * (b[2] + r[2])) + c3 * t[2]);
+    const double s0 = c1 * w[0], s1 = c1 * w[1], s2 = c1 * w[2];
+    const double xy = c2 * (w[0] * w[1]), xz = c2 * (w[0] * w[2]), yz = c2 * (w[1] * w[2]);
+    const double xx = c2 * (w[0] * w[0]), yy = c2 * (w[1] * w[1]), zz = c2 * (w[2] * w[2]);
     E[0] = 1.0 - (yy + zz);
     E[1] = xy - s2;
     E[2] = xz + s1;
