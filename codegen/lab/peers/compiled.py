@@ -50,7 +50,8 @@ def source(template: str, scene: Problem) -> str:
         keep_trailing_newline=True,
         autoescape=False,
     )
-    values: dict[str, object] = {"size": len(scene.symbols), "field": velocity(scene).c()}
+    field = velocity(scene)
+    values: dict[str, object] = {"size": len(scene.symbols), "field": field.c(), "helpers": field.helpers()}
     values["time"] = not scene.autonomous
     if template == "rk4.c.j2":
         values["projection"] = projection_lines(scene).c("z")

@@ -24,7 +24,7 @@ _WORDS = """
     R_OK W_OK X_OK STDERR_FILENO STDIN_FILENO STDOUT_FILENO CLOSE_RANGE_CLOEXEC CLOSE_RANGE_UNSHARE
     RENAME_EXCHANGE RENAME_NOREPLACE RENAME_WHITEOUT
     main NULL INFINITY NAN size_t memcpy memset fmax
-    sqrt sin cos exp log sinh cosh fabs isfinite pow copysign sqrtf sinf cosf expf logf sinhf coshf fabsf
+    sqrt sin cos exp log sinh cosh fabs isfinite pow copysign atan2 atan2f sqrtf sinf cosf expf logf sinhf coshf fabsf
     input context
 """
 
