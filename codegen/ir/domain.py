@@ -341,7 +341,7 @@ class SeriesDomain:
         """Return the sign of a series for small h; :class:`Kink` if it vanishes at h = 0."""
         start = z.coefficients[0]
         if self.base.is_zero(start) is not False:
-            raise Kink("the field is not smooth at the initial state, so it has no series in h there")
+            raise Kink("the field is not smooth at the initial state")
         return -1 if self.base.approximate(start).startswith("-") else 1
 
     def _angle(self, y: Scalar, x: Scalar) -> Scalar:

@@ -76,8 +76,12 @@ class PiecewisePolynomial(str):
             if order is None:
                 return x
             first, last = (first, middle) if order < 0 else (middle + 1, last)
-        *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[first])
-        step = x - domain.rational(*self.bases[first].as_integer_ratio())
+        return self.on_interval(domain, x, first)
+
+    def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
+        """Return the value at x of the polynomial of one interval."""
+        *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
+        step = x - domain.rational(*self.bases[place].as_integer_ratio())
         for c in reversed(rest):
             total = c + step * total
         return total

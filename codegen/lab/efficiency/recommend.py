@@ -58,7 +58,7 @@ class Recommendation:
 
     ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are numbers
     of recipes. ``complete`` is false if the budget ended the search. ``lost`` names the recipes that were
-    excluded by a long run.
+    excluded by a long run. ``kinks`` is the number of points of the solution where the field is not smooth.
     """
 
     request: Request
@@ -69,6 +69,7 @@ class Recommendation:
     seconds: float
     complete: bool = True
     lost: tuple[str, ...] = ()
+    kinks: int = 0
 
     def as_json(self) -> dict[str, object]:
         """Return plain data."""
@@ -86,6 +87,7 @@ class Recommendation:
             "raced": self.raced,
             "complete": self.complete,
             "lost": list(self.lost),
+            "kinks": self.kinks,
             "search_seconds": self.seconds,
         }
 
@@ -131,6 +133,7 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
         time.monotonic() - search.start,
         search.complete,
         tuple(lost),
+        len(search.exact.kinks),
     )
 
 
