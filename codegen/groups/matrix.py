@@ -13,6 +13,7 @@ from fractions import Fraction
 from codegen.errors import SceneError
 from codegen.groups.capabilities import Coadjoint, MatrixElements
 from codegen.groups.linear_algebra import S, Vector, dot, invert, matmul, rational_inverse, units
+from codegen.groups.rational_rows import rational_rows
 from codegen.ir.domain import Domain, ExprDomain, SeriesDomain
 
 LONGEST = 1000
@@ -32,6 +33,7 @@ class MatrixGroup(MatrixElements, Coadjoint):
 
     def __init__(self, name: str, basis: Sequence[Sequence[Sequence[int | Fraction]]]) -> None:
         self.name = name
+        basis = [rational_rows(name, matrix) for matrix in basis]
         self.n = len(basis[0]) if basis else 0
         if not self.n or any(len(rows) != self.n for matrix in basis for rows in (matrix, *matrix)):
             raise SceneError("a basis that is empty or not square", where=name, expected="n x n matrices")

@@ -23,8 +23,9 @@ from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
-AHEAD = 1e-40
-"""The time after which the sides of selections are read; it is much shorter than every time scale."""
+AHEAD = 1e-34
+"""The time after which the sides of selections are read; it is much longer than the error of
+the time of an event, and much shorter than every time scale."""
 
 NEAR = (1e-5, 1e-6)
 """Times after an event at which the fields on both sides are compared."""

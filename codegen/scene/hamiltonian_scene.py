@@ -55,11 +55,19 @@ def HamiltonianScene(
     = -(D_1 H).q^-1 (:mod:`codegen.scene.canonical_equations`) are computed by differentiation. If ``xi`` or
     ``n`` is given, it must equal the computed formulas. ``wrench`` is a column of ``group.dim`` components,
     in space, of a force without potential: mu' = n + wrench - ad*_xi mu, so a given ``n`` does not contain
-    the wrench. A scene with a wrench has no energy and no parts. If H does not depend on time and there is no
+    the wrench. A scene with a wrench has no energy, and may have no parts. The
+    parts must add up to H. If H does not depend on time and there is no
     wrench, the energy is an invariant. :class:`SceneError` is raised in the same cases as by
     :func:`FieldScene`.
     """
     reader = _reader(name, group, q, mu)
+    if wrench is not None and parts:
+        raise SceneError(
+            f"a wrench beside the parts {', '.join(parts)}",
+            where=name,
+            expected="parts without a wrench, or a wrench without parts",
+            hint="splittings compose exact flows of H, and a wrench has none: remove parts",
+        )
     system = _CanonicalSystem.read(reader, group, q, mu, H, parts or {}, wrench)
     state = system.state(q0, mu0)
     (energy,) = reader.closed((system.hamiltonian,))
@@ -72,7 +80,7 @@ def HamiltonianScene(
         *(name, title or name, group, LeftMultiplication(), state, roots),
         *(None if system.loads else energy, known, read_span(name, span), reader.parameters()),
         paired=True,
-        parts={} if system.loads else {key: reader.closed((x,))[0] for key, x in system.summands.items()},
+        parts={key: reader.closed((x,))[0] for key, x in system.summands.items()},
         signals=reader.signals,
         open_roots=system.open_roots,
         forced=bool(system.loads),

@@ -25,22 +25,22 @@ LARGEST = 512
 class TableData(sympy.Atom):  # type: ignore[misc]
     """The data of a table as an argument of a sympy expression."""
 
-    __slots__ = ("polynomial",)
+    __slots__ = ("function",)
 
     def __new__(cls, polynomial: PiecewisePolynomial) -> TableData:
         """Return the argument for a piecewise polynomial."""
         data: TableData = sympy.Atom.__new__(cls)
-        data.polynomial = polynomial
+        data.function = polynomial
         return data
 
     def __getnewargs__(self) -> tuple[object, ...]:
-        return (self.polynomial,)
+        return (self.function,)
 
     def _hashable_content(self) -> tuple[object, ...]:
-        return (str(self.polynomial),)
+        return (str(self.function),)
 
     def _sympystr(self, printer: object) -> str:
-        return str(self.polynomial)
+        return str(self.function)
 
 
 class TableValue(sympy.Expr):  # type: ignore[misc]
@@ -52,7 +52,7 @@ class TableValue(sympy.Expr):  # type: ignore[misc]
     @property
     def polynomial(self) -> PiecewisePolynomial:
         """The piecewise polynomial that interpolates the table."""
-        polynomial: PiecewisePolynomial = self.args[0].polynomial
+        polynomial: PiecewisePolynomial = self.args[0].function
         return polynomial
 
     def _eval_derivative(self, symbol: sympy.Symbol) -> sympy.Expr:

@@ -123,11 +123,15 @@ def test_the_gallery_is_listed_with_titles(name):
     assert name in [row["name"] for row in scenes.listing()]
 
 
-def test_a_scene_of_a_user_has_its_title_or_the_name_of_its_file(tmp_path):
+def test_a_scene_of_a_user_has_its_title_or_the_first_line_of_its_docstring_or_the_name_of_its_file(tmp_path):
     text = (TESTS / "valid" / "scenes" / "pendulum.py").read_text(encoding="utf-8")
-    given, untitled = tmp_path / "given.py", tmp_path / "swing.py"
+    given, described, untitled = (tmp_path / f"{name}.py" for name in ("given", "described", "swing"))
     given.write_text(text, encoding="utf-8")
-    untitled.write_text(text.replace('    title="Pendulum with a moving support",\n', ""), encoding="utf-8")
+    text = text.replace('    title="Pendulum with a moving support",\n', "")
+    described.write_text(text, encoding="utf-8")
+    untitled.write_text(text.partition("\n")[2], encoding="utf-8")
+    first = "A spherical pendulum whose support moves, with everything that a scene may hold"
+    assert scenes.load(str(described)).title == first
     assert scenes.load(str(given)).title == "Pendulum with a moving support"
     assert scenes.load(str(untitled)).title == "swing"
 
