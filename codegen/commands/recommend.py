@@ -117,7 +117,9 @@ def searched(result: Recommendation) -> str:
     """Return a sentence on the extent of the search."""
     text = f"{result.predicted} methods predicted, {result.raced} raced in {result.seconds:.0f} s"
     if result.kinks:
-        text += f"; the solution crosses {result.kinks} points where the field is not smooth, so the order of a "
+        text += (
+            f"; the solution crosses {result.kinks} points where the field is not smooth, so the order of a "
+        )
         text += "method is lost there: errors were measured, but other spans may need other steps"
     text += "" if result.complete else "; the budget ended the search, --budget S allows more"
     return text + "".join(f"; {label} loses a conserved quantity in a long run" for label in result.lost)

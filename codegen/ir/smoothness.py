@@ -1,7 +1,7 @@
 """The selections in formulas: where a field is not smooth, and the smooth field on one side.
 
-A selection is a node of :mod:`codegen.ir.selection`. Its *side* is 1 or 0 for ``choose`` and ``fabs`` (whether
-the argument is positive), and the number of an interval for a table. With the sides of all selections given,
+A selection is a node of :mod:`codegen.ir.selection`. Its *side* is 1 or 0 for ``choose`` and ``fabs``
+(whether the argument is positive), and the number of an interval for a table. With the sides of all selections given,
 the formulas are smooth, and they continue beyond the region in which the sides are valid.
 """
 
@@ -18,6 +18,7 @@ from codegen.ir.table import PiecewisePolynomial
 
 Sides = tuple[int, ...]
 """The side of each selection, in the order of :func:`selections`."""
+
 
 def selections(roots: Sequence[Expr]) -> list[Expr]:
     """Return the selections in expressions, arguments before users."""

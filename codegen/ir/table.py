@@ -54,8 +54,8 @@ class PiecewisePolynomial(str):
         table.knots, table.bases, table.rows = knots, bases, rows
         return table
 
-    def __getnewargs__(self) -> tuple[object, ...]:
-        return self.knots, self.bases, self.rows
+    def __reduce__(self) -> tuple[object, ...]:
+        return PiecewisePolynomial, (self.knots, self.bases, self.rows)
 
     @property
     def degree(self) -> int:

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
-from codegen.ir.taylor_recurrence import Recurrence
 from codegen.ir.selection import CHOOSE
+from codegen.ir.taylor_recurrence import Recurrence
 from codegen.ir.taylor_series import (
     Angle,
     Antiderivative,

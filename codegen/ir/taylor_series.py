@@ -309,7 +309,7 @@ class Start(Series):
 
 def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
     """Return the series of a table at a: the polynomial of the interval that contains a_0."""
-    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum, and Horner's rule needs a product for each power.
+    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule needs a product for each power.
     step = Sum(domain, a, Start(domain, a, lambda x: x), True)
     derivatives, factors = [table], [Fraction(1)]
     while derivatives[-1].degree:
@@ -320,7 +320,7 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
         start = Start(domain, a, partial(domain.call, derivative))
         number = Number.rational(*factor.as_integer_ratio())
         starts.append(start if number.is_one else Multiple(domain, number, start))
-    total = starts[-1]
+    total: Series = starts[-1]
     for start in reversed(starts[:-1]):
         total = Sum(domain, start, Convolution(domain, step, total), False)
     return total

@@ -51,9 +51,7 @@ def of_arrays(library: Scalar) -> Functions:
     return names | {ANGLE: library.arctan2, ABSOLUTE: abs, CHOOSE: choose, TABLES: table}
 
 
-def chosen(
-    functions: Functions, name: str, constant: Callable[[Number], Scalar]
-) -> Callable[..., Scalar]:
+def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
     """Return one of the functions; an ArithmeticError names a function that is missing."""
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:
@@ -67,9 +65,7 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
     return a if x > 0 else b if x <= 0 else x
 
 
-def _converted(
-    polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]
-) -> list[list[Scalar]]:
+def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
     """Return knots, bases, and the coefficients of each power."""
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]

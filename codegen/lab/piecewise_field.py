@@ -144,9 +144,7 @@ class Sided:
             return True
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
-    def cross(
-        self, y: Vector, t: Scalar, length: Scalar, advance: Advance
-    ) -> tuple[Scalar, Vector] | None:
+    def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
         """Move to the first event in a step and to its other side; None if a shorter step must be tried."""
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)

@@ -86,7 +86,9 @@ def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> R
 
     stored = (cache or user_cache()).get(_key(scene), _Stored, compute)
     context = PreciseDomain(0, DIGITS).context
-    return Reference(scene.name, tuple(map(context.mpf, stored.state)), stored.uncertainty, tuple(stored.kinks))
+    return Reference(
+        scene.name, tuple(map(context.mpf, stored.state)), stored.uncertainty, tuple(stored.kinks)
+    )
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
@@ -207,9 +209,7 @@ def _extrapolate(
     return tuple(x.mid() for x in row[-1]), error
 
 
-def _midpoint(
-    field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int
-) -> Vector:
+def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
     """Return the state after n substeps (n even) of the explicit midpoint rule, started by an Euler step."""
     h = step / n
     twice = 2 * h

@@ -108,7 +108,8 @@ class FlowLowering(Lowering):
     def read(self, scene: Problem, method: Method) -> Reading:
         """Return the word, the carrier and the conditions of a method on a Hamiltonian scene with parts.
 
-        :class:`codegen.errors.MethodError` is raised for a part without exact flow, a tableau for another number of parts, and parts that all depend on time.
+        :class:`codegen.errors.MethodError` is raised for a part without exact flow, a tableau for another
+        number of parts, and parts that all depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)

@@ -19,7 +19,7 @@ HOLD, EXTRAPOLATE = "hold", "extrapolate"
 OUTSIDE = (HOLD, EXTRAPOLATE)
 
 LARGEST = 512
-"""The largest number of points; the exact coefficients of a spline have more digits the more points it has."""
+"""The largest number of points; more points give exact coefficients of a spline with more digits."""
 
 
 class TableData(sympy.Atom):  # type: ignore[misc]
@@ -69,10 +69,11 @@ def table(
 ) -> sympy.Expr:
     """Return a formula with the value ys[k] at x = xs[k], for a scene.
 
-    ``xs`` increase. ``smoothness`` is ``cubic``, the natural cubic spline (its second derivative is continuous,
-    and zero at both ends), or ``linear``. Its coefficients are computed exactly from the given numbers; a float
-    means the shortest decimal that prints it. ``outside`` says what the value is beyond the first and the last
-    point: ``hold``, the value at this point, or ``extrapolate``, the polynomial of the last interval.
+    ``xs`` increase. ``smoothness`` is ``cubic``, the natural cubic spline (its second derivative is
+    continuous, and zero at both ends), or ``linear``. Its coefficients are computed exactly from the given
+    numbers; a float means the shortest decimal that prints it. ``outside`` is the rule beyond the first and
+    the last point: ``hold``, the value at this point, or ``extrapolate``, the polynomial of the last
+    interval.
     :class:`SceneError` is raised for numbers that define no such function.
 
     The function is not smooth at its points: a cubic spline has a jump in the third derivative, and a linear
@@ -107,7 +108,8 @@ def linear_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fr
 def spline_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
     """Return the coefficients of the natural cubic spline, about the beginning of each interval.
 
-    >>> [[str(c) for c in row] for row in spline_rows([Fraction(k) for k in range(3)], [Fraction(k) for k in (0, 1, 0)])]
+    >>> xs, ys = ([Fraction(k) for k in numbers] for numbers in ((0, 1, 2), (0, 1, 0)))
+    >>> [[str(c) for c in row] for row in spline_rows(xs, ys)]
     [['0', '3/2', '0', '-1/2'], ['1', '0', '-3/2', '1/2']]
     """
     widths = [b - a for a, b in pairwise(xs)]

@@ -1,8 +1,8 @@
 """Modules beside a scene file, which the scene may import.
 
 A neighbour is found before any other module of the same name, except modules of the standard library and of
-installed packages. It is loaded for one scene only: afterwards it is removed again, so that a scene of another
-folder finds its own neighbour of the same name.
+installed packages. It is loaded for one scene only. Afterwards it is removed again, so that a scene of
+another folder finds its own neighbour of the same name.
 """
 
 from __future__ import annotations

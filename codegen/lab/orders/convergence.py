@@ -66,8 +66,8 @@ class Convergence:
     @property
     def limit(self) -> float:
         """The highest order that equal steps have across the kinks of the solution."""
-        # Where k derivatives of the field are continuous, the one step that contains the kink has a local error
-        # of order k + 2. There is a fixed number of such steps.
+        # Where k derivatives of the field are continuous, the step that contains the kink has a local error of
+        # order k + 2. The number of these steps does not depend on h.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
@@ -111,8 +111,8 @@ class Convergence:
         number = len(self.kinks)
         places = "one point" if number == 1 else f"{number} points"
         return (
-            f"the solution crosses {places} where the field is not smooth, and equal steps have at most order "
-            f"{self.limit} there; order {self.stated.order} is expected between these points only"
+            f"the solution crosses {places} where the field is not smooth, and equal steps have at most "
+            f"order {self.limit} there; order {self.stated.order} is expected between these points only"
         )
 
     def _short(self) -> str:

@@ -17,7 +17,9 @@ FORMULAS = {
     "heaviside": sympy.Heaviside(x - y) * y + x,
     "roots": sympy.Piecewise((sympy.sqrt(x - 2) * y, x > 2), (sympy.log(x) * y, x > 0), (y, True)),
     "conditions": sympy.Piecewise(
-        (x * y, (x > 1) & (y <= sympy.Rational(3, 2))), (1 / (x - 1), sympy.Or(x >= 2, sympy.Ne(y, sympy.Rational(3, 2)))), (y, True)
+        (x * y, (x > 1) & (y <= sympy.Rational(3, 2))),
+        (1 / (x - 1), sympy.Or(x >= 2, sympy.Ne(y, sympy.Rational(3, 2)))),
+        (y, True),
     ),
     "angle": sympy.atan2(x, y),
     "spline": table(XS, YS, x) * y,

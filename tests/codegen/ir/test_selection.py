@@ -53,7 +53,9 @@ def _of_table(e: sympy.Expr, places: dict[sympy.Symbol, sympy.Rational]) -> symp
 
 
 def evaluated(roots: list[Expr], domain: Domain, at: tuple[Fraction, Fraction]) -> list[mpmath.mpf]:
-    return evaluate(roots, domain, {n: domain.rational(*v.as_integer_ratio()) for n, v in zip("xy", at, strict=True)})
+    return evaluate(
+        roots, domain, {n: domain.rational(*v.as_integer_ratio()) for n, v in zip("xy", at, strict=True)}
+    )
 
 
 @pytest.mark.parametrize("at", POINTS, ids=str)
@@ -135,7 +137,9 @@ def test_a_series_at_a_kink_is_refused() -> None:
         domain.call("fabs", domain.h)
     with pytest.raises(Kink):
         domain.call("choose", domain.ring.zero, domain.h, domain.ring.one)
-    ramp = PiecewisePolynomial((Fraction(0),), (Fraction(0),) * 2, ((Fraction(0),), (Fraction(0), Fraction(1))))
+    ramp = PiecewisePolynomial(
+        (Fraction(0),), (Fraction(0),) * 2, ((Fraction(0),), (Fraction(0), Fraction(1)))
+    )
     with pytest.raises(Kink):
         domain.call(ramp, domain.h)
 
@@ -177,7 +181,13 @@ def scene(name: str) -> Problem:
     formula = FORMULAS[name] if name in FORMULAS else sum(FORMULAS.values()) / 10
     f = [formula.xreplace({x: u, y: v}), u - v / 2]
     return FieldScene(
-        group=Rn(2), action=LeftMultiplication(), y=state, f=f, y0=[0.4, 1], span=(0, Fraction(1, 4)), name=name
+        group=Rn(2),
+        action=LeftMultiplication(),
+        y=state,
+        f=f,
+        y0=[0.4, 1],
+        span=(0, Fraction(1, 4)),
+        name=name,
     )
 
 
@@ -254,7 +264,7 @@ def test_a_float_means_the_decimal_that_prints_it() -> None:
     space = Space()
     assert read(space, 0.1 * x) is read(space, x / 10)
     assert read(space, x**0.5) is read(space, sympy.sqrt(x))
-    with pytest.raises(SceneError, match="the float 1.0*E-400"):
+    with pytest.raises(SceneError, match=r"the float 1\.00"):
         read(space, sympy.Float("1e-400", 30))
 
 

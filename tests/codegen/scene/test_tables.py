@@ -36,7 +36,8 @@ def test_the_spline_has_two_continuous_derivatives_exactly() -> None:
     for derivative in (f, f.derivative(), f.derivative().derivative()):
         for k, knot in enumerate(f.knots[1:-1], start=1):
             below, above = (
-                sum(c * (knot - f.bases[j]) ** p for p, c in enumerate(derivative.rows[j])) for j in (k, k + 1)
+                sum(c * (knot - f.bases[j]) ** p for p, c in enumerate(derivative.rows[j]))
+                for j in (k, k + 1)
             )
             assert below == above
 

@@ -22,7 +22,9 @@ scene = FieldScene(group=Rn(1), action=LeftMultiplication(), y=y, f=[-y[0]], y0=
 
 def write(folder: Path, start: str, imports: str = "from constants import START") -> str:
     folder.mkdir()
-    (folder / "constants.py").write_text(f"from fractions import Fraction\nSTART = {start}\n", encoding="utf-8")
+    (folder / "constants.py").write_text(
+        f"from fractions import Fraction\nSTART = {start}\n", encoding="utf-8"
+    )
     (folder / "decay.py").write_text(SCENE.format(about="Decay.", imports=imports), encoding="utf-8")
     return str(folder / "decay.py")
 
