@@ -1,8 +1,8 @@
 """The selections in formulas: where a field is not smooth, and the smooth field on one side.
 
 A selection is a node of :mod:`codegen.ir.selection`. Its *side* is 1 or 0 for ``choose`` and ``fabs``
-(whether the argument is positive), and the number of an interval for a table. With the sides of all selections given,
-the formulas are smooth, and they continue beyond the region in which the sides are valid.
+(whether the argument is positive), and the number of an interval for a table. With the sides of all
+selections given, the formulas are smooth, and they continue beyond the region in which the sides are valid.
 """
 
 from __future__ import annotations

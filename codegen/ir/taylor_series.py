@@ -321,8 +321,8 @@ def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
         number = Number.rational(*factor.as_integer_ratio())
         starts.append(start if number.is_one else Multiple(domain, number, start))
     total: Series = starts[-1]
-    for start in reversed(starts[:-1]):
-        total = Sum(domain, start, Convolution(domain, step, total), False)
+    for constant in reversed(starts[:-1]):
+        total = Sum(domain, constant, Convolution(domain, step, total), False)
     return total
 
 

@@ -66,8 +66,8 @@ class Convergence:
     @property
     def limit(self) -> float:
         """The highest order that equal steps have across the kinks of the solution."""
-        # Where k derivatives of the field are continuous, the step that contains the kink has a local error of
-        # order k + 2. The number of these steps does not depend on h.
+        # Where k derivatives of the field are continuous, the local error of the step that contains the kink
+        # has order k + 2. The number of these steps does not depend on h.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:

@@ -14,6 +14,7 @@ from codegen.emitter import compile_method, emit
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
 from codegen.integrator import StepFailed
+from codegen.ir.ball_domain import BallDomain
 from codegen.ir.differentiate import gradient
 from codegen.ir.domain import Domain, ExprDomain, FloatDomain, PreciseDomain, SeriesDomain
 from codegen.ir.expr import Expr, Space, evaluate
@@ -65,6 +66,10 @@ def test_values_agree_with_sympy(name: str, at: tuple[Fraction, Fraction]) -> No
         expected = numeric(name, at)
         (precise,) = evaluated([root], PreciseDomain(0, 40), at)
         assert abs(precise - expected) < mpmath.mpf(10) ** -37
+        balls = BallDomain(0.0, 40)
+        with balls.precision():
+            (ball,) = evaluated([root], balls, at)
+        assert abs(balls.mpf(ball, mpmath.mp) - expected) < mpmath.mpf(10) ** -37
     (double,) = evaluated([root], FloatDomain(0.0), at)
     assert abs(double - float(expected)) <= 4 * math.ulp(max(1.0, abs(float(expected))))
 
