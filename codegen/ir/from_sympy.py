@@ -138,9 +138,9 @@ class _Reader:
             case "Max":
                 return _fold(lambda a, b: positive(a - b)(a, b), [self.node(a) for a in _sorted(e)])
             case _:
-                return self._pieces(e)
+                return self._piecewise(e)
 
-    def _pieces(self, e: sympy.Piecewise) -> Expr:
+    def _piecewise(self, e: sympy.Piecewise) -> Expr:
         """Return a Piecewise formula. The formula of a branch is evaluated everywhere, and then selected."""
         import sympy
 

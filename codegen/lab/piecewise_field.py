@@ -119,23 +119,23 @@ class Sided:
     ``kinks`` contains the number of continuous derivatives at each event.
     """
 
-    def __init__(self, pieces: PiecewiseField) -> None:
-        self.pieces = pieces
+    def __init__(self, fields: PiecewiseField) -> None:
+        self.fields = fields
         self.kinks: list[int] = []
         self.points: list[tuple[Vector, Scalar]] = []
 
     def begin(self, y: Vector, t: Scalar, least: float) -> None:
         """Begin at (y, t); ``least`` is the shortest step."""
-        self.sides, self.least = self.pieces.sides_at(y, t), least
+        self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
         """Return the field on the present sides."""
         self.points.append((y, t))
-        return self.pieces.on(self.sides)[0](y, t)
+        return self.fields.on(self.sides)[0](y, t)
 
     def margins(self, y: Vector, t: Scalar) -> Vector:
         """Return the margins of the present sides."""
-        return self.pieces.on(self.sides)[1](y, t)
+        return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
         """Whether a margin is negative at the end of a step, or at an inner point of its last substeps."""
@@ -160,12 +160,12 @@ class Sided:
         tau = _root(margin, min((start[k].mid() for k in crossed), key=float), margin(length), length)
         place = advance(self, y, t, tau)[0]
         now = (t + tau).mid()
-        self.sides, smooth = self.pieces.beyond(self.sides, place, now)
+        self.sides, smooth = self.fields.beyond(self.sides, place, now)
         self.kinks.append(smooth)
         if len(self.kinks) > MOST_EVENTS:
             raise SceneError(
                 f"more than {MOST_EVENTS} points where the field is not smooth",
-                where=self.pieces.scene.name,
+                where=self.fields.scene.name,
                 expected="a solution that crosses fewer of them",
                 hint="shorten the span",
             )

@@ -130,10 +130,10 @@ def _end(scene: Problem, columns: int, exponent: int) -> tuple[Vector, tuple[int
     kinks."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
-        pieces = PiecewiseField(scene)
+        piecewise = PiecewiseField(scene)
         y = tuple(arb(context.context.nstr(x, DIGITS + 5)).mid() for x in scene.initial(context))
-        smooth = None if pieces.nodes else ambient_field(scene)
-        final, kinks = _integrate(scene, smooth or Sided(pieces), y, columns, 10.0**exponent)
+        smooth = None if piecewise.nodes else ambient_field(scene)
+        final, kinks = _integrate(scene, smooth or Sided(piecewise), y, columns, 10.0**exponent)
         return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final), kinks
 
 

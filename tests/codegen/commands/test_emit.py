@@ -210,8 +210,8 @@ def test_a_tableau_without_family_on_a_hamiltonian_scene_has_a_note():
 
     note, chosen = result("linear_oscillator", "rk4")
     assert note == (
-        "note: triple_jump names no family, and is emitted as vcg:triple_jump; another family is "
-        "composition:triple_jump\n"
+        "note: rk4 names no family, and is emitted as vrkmk(2):rk4; another family is "
+        "vcg:rk4\n"
     )
     assert chosen
     assert result("linear_oscillator", "vcg:rk4") == ("", False)
