@@ -169,5 +169,5 @@ def _shown(x: Fraction) -> str:
     return f"{float(x):.12g}"
 
 
-def _refuse(found: str, expected: str) -> NoReturn:
-    raise SceneError(found, where="table", expected=expected)
+def _refuse(given: str, expected: str) -> NoReturn:
+    raise SceneError(given, where="table", expected=expected)
