@@ -13,12 +13,10 @@ from dataclasses import dataclass
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
-from codegen.ir.precision import DOUBLE
 from codegen.lab.number_functions import Functions, chosen
 from codegen.lab.number_types import Evaluate, Scalar
 from codegen.printers.expression import number
 from codegen.scene.problem import TIME, Problem
-from codegen.snippets.graph import LIBRARY, needed
 
 INFIX = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
@@ -51,10 +49,6 @@ class StraightLine:
         exec(compile(source, f"<{self.scene}>", "exec"), names)
         field: Evaluate = names["field"]
         return field
-
-    def helpers(self) -> tuple[str, ...]:
-        """Return the functions in C that the statements call and that are not in the mathematical library."""
-        return needed("c", [name for name in self.functions if name not in LIBRARY], DOUBLE).texts
 
     def c(self, target: str = "dy") -> list[str]:
         """Return C statements that compute the results and store them in the array ``target``."""
