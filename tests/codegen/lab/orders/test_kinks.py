@@ -6,11 +6,14 @@ import mpmath
 import pytest
 import sympy
 
+from codegen.certify import CertifiedOrder
 from codegen.emitter import emit
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
+from codegen.lab.orders.convergence import Convergence
 from codegen.lab.orders.exact_order import exact_local_error
 from codegen.lab.orders.scene_convergence import converge
+from codegen.lab.orders.step_sizes import Refinement, Run
 from codegen.lab.reference import reference
 from codegen.method import parse
 from codegen.scene import FieldScene, HamiltonianScene, table
@@ -115,3 +118,15 @@ def test_the_gradient_of_a_hamiltonian_is_compared_with_the_derivative_by_sympy(
         mu0=[0, 0.1],
         span=(0, 1),
     )
+
+
+@pytest.mark.parametrize("slope", [2, 4])
+def test_no_slope_across_a_kink_decides_about_a_higher_order(slope: int) -> None:
+    runs = tuple(Run(n, 1 / n, (1 / n) ** slope) for n in (5, 10, 20, 40, 80))
+    stated = CertifiedOrder(4, "exact")
+    kinked, smooth = (
+        Convergence("scene", "rk4", "c", stated, Refinement(runs), kinks) for kinks in ((0, 3), (2,))
+    )
+    assert kinked.verdict == "undecided"
+    assert kinked.as_json()["observed_order"] == pytest.approx(slope)
+    assert smooth.verdict == ("holds" if slope == 4 else "fails")
