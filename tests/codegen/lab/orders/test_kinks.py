@@ -7,9 +7,11 @@ import pytest
 import sympy
 
 from codegen.certify import CertifiedOrder
+from codegen.commands.recommend import searched
 from codegen.emitter import emit
 from codegen.errors import SceneError
 from codegen.groups import LeftMultiplication, Rn
+from codegen.lab.efficiency.recommend import Recommendation, Request
 from codegen.lab.orders.convergence import Convergence
 from codegen.lab.orders.exact_order import exact_local_error
 from codegen.lab.orders.scene_convergence import converge
@@ -130,3 +132,10 @@ def test_no_slope_across_a_kink_decides_about_a_higher_order(slope: int) -> None
     assert kinked.verdict == "undecided"
     assert kinked.as_json()["observed_order"] == pytest.approx(slope)
     assert smooth.verdict == ("holds" if slope == 4 else "fails")
+
+
+@pytest.mark.parametrize(("kinks", "said"), [(0, False), (2, True)])
+def test_a_recommendation_states_the_number_of_kinks(kinks: int, said: bool) -> None:
+    request = Request("scene", 1e-4, (), None, None, 5, ())
+    text = searched(Recommendation(request, (), None, 1, 1, 0.0, kinks=kinks))
+    assert ("crosses 2 points where the field is not smooth" in text) == said
