@@ -43,6 +43,7 @@ from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
 from orderconds import __version__
+from orderconds.argument import named_as_arguments, text, texts
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
@@ -124,8 +125,9 @@ def compile_method(
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
-    if isinstance(scene, str):
-        scene = scenes.load(scene)
+    scene = scenes.problem_of(scene)
+    parameters = texts(parameters, "parameters", "alpha=1/2")
+    inputs = texts(inputs, "inputs", "u")
     if parameters:
         scene = with_runtime(scene, tuple(parameters))
     if inputs:
@@ -200,14 +202,26 @@ def emit(
     """
     known_target(target)
     known_precision(precision)
-    named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
-    options = {"solver": solver, "form": form, "family": family}
-    compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options
-    )
+    text(prefix, "prefix", "a text")
+    problem = scenes.problem_of(scene)
+    with named_as_arguments():
+        compiled = compile_method(
+            problem,
+            method,
+            parameters,
+            inputs,
+            frame,
+            adaptive,
+            jacobian=jacobian,
+            solver=solver,
+            form=form,
+            family=text(family, "family", "a family, such as rkmk(2)"),
+        )
+    named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
     named["method"] = bare(str(method)) if whole else compiled.method.label
-    return emit_compiled(compiled, target, prefix, named, precision=precision)
+    with named_as_arguments():
+        return emit_compiled(compiled, target, prefix, named, precision=precision)
 
 
 def emit_compiled(

@@ -14,6 +14,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
+from os import PathLike, fspath
 from pathlib import Path
 
 from codegen.errors import SceneError
@@ -22,6 +23,7 @@ from codegen.scene.problem import Problem
 from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
 from codegen.scenes.neighbours import neighbours_of
+from orderconds.argument import described
 from orderconds.errors import InputError, UnknownName
 from orderconds.input_file import read_bytes
 
@@ -97,6 +99,24 @@ def load(name: str) -> Problem:
         scene = load(name.removesuffix(EXTENDED))
         return replace(extended(scene), name=scene.name + EXTENDED)
     return _load(name)
+
+
+def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
+    """Return the scene that an argument of a function in Python denotes: a problem, a name, or the path of a
+    Python file.
+
+    >>> problem_of("dipole").name
+    'dipole'
+    """
+    if isinstance(scene, Problem):
+        return scene
+    if not isinstance(scene, str | PathLike):
+        raise SceneError(
+            described(scene),
+            where="scene",
+            expected="a scene, a name of the gallery, or a path of a Python file",
+        )
+    return load(fspath(scene))
 
 
 def with_values(name: str, parameters: Sequence[str]) -> str:

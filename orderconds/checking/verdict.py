@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orderconds import families
+from orderconds.argument import CONDITION_ORDER, TOLERANCE, described, integer, real
 from orderconds.checking.limits import Limits, Meter
 from orderconds.checking.order import DOUBLE, FamilyOrder, family_order, first_failing
 from orderconds.checking.report import EmbeddedOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
-from orderconds.tableau import Tableau, find
+from orderconds.tableau import Tableau
 from orderconds.tableau.properties import properties, undecided
 from orderconds.tableau.tolerance import with_tolerance
 
@@ -57,6 +58,11 @@ def check(
     >>> print(check("kutta3", family="rkmk(0)").orders[0].order)
     2
     """
+    order = None if order is None else integer(order, "order", CONDITION_ORDER)
+    if tolerance is not None:
+        tolerance = real(tolerance, "tolerance", TOLERANCE)
+    if limits is not None and not isinstance(limits, Limits):
+        raise InputError(described(limits), where="limits", expected="Limits")
     if not isinstance(tableau, Tableau):
         tableau = read(tableau)
     given, tableau = tableau, with_tolerance(tableau, tolerance)
@@ -304,14 +310,12 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     >>> read("rk4").name
     'rk4'
     """
-    path = Path(given)
-    if path.suffix and path.suffix != ".toml":
+    if execute and Path(given).suffix == ".py":
         from orderconds.exchange import load_foreign
 
-        if (foreign := load_foreign(path, execute=execute)) is not None:
+        if (foreign := load_foreign(Path(given), execute=True)) is not None:
             return foreign
-    bare = path.name == str(given) and path.suffix != ".toml"
-    return Tableau.load(find(path.name) if bare and not path.exists() else path)
+    return Tableau.load(given)
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:

@@ -10,6 +10,20 @@ from pathlib import Path
 from typing import Literal
 
 from orderconds import families
+from orderconds.argument import (
+    EXPONENTIALS,
+    PROCESSES,
+    SEED,
+    SOLVED_ORDER,
+    SOLVED_STAGES,
+    STARTS,
+    described,
+    integer,
+    named_as_arguments,
+    text,
+    texts,
+)
+from orderconds.errors import InputError
 from orderconds.explain.kinds import refuse_too_many_trees
 from orderconds.solve import solver
 from orderconds.solve.elimination import Infeasible
@@ -99,29 +113,44 @@ def solve(
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
     # a symmetric method of even order needs only conditions of lower order
+    order = integer(order, "order", SOLVED_ORDER)
     refuse_too_many_trees(families.get(family), order - 1)
+    if minimise not in (None, "error"):
+        raise InputError(described(minimise), where="minimise", expected='"error" or None')
     spec = Spec(
-        stages=stages,
+        stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
         dirk=dirk,
         symmetric=symmetric,
         fsal=fsal,
-        fix=tuple(fix),
-        positive=tuple(positive),
-        size=None if size is None else Fraction(size),
-        exponentials=exponentials,
-        inner=inner,
+        fix=texts(fix, "fix", "a21=1/2"),
+        positive=texts(positive, "positive", "b1"),
+        size=None if size is None else _size(size),
+        exponentials=integer(exponentials, "exponentials", EXPONENTIALS),
+        inner=integer(inner, "inner", EXPONENTIALS),
         rkn=rkn,
     )
     request = Order(
         family,
         order,
         spec,
-        seed=seed,
+        seed=integer(seed, "seed", SEED),
         minimised=minimise is not None,
-        starts=starts,
-        processes=processes,
+        starts=None if starts is None else integer(starts, "starts", STARTS),
+        processes=integer(processes, "processes", PROCESSES),
         checkpoint=None if checkpoint is None else Path(checkpoint),
-        name=name,
+        name=text(name, "name", "a name as a str"),
     )
-    return SearchResult.of(request, solver.solve(request, report))
+    with named_as_arguments():
+        return SearchResult.of(request, solver.solve(request, report))
+
+
+def _size(size: object) -> Fraction:
+    """Return a bound on coefficients."""
+    try:
+        bound = Fraction(size)  # type: ignore[call-overload]
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        bound = Fraction(0)
+    if bound <= 0:
+        raise InputError(described(size), where="size", expected="a positive rational number, such as 2")
+    return Fraction(bound)
