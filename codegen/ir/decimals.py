@@ -41,6 +41,8 @@ def exact(value: object) -> Fraction | None:
     >>> exact(0.1), exact("1/3"), exact("x")
     (Fraction(1, 10), Fraction(1, 3), None)
     """
+    if isinstance(value, int | Fraction):
+        return Fraction(value)
     import sympy
 
     try:
