@@ -17,6 +17,7 @@ from codegen.ir.elementary import ANGLE
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
 from codegen.ir.selection import Kink, selected, selects, sign_of_number
+from codegen.ir.vector_function import VectorFunction, vector_function
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Ring
 
@@ -53,6 +54,9 @@ class Domain(Protocol):
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
+
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether an iteration has converged, and the size of its last change. The caller passes this
@@ -117,6 +121,14 @@ def slope(k: int, z: float) -> float:
     return total
 
 
+def _vector(name: str) -> VectorFunction:
+    """Return a vector function; ValueError for an unknown name."""
+    function = vector_function(name)
+    if function is None:
+        raise ValueError(f"unknown vector function {name}")
+    return function
+
+
 class FloatDomain:
     """IEEE double precision.
 
@@ -149,6 +161,10 @@ class FloatDomain:
             return float(selected(self, function, args, sign_of_number))
         result: float = getattr(math, function)(*args)
         return result
+
+    def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
+        """Return the results of a vector function, with the operations of emitted code."""
+        return _vector(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last change."""
@@ -243,6 +259,10 @@ class PreciseDomain:
             j += 1
             term = -term * z / ((2 * j + k) * (2 * j + k - 1))
         return total
+
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function."""
+        return _vector(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
         """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
@@ -350,6 +370,10 @@ class SeriesDomain:
             raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
         return self._arc("atan", y / x)
 
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function, exactly."""
+        return _vector(function).over_series(self.ring, args)
+
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
         total, power = self.ring.zero, z
@@ -414,6 +438,11 @@ class ExprDomain:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node."""
         return self.space.call(function, *args)
+
+    def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return a call node for each result, or the results themselves if they are short."""
+        expanded = _vector(function).expanded(args)
+        return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
         """Return symbols for run-time inputs at a time; the symbols are the same for equal times."""
