@@ -264,7 +264,8 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return function(args) for a function of :data:`FUNCTIONS`, a table, or a result of a vector function."""
+        """Return function(args) for a function of :data:`FUNCTIONS`, a table, or a result of a vector
+        function."""
         known = _folded(function, args)
         if known is not None:
             return known
