@@ -122,6 +122,11 @@ def control(asked: Request, place: Result) -> str:
 def searched(result: Recommendation) -> str:
     """Return a sentence on the extent of the search."""
     text = f"{result.predicted} methods predicted, {result.raced} raced in {result.seconds:.0f} s"
+    if result.kinks:
+        text += (
+            f"; the solution crosses {result.kinks} points where the field is not smooth, so the order of a "
+        )
+        text += "method is lost there: errors were measured, but other spans may need other steps"
     text += "" if result.complete else "; the budget ended the search, --budget S allows more"
     if result.referred >= NOTICED:
         text += f"; the reference solution took {result.referred:.0%} of the budget"

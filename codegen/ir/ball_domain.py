@@ -21,6 +21,7 @@ from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
 from codegen.ir.number import Number
+from codegen.ir.selection import selected, selects, sign_of_number
 from codegen.ir.vector_function import MatrixExponential, MatrixInverse, vector_function
 from orderconds.ring.precision import precision
 
@@ -98,6 +99,10 @@ class BallDomain:
             raise NotConverged(f"the argument of {function} is not a finite number")
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
+        if selects(function):
+            centres = tuple(x.mid() for x in args)
+            value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
+            return value.mid()
         if any(_exponent(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:

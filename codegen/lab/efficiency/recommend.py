@@ -58,7 +58,8 @@ class Recommendation:
 
     ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are numbers
     of recipes. ``complete`` is false if the budget ended the search. ``lost`` names the recipes that were
-    excluded by a long run. ``referred`` is the part of the budget that the reference solution took.
+    excluded by a long run. ``referred`` is the part of the budget that the reference solution took. ``kinks``
+    is the number of points of the solution where the field is not smooth.
     """
 
     request: Request
@@ -70,6 +71,7 @@ class Recommendation:
     complete: bool = True
     lost: tuple[str, ...] = ()
     referred: float = 0.0
+    kinks: int = 0
 
     def as_json(self) -> dict[str, object]:
         """Return plain data."""
@@ -87,6 +89,7 @@ class Recommendation:
             "raced": self.raced,
             "complete": self.complete,
             "lost": list(self.lost),
+            "kinks": self.kinks,
             "search_seconds": self.seconds,
         }
 
@@ -133,6 +136,7 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
         search.complete,
         tuple(lost),
         search.referred,
+        len(search.exact.kinks),
     )
 
 

@@ -19,6 +19,7 @@ from codegen.errors import MethodError, SceneError
 from codegen.ir.domain import FloatDomain, SeriesDomain
 from codegen.ir.expr import Expr, evaluate
 from codegen.ir.number import Number
+from codegen.ir.selection import Kink
 from codegen.lab.number_types import Vector
 from codegen.lab.orders.local_error import local_error
 from codegen.lower import problem_for
@@ -139,6 +140,13 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     try:
         error = local_error(optimised.program, problem, ring, highest)
         initial = tuple(ring.text(x.coefficients[0]) for x in problem.initial(domain))
+    except Kink as reason:
+        raise SceneError(
+            f"the local error has no series in h: {reason}",
+            where=scene.name,
+            expected="an initial state where the field is smooth",
+            hint="move the initial state",
+        ) from reason
     except ArithmeticError as reason:
         raise SceneError(
             f"the local error cannot be computed exactly: {reason}",
