@@ -16,8 +16,8 @@ from orderconds.output_file import write_files
 class Place(click.ParamType[str]):
     """The type of an option for an output file or folder.
 
-    An empty or blank name is an error, and so is a name that begins with ``--``: the name is then missing, and
-    the next option was read in its place.
+    An empty or blank name is an error. A name that begins with ``--`` is an error too: the user forgot the
+    name, and the next option was read in its place.
 
     >>> FOLDER.convert("out", None, None)
     'out'
