@@ -23,6 +23,7 @@ from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
+from codegen.ir.smoothness import features
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
@@ -48,11 +49,14 @@ from orderconds.tableau import Tableau
 
 SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
 
+NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
+"""A remark in the header of a scene whose field is not smooth."""
+
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
 SWEEPS = 5
-WEIGHTS = {"div": 4, "sqrt": 5}
+WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
 """The cost of an operation in units of one addition, by which two forms of a step are compared. Additions and
 products cost 1, and functions that are not listed cost 12."""
 
@@ -344,9 +348,12 @@ def emit_kernel(
 def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """Return the lines of the header about the scene, and about the form of its equations."""
     form = compiled.form
+    chosen = features(compiled.scene.roots)
+    smooth = (("smooth", f"no: {chosen}; {NOT_SMOOTH}"),) if chosen else ()
     if form is None:
-        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"),)
+        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"), *smooth)
     return (
+        *smooth,
         ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
         ("form", f"{form.name}; {form.state}"),
         *((("to scene", form.conversion),) if form.conversion else ()),

@@ -21,8 +21,10 @@ FEWER = 3
 
 LONG = 0.2
 
-LEAST_STEPS = 200
-"""The least number of steps of a timed run. A run with fewer steps is continued beyond the span."""
+LEAST_STEPS, RESOLVED = 200, 1e-4
+"""A timed run that has fewer than LEAST_STEPS steps and takes less than RESOLVED seconds is continued beyond
+the span. The overhead of a call is about a hundredth of RESOLVED.
+"""
 
 CONFIRMED, MOST = 0.03, 21
 """The least time is confirmed if the time of a second batch is at most 1 + CONFIRMED times the least time.
@@ -62,6 +64,27 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
 def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> float:
     """Return the CPU seconds of one call: the least of several batches."""
     return samples(call, batch, batches)[0]
+
+
+def spans(run: Callable[[int], object], steps: int) -> int:
+    """Return the number of time spans over which a run is timed; the run has ``steps`` steps for each span.
+
+    ``run(n)`` runs over n spans. The number of spans is doubled until the run takes :data:`RESOLVED` seconds,
+    has :data:`LEAST_STEPS` steps, or fails because the solution ends beyond the span.
+    """
+    count = 1
+    while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
+        try:
+            run(2 * count)
+        except ArithmeticError:
+            break
+        count *= 2
+    return count
+
+
+def _least(run: Callable[[int], object], count: int) -> float:
+    # The first call of a module is slow.
+    return min(_batch(lambda: run(count), 1) for _ in range(3))
 
 
 def spread(times: Sequence[float]) -> float | None:

@@ -9,6 +9,7 @@ from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.linear_algebra import Vector
+from codegen.ir.decimals import exact
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.scene.formulas import Reader
@@ -58,13 +59,13 @@ def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction,
     """Return the time interval; raise :class:`SceneError` unless it consists of two rational times in
     increasing order.
     """
-    import sympy
-
     try:
-        first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
-    # The infinities of sympy have no attributes p and q, so they raise AttributeError.
-    except (TypeError, ValueError, AttributeError):
-        raise SceneError(f"the span {span}", where=name, expected="two rational times") from None
+        times = [exact(x) for x in span]
+    except TypeError:
+        times = []
+    if len(times) != 2 or times[0] is None or times[1] is None:
+        raise SceneError(f"the span {span}", where=name, expected="two rational times")
+    first, last = times[0], times[1]
     if not last > first:
         raise SceneError(
             f"the span ({first}, {last})", where=name, expected="two times, the first less than the second"

@@ -25,6 +25,7 @@ from codegen.scene.extended_phase_space import extended
 from codegen.scene.problem import Problem
 from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
+from codegen.scenes.neighbours import neighbours_of
 from orderconds.argument import described
 from orderconds.errors import InputError, UnknownName
 from orderconds.input_file import read_bytes
@@ -181,8 +182,8 @@ def _run(name: str, path: Path) -> Problem:
     read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.
-        with redirect_stdout(sys.stderr):
-            scene = runpy.run_path(str(path)).get("scene")
+        with redirect_stdout(sys.stderr), neighbours_of(path):
+            names = runpy.run_path(str(path))
     except InputError as error:
         at = f"{_line(name, path, error)}: {error.where}"
         raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error
@@ -192,16 +193,21 @@ def _run(name: str, path: Path) -> Problem:
     except BaseException as error:
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
+    scene = names.get("scene")
     if not isinstance(scene, Problem):
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
-    return _named(scene, path.stem)
+    return _named(scene, path.stem, names.get("__doc__") or "")
 
 
-def _named(scene: Problem, name: str) -> Problem:
-    """Return the scene with another name; a scene without a title gets the name as its title."""
-    return replace(scene, name=name, title=name if scene.title == scene.name else scene.title)
+def _named(scene: Problem, name: str, about: str = "") -> Problem:
+    """Return the scene with another name.
+
+    A scene without a title gets the first line of ``about`` as its title, or else the name.
+    """
+    first = next((line.strip() for line in about.splitlines() if line.strip()), "").removesuffix(".")
+    return replace(scene, name=name, title=(first or name) if scene.title == scene.name else scene.title)
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:

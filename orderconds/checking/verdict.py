@@ -55,27 +55,21 @@ def check(
     ('holds', [('rk', 4, 'exact')])
     >>> check("rk4", family="rk", order=3).verdict, check("rk4", family="rkmk(3)").conclusion
     ('holds', 'order 4; no order claimed')
-    >>> print(check("kutta3", family="rkmk(0)").orders[0].order)
+    >>> check("kutta3", family="rkmk(0)").orders[0].order
     2
     """
-    order = None if order is None else integer(order, "order", CONDITION_ORDER)
-    if tolerance is not None:
-        tolerance = real(tolerance, "tolerance", TOLERANCE)
-    if limits is not None and not isinstance(limits, Limits):
-        raise InputError(described(limits), where="limits", expected="Limits")
+    order, tolerance = _bounds(order, tolerance, limits)
     if not isinstance(tableau, Tableau):
         tableau = read(tableau)
     given, tableau = tableau, with_tolerance(tableau, tolerance)
-    wanted = list(_wanted(tableau, family))
+    wanted = [*_wanted(tableau, family)]
     proof, broken = _proof(tableau)
     enclosed = proof.tableau if proof else tableau
     facts = proof.facts if proof else ()
     embedded = _embedded(enclosed, [f for f, _ in wanted])
     computed = properties(tableau)
-    if family is None:
-        broken += _broken_claims(tableau, computed, embedded)
-    if complete:
-        broken += _missing_claims(enclosed, tableau)
+    broken += _broken_claims(tableau, computed, embedded) if family is None else []
+    broken += _missing_claims(enclosed, tableau) if complete else []
     orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     if certified:
         broken += [f"{f.family}: certificate {f.certificate}" for f in orders if f.certificate in NOT_PROVED]
@@ -92,6 +86,16 @@ def check(
         embedded=embedded,
         properties_claimed=bool(tableau.claims.properties),
         hint=_hint(given, orders),
+    )
+
+
+def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
+    """Return order and tolerance as numbers; raise InputError for other types and values."""
+    if limits is not None and not isinstance(limits, Limits):
+        raise InputError(described(limits), where="limits", expected="Limits")
+    return (
+        None if order is None else integer(order, "order", CONDITION_ORDER),
+        None if tolerance is None else real(tolerance, "tolerance", TOLERANCE),
     )
 
 

@@ -15,6 +15,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
+from orderconds import families
 from orderconds.argument import CONDITION_ORDER, TOLERANCE
 from orderconds.checking.limits import MAX_CONDITIONS, Limits
 from orderconds.commands import screen
@@ -129,10 +130,8 @@ def command(
         orderconds check tableaux --require-claims
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
-    from orderconds.families import get
-
     if family is not None:
-        get(family)  # report an unknown family once, not for each file
+        families.get(family)  # report an unknown family once, not for each file
     job = _Job(
         path="",
         family=family,
@@ -148,18 +147,22 @@ def command(
     jobs = _jobs(tableaux, job, skip_others, strict=require_claims)
     outcomes = list(_outcomes(jobs, as_json))
     verdicts = [outcome.verdict for outcome in outcomes]
-    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
-    held = all(verdict in accepted for verdict in verdicts)
+    held = set(verdicts) <= {"holds", "holds" if require_claims else UNCLAIMED}
     if as_json:
         import json
 
         screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
     elif len(outcomes) > 1 and screen.is_shown(held):
         _print_summary(verdicts)
-    if require_claims and UNCLAIMED in verdicts:
-        count = verdicts.count(UNCLAIMED)
-        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
+    if require_claims:
+        _report_missing_claims(verdicts)
     return 2 if None in verdicts else 0 if held else 1
+
+
+def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
+    """Write the number of tableaux without a claim to stderr, if there are any."""
+    if count := verdicts.count(UNCLAIMED):
+        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:

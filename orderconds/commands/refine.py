@@ -40,8 +40,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     from orderconds.checking import read
 
     tableau = read(file)
-    rounded = tableau.file is not None and tableau.file.symbolic.decimals()
-    if tableau.proof is None and (rounded or not file.endswith(".toml")):
+    if tableau.proof is None:
         return _exact(tableau, output, as_json)
     from orderconds.proof.certificate import certify
     from orderconds.proof.krawczyk import NotProved

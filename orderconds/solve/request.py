@@ -102,21 +102,17 @@ def solve(
     name: str = "found",
     report: Callable[[str], object] = str,
 ) -> SearchResult:
-    """Find a method of ``family`` with this number of stages and this order, and prove its order.
+    """Find a method of ``family`` with this number of stages and order, and prove its order.
 
     The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
-    ``"a21=1/2"``. Contradictory constraints raise InputError. The result depends on ``seed``, and not on the
-    number of ``processes``. ``report`` is called with lines on the progress.
+    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` receives lines on the progress.
 
     >>> heun = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
     >>> heun.tableau.b, heun.certificate
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
-    # a symmetric method of even order needs only conditions of lower order
     order = integer(order, "order", SOLVED_ORDER)
-    refuse_too_many_trees(families.get(family), order - 1)
-    if minimise not in (None, "error"):
-        raise InputError(described(minimise), where="minimise", expected='"error" or None')
+    refuse_too_many_trees(families.get(family), order - 1)  # symmetric methods need no even orders
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
@@ -125,7 +121,7 @@ def solve(
         fsal=fsal,
         fix=texts(fix, "fix", "a21=1/2"),
         positive=texts(positive, "positive", "b1"),
-        size=None if size is None else _size(size),
+        size=_size(size),
         exponentials=integer(exponentials, "exponentials", EXPONENTIALS),
         inner=integer(inner, "inner", EXPONENTIALS),
         rkn=rkn,
@@ -135,7 +131,7 @@ def solve(
         order,
         spec,
         seed=integer(seed, "seed", SEED),
-        minimised=minimise is not None,
+        minimised=_minimised(minimise),
         starts=None if starts is None else integer(starts, "starts", STARTS),
         processes=integer(processes, "processes", PROCESSES),
         checkpoint=None if checkpoint is None else Path(checkpoint),
@@ -145,8 +141,16 @@ def solve(
         return SearchResult.of(request, solver.solve(request, report))
 
 
-def _size(size: object) -> Fraction:
-    """Return a bound on coefficients."""
+def _minimised(minimise: object) -> bool:
+    if minimise not in (None, "error"):
+        raise InputError(described(minimise), where="minimise", expected='"error" or None')
+    return minimise is not None
+
+
+def _size(size: object) -> Fraction | None:
+    """Return a bound on coefficients; None for None."""
+    if size is None:
+        return None
     try:
         bound = Fraction(size)  # type: ignore[call-overload]
     except (TypeError, ValueError, OverflowError, ZeroDivisionError):

@@ -48,8 +48,11 @@ ROUND = 6
 GROUP = 50
 """The number of predictions between two progress messages."""
 
+REFERRING = 0.6
+"""The largest part of the time budget that the reference solution may use."""
+
 PREDICTING = 0.5
-"""The largest part of the time budget that predictions may use."""
+"""When the reference solution is known, predictions may use this part of the remaining time budget."""
 
 UNREACHED = 1e-3
 """The gain that is assigned to a recipe for a goal that, according to the predictions, no recipe reaches."""
@@ -85,7 +88,8 @@ class Search:
         self.start = time.monotonic()
         self.problem = self.task.problem()
         self.progress(f"{self.problem.name}: reference solution")
-        self.exact: Reference = cached_reference(self.problem)
+        self.exact: Reference = cached_reference(self.problem, end=self.start + REFERRING * self.task.budget)
+        self.referred = self.spent
         self.results = {goal.error: {} for goal in self.goals}
         self.suited: dict[Recipe, tuple[Goal, ...]] = {}
         needs = dict.fromkeys(goal.needs for goal in self.goals)
@@ -120,7 +124,7 @@ class Search:
                 recipe = jobs.given[k]
                 self.predictions[recipe.method, recipe.form] = prediction
                 jobs.add(recipe, prediction)
-            if self.spent > PREDICTING:
+            if self.spent > self.referred + PREDICTING * (1 - self.referred):
                 self.complete = k + 1 == len(jobs)
                 return
 

@@ -3,9 +3,9 @@ scene.
 
 A peer integrates y' = f(y).y in the coordinates of the state, with a compiled right-hand side if the library
 of the peer permits this. A peer whose name ends in *projected* projects the state onto the manifold after
-each step. LSODA has no projected variant, because it is a multistep method, whose
-steps use past values that are not projected. The time before the first step (compilation, Taylor recurrences) is set-up time and is reported
-separately, as for emitted code.
+each step. LSODA has no projected variant, because it is a multistep method: its steps use past values, which
+are not projected. The time before the first step (compilation, Taylor recurrences) is set-up time and is
+reported separately, as for emitted code.
 """
 
 from __future__ import annotations
