@@ -142,9 +142,10 @@ def explained(compiled: Compiled) -> dict[str, object]:
 
 
 def family_note(compiled: Compiled, method: str) -> str:
-    """Return which family was chosen for a tableau without family on a Hamiltonian scene; otherwise ''.
+    """Return a note that names the chosen family if the user named only a tableau on a Hamiltonian scene;
+    otherwise ''.
 
-    On such a scene, families differ in what they preserve.
+    On a Hamiltonian scene, different families preserve different quantities.
     """
     from codegen.lower import families_for
     from codegen.method import PATTERN

@@ -53,7 +53,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
 
 
 def show(result: ExactLocalError | NotExact, first: bool) -> None:
-    """Print the leading coefficients and the verdict, or the reason why there are none."""
+    """Print the leading coefficients and the verdict, or the reason why there are no coefficients."""
     from codegen.lab.orders.exact_order import ExactLocalError
 
     if not first:

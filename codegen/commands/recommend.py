@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 NOTICED = 0.1
-"""The least part of the budget that is stated if the reference solution takes it."""
+"""If the reference solution uses at least this fraction of the budget, a message states the fraction."""
 
 
 @click.command("recommend", short_help="Find the fastest method for a scene and an error.")

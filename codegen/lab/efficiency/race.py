@@ -175,6 +175,16 @@ class Racer:
         control = self._coarsened(control, error)
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
 
+    def halved(self, result: Result) -> Result | None:
+        """Return the result of a run with half the step size. The result is None for step-size control, or if
+        the run fails.
+        """
+        control = 2.0 * result.control
+        if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):
+            return None
+        steps, error = self.counts[control], self.errors[control]
+        return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
+
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Return the first control with which two consecutive runs reach the error, and True; if there is no
         such control, return the last control and False.

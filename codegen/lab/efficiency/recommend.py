@@ -148,8 +148,8 @@ def race_all(
     """Emit and race every recipe for each error, without predictions. A benchmark compares the search with
     this function.
 
-    The race ends after ``most`` seconds. Recipes with few stages are first. Returned are the results, the
-    number of recipes that were emitted or refused, and the number of all recipes.
+    The race ends after ``most`` seconds. Recipes with few stages are raced first. Returned are the results,
+    the number of recipes that were emitted or refused, and the number of all recipes.
     """
     search = Search(request.task, (request.goal,))
     results: dict[float, list[Result]] = {error: [] for error in errors}

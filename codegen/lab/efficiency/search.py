@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -59,6 +59,11 @@ UNREACHED = 1e-3
 
 LONG_STEPS = 20_000
 """The number of steps of the long run that tests recommendations for long times."""
+
+SHORTER = 5
+"""If the long run of a recipe loses a conserved quantity, the step size is halved at most this number of
+times.
+"""
 
 Kind = tuple[str, bool, bool]
 """Family, explicit or not, adaptive or not: predictions of one kind have similar errors."""
@@ -268,24 +273,38 @@ class Search:
     def leaders(self, goal: Goal) -> tuple[list[Result], list[str]]:
         """Time the fastest recipes for a goal again; return the ranking, and the labels of recipes that a
         long run excludes.
+
+        If a long run of one of the two fastest recipes loses a conserved quantity, shorter steps are tried.
         """
         self.time_again(goal)
         ranked = sorted(self._reached(goal), key=lambda r: r.seconds)
         lost: list[str] = []
-        if goal.long:
-            while ranked and self._loses(ranked[0]):
-                lost.append(ranked.pop(0).entry.recipe.label)
-            while len(ranked) > 1 and self._loses(ranked[1]):
-                lost.append(ranked.pop(1).entry.recipe.label)
+        halvings: Counter[Recipe] = Counter()
+        kept = 0
+        while goal.long and kept < min(2, len(ranked)):
+            result = ranked[kept]
+            # The long run covers the same time for all step sizes of a recipe.
+            if not self._loses(result, LONG_STEPS << halvings[result.entry.recipe]):
+                kept += 1
+                continue
+            del ranked[kept]
+            recipe = result.entry.recipe
+            halvings[recipe] += 1
+            shorter = self.racers[recipe].halved(result) if halvings[recipe] <= SHORTER else None
+            if shorter is None:
+                lost.append(recipe.label)
+            else:
+                # The recipes that passed the long run are faster, so they stay first.
+                ranked = [*ranked[:kept], *sorted([*ranked[kept:], shorter], key=lambda r: r.seconds)]
         return ranked, lost
 
-    def _loses(self, result: Result) -> bool:
-        """Return True if a long run loses a conserved quantity or fails; the run has the step size of the
-        given result.
+    def _loses(self, result: Result, steps: int) -> bool:
+        """Return True if a run of ``steps`` steps loses a conserved quantity or fails; the run has the step
+        size of the given result.
         """
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps
-        done = record(self.problem, racer.integrator, racer.initial, h, LONG_STEPS, racer.first)
+        done = record(self.problem, racer.integrator, racer.initial, h, steps, racer.first)
         largest = (max(s.peaks, default=0.0) / done.scales[name] for name, s in done.series.items())
         return bool(done.failure) or any(x >= LOST for x in largest)
 
