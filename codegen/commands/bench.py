@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     "-a",
     "peers",
     multiple=True,
-    help="Other integrators (peers) by name, or the groups scipy, c, all.",
+    help="Other integrators (peers): names, or the groups scipy, c and all.",
 )
 @click.option(
     "--form",
@@ -82,7 +82,9 @@ def command(
     from codegen.scenes import with_values
 
     if not 0 < budget < 1e5:
-        raise InputError(f"the budget {budget:g}", where="--budget", expected="CPU seconds above 0")
+        raise InputError(
+            f"the budget {budget:g}", where="--budget", expected="a number of CPU seconds above 0"
+        )
     with working("reading scene and methods") as progress:
         targets = targets or (DEFAULT,)
         candidates = bench(

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.option(
     "--target",
     "-t",
-    help="A target (see orderconds list targets) or interpreter; by default c.",
+    help="A target language (see orderconds list targets), or interpreter; by default c.",
     shell_complete=completing(lambda: (*target_names(), "interpreter")),
 )
 @click.option("--form", help="Form of the equations: printed (the default), body-matrix, quaternion.")
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 @click.option(
     "--protocol",
     type=click.Choice(["strict"]),
-    help="strict: measure orders in 50 digits on built-in scenes, and compare them with claims. Omit SCENE.",
+    help="strict: measure orders in 50 digits on built-in scenes; compare with claims. Omit SCENE.",
 )
 @click.option(
     "--stated",
@@ -140,7 +140,7 @@ def read_steps(texts: tuple[str, ...]) -> list[int]:
     words = [word.strip() for text in texts for word in text.split(",")]
     for word in words:
         if not (word.isdecimal() and int(word[:9]) > 0 and len(word) < 9):
-            expected = "whole numbers from 1 to 99999999, as 20,40,80,160"
+            expected = "whole numbers from 1 to 99999999, such as 20,40,80,160"
             raise InputError(f"steps {word!r}", where="--steps", expected=expected)
     return sorted({int(word) for word in words})
 

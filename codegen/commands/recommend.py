@@ -28,17 +28,17 @@ NOTICED = 0.1
     "--need",
     "needs",
     multiple=True,
-    help="manifold, symplectic, explicit, adaptive, fixed; several are separated by commas.",
+    help="Required properties, separated by commas: manifold, symplectic, explicit, adaptive, fixed.",
 )
 @click.option("--stack", type=click.IntRange(1), help="The largest stack memory of a call, in bytes.")
 @click.option("--span", metavar="A:B", help="The time interval; by default the interval of the scene.")
 @click.option(
-    "--budget", type=float, help="Seconds for the reference solution and the search; by default 50."
+    "--budget", type=float, help="Time in seconds for the reference solution and the search; by default 50."
 )
 @click.option(
-    "--tableau", "tableaux", multiple=True, help="Search these tableaux only; by default the whole library."
+    "--tableau", "tableaux", multiple=True, help="Search only these tableaux; by default the whole library."
 )
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON document.")
+@click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(
     scene: str,
     parameters: tuple[str, ...],

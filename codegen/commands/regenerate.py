@@ -22,7 +22,7 @@ from orderconds.commands.place import FOLDER
     help="The folder to rewrite or compare; by default generated/ in the source tree.",
 )
 @click.option("--list", "listing", metavar="FILE", help="The list of modules, by default regenerate.toml.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON record.")
+@click.option("--json", "as_json", is_flag=True, help="Print the result as JSON.")
 def command(check_only: bool, output: str | None, listing: str | None, as_json: bool) -> int:
     """Rewrite the emitted modules that regenerate.toml lists; with --check report the files that differ.
 

@@ -19,26 +19,28 @@ from orderconds.commands.variadic import Variadic
 @click.argument("scenes", nargs=-1, metavar="[SCENE]...", shell_complete=completing(scene_names, files=True))
 @methods_option()
 @values_option
-@click.option("--adaptive", multiple=True, help="Methods to run with step-size control as well.")
-@click.option("--against", "-a", "peers", multiple=True, help="Other integrators (peers), as for bench.")
+@click.option("--adaptive", multiple=True, help="Additional methods, run with step-size control.")
+@click.option(
+    "--against", "-a", "peers", multiple=True, help="Other integrators (peers) to compare; see bench --help."
+)
 @click.option(
     "--only",
     "parts",
     multiple=True,
     help="A measurement to make (see `orderconds list measurements`); all by default.",
 )
-@click.option("--all", "everything", is_flag=True, help="Every scene of the gallery.")
+@click.option("--all", "everything", is_flag=True, help="Measure every scene of the gallery.")
 @click.option(
     "--quick",
     "effort",
     flag_value="quick",
-    help="Make short runs and omit stiff variants: a scene takes seconds.",
+    help="Make short runs and omit stiff variants; each scene takes some seconds.",
 )
 @click.option(
     "--full",
     "effort",
     flag_value="full",
-    help="Include all peers and runs of a million steps: a scene takes many minutes.",
+    help="Include all peers and runs of a million steps; each scene takes many minutes.",
 )
 @click.option(
     "--output", "-o", type=FOLDER, metavar="DIR", required=True, help="The folder to write index.html to."

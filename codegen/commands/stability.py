@@ -24,7 +24,9 @@ Job: TypeAlias = tuple[str, tuple[str, ...], bool]
 @scene_argument(required=False)
 @methods_option()
 @values_option
-@click.option("--all", "everything", is_flag=True, help="Every scene of the gallery with its usual methods.")
+@click.option(
+    "--all", "everything", is_flag=True, help="Test every scene of the gallery with its default methods."
+)
 @click.option("--quick", is_flag=True, help="Omit the runs of ten million steps.")
 @click.option("--json", "as_json", is_flag=True, help="Print the results as JSON.")
 def command(

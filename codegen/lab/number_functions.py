@@ -1,4 +1,6 @@
-"""The functions of formulas for the number types of the lab: floats, mpmath numbers, balls, arrays."""
+"""The functions that formulas may contain, for the number types of the lab: floats, mpmath numbers, balls,
+arrays.
+"""
 
 from __future__ import annotations
 
@@ -12,15 +14,18 @@ from codegen.ir.table import PiecewisePolynomial
 from codegen.lab.number_types import Scalar
 
 TABLES = "table"
-"""The key of the function that makes the function of a table."""
+"""The key of the entry for tables."""
 
 Functions = Mapping[str, Scalar]
-"""Functions by name. The entry :data:`TABLES` returns the function of a table for a function that converts
-numbers."""
+"""Functions by name. The entry :data:`TABLES` is different: it accepts a table and a function that converts
+numbers, and returns the function that the table defines.
+"""
 
 
 def of_scalars(source: object) -> Functions:
-    """Return the functions of a module or type with the functions of mathematics, for comparable numbers."""
+    """Return the functions for numbers that can be compared. ``source`` is a module or type with functions
+    such as ``sin``.
+    """
     return {
         **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
         ABSOLUTE: abs,
@@ -30,7 +35,7 @@ def of_scalars(source: object) -> Functions:
 
 
 def of_arrays(library: Scalar) -> Functions:
-    """Return the functions of NumPy, or of a library with the same interface."""
+    """Return the functions for arrays of NumPy, or of a library with the same interface."""
 
     def choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
         return library.where(x > 0, a, library.where(x <= 0, b, x))
@@ -52,10 +57,10 @@ def of_arrays(library: Scalar) -> Functions:
 
 
 def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
-    """Return one of the functions; an ArithmeticError names a function that is missing."""
+    """Return the function with the given name; raise ArithmeticError if it is missing."""
     key = TABLES if isinstance(name, PiecewisePolynomial) else name
     if key not in functions:
-        message = f"no function {key} for these numbers"
+        message = f"the function {key} is not defined for these numbers"
         raise ArithmeticError(message)
     function: Callable[..., Scalar] = functions[key](name, constant) if key == TABLES else functions[key]
     return function
@@ -66,7 +71,7 @@ def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
 
 
 def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
-    """Return knots, bases, and the coefficients of each power."""
+    """Return the converted numbers: the knots, the bases, and for each power its coefficients."""
     columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
     return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]
 

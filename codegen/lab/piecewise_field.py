@@ -1,7 +1,10 @@
-"""The ambient equation of a scene whose field is not smooth, as smooth equations between events.
+"""The ambient equation of a scene with a field that is not smooth everywhere: smooth equations between
+events.
 
-On given sides of all selections (:mod:`codegen.ir.smoothness`) the field is smooth. An integrator follows
-this field until a margin vanishes, and continues with the field on the other side.
+A selection is an operation with two cases, such as an absolute value, and its sides are the cases. While all
+sides stay the same, the field is smooth (:mod:`codegen.ir.smoothness`). The margin of a selection is positive
+on its present side. An event is a time at which a margin vanishes. There the integrator changes to the field
+on the other side.
 """
 
 from __future__ import annotations
@@ -24,14 +27,15 @@ from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import TIME, Problem
 
 AHEAD = 1e-34
-"""The time after which the sides of selections are read; it is much longer than the error of
-the time of an event, and much shorter than every time scale."""
+"""After an event, the sides of selections are determined at a time that is later by AHEAD. AHEAD is much
+longer than the error of the event time, and much shorter than every time scale.
+"""
 
 NEAR = (1e-5, 1e-6)
-"""Times after an event at which the fields on both sides are compared."""
+"""The times after an event at which the fields on both sides are compared."""
 
 VANISHING = 1e-30
-"""A margin of this size vanishes."""
+"""A margin counts as zero if its absolute value is less than VANISHING."""
 
 SUBSTEPS = 24
 """The number of inner points of a step at which margins are tested."""
@@ -39,12 +43,14 @@ SUBSTEPS = 24
 MOST_EVENTS, MOST_SECANTS = 1000, 100
 
 MOST = 9
-"""The largest number of continuous derivatives that is determined."""
+"""The largest number of continuous derivatives that is tested."""
 
 
 @dataclass(frozen=True)
 class PiecewiseField:
-    """The smooth fields of a scene by sides; ``compiled`` stores them."""
+    """The smooth fields of a scene, one for each combination of sides; ``compiled`` stores the compiled
+    fields.
+    """
 
     scene: Problem
     compiled: dict[Sides, tuple[Evaluate, Evaluate]] = field(default_factory=dict)
@@ -62,7 +68,7 @@ class PiecewiseField:
         return selections(self.roots)
 
     def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
-        """Return the field on given sides, and the margins of these sides, as functions of (state, t)."""
+        """Return the field on the given sides and the margins of these sides, as functions of (state, t)."""
         if sides not in self.compiled:
             pair = on_sides(self.roots, self.nodes, sides)
             name, symbols = self.scene.name, self.scene.symbols
@@ -83,19 +89,20 @@ class PiecewiseField:
         )
 
     def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
-        """Return the sides after an event, and the number of continuous derivatives of the field there.
+        """Return the sides after an event, and the number of continuous derivatives of the field at the
+        event.
 
         The number is -1 for a field that jumps. :class:`SceneError` is raised if the field on the other side
-        leads back, so that the solution would stay on the boundary.
+        points back to the first side, so that the solution would stay on the boundary.
         """
         before, _ = self.on(sides)
         after = self.sides_at(y, t, before)
         field_after, _ = self.on(after)
         if self.sides_at(y, t, field_after) != after:
             raise SceneError(
-                f"the solution stays where the field jumps, from t = {float(t):.6g}",
+                f"from t = {float(t):.6g} the solution stays at a jump of the field",
                 where=self.scene.name,
-                expected="a solution that crosses these points",
+                expected="a solution that crosses the jump",
                 hint="replace sign(x) by tanh(x/w) for a small width w, or end the span before that time",
             )
         slopes = field_after(y, t)
@@ -114,7 +121,7 @@ Advance = Callable[..., tuple[Vector, float]]
 
 
 class Sided:
-    """The field on the sides that are valid now, as a function of (state, t), and the events so far.
+    """The field on the present sides, as a function of (state, t), and the events up to the present time.
 
     ``kinks`` contains the number of continuous derivatives at each event.
     """
@@ -125,7 +132,7 @@ class Sided:
         self.points: list[tuple[Vector, Scalar]] = []
 
     def begin(self, y: Vector, t: Scalar, least: float) -> None:
-        """Begin at (y, t); ``least`` is the shortest step."""
+        """Begin the integration at (y, t); ``least`` is the length of the shortest step."""
         self.sides, self.least = self.fields.sides_at(y, t), least
 
     def __call__(self, y: Vector, t: Scalar) -> Vector:
@@ -138,18 +145,23 @@ class Sided:
         return self.fields.on(self.sides)[1](y, t)
 
     def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
-        """Whether a margin is negative at the end of a step, or at an inner point of its last substeps."""
+        """Return True if a margin is negative at the end of a step, or at an inner point of the last
+        substeps.
+        """
         inner, self.points = self.points[-SUBSTEPS:], []
         if any(x < 0 for x in self.margins(new, t + length)):
             return True
         return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
 
     def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
-        """Move to the first event in a step and to its other side; None if a shorter step must be tried."""
+        """Change to the other side at the first event in a step, and return time and state of the event.
+        Return None if a shorter step must be tried.
+        """
         start = self.margins(y, t)
         end = self.margins(advance(self, y, t, length)[0], t + length)
         crossed = [k for k, x in enumerate(end) if x < 0]
-        # A margin that vanishes at the beginning belongs to the last event, and gives no bracket.
+        # A margin that vanishes at the beginning belongs to the previous event, and its zero is not the next
+        # event.
         if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
             return None
 
@@ -166,7 +178,7 @@ class Sided:
             raise SceneError(
                 f"more than {MOST_EVENTS} points where the field is not smooth",
                 where=self.fields.scene.name,
-                expected="a solution that crosses fewer of them",
+                expected="a solution with fewer of these points",
                 hint="shorten the span",
             )
         self.points = []
@@ -174,9 +186,10 @@ class Sided:
 
 
 def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
-    """Return the time at which a margin vanishes, from its values low > 0 and high < 0 at 0 and ``length``.
+    """Return the time at which a margin vanishes. The margin is low > 0 at the time 0 and high < 0 at
+    ``length``.
 
-    The Illinois form of the false position method.
+    The method is the Illinois variant of the false position method.
     """
     a, b, moved = arb(0), length, 0
     for _ in range(MOST_SECANTS):

@@ -172,7 +172,7 @@ def _integrate(
             raise SceneError(
                 "the reference solution takes too long",
                 where=scene.name,
-                expected="a part of the budget",
+                expected="a time within the time limit",
                 hint="allow more time, or shorten the span",
             )
         left = (end - t).mid()
@@ -180,7 +180,9 @@ def _integrate(
         length = left if last else arb(step)
         try:
             new, error = _extrapolate(field, y, t, length, columns)
-        except ArithmeticError as failure:  # a long trial step may leave the domain of the field
+        except (
+            ArithmeticError
+        ) as failure:  # The states of a long trial step may be outside the domain of the field.
             reason, step = str(failure), step / 5
             continue
         size = max(1.0, *(abs(float(x)) for x in new))

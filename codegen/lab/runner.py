@@ -32,7 +32,9 @@ DOUBLE = 16
 
 
 class RunFailed(ArithmeticError):
-    """A run stopped early because an iteration did not converge, or because a number was not finite."""
+    """Raised if a run stops early because an iteration does not converge, or because a number is not
+    finite.
+    """
 
 
 @dataclass

@@ -117,7 +117,7 @@ class Subject:
 
     @cached_property
     def exact_or_reason(self) -> Reference | str:
-        """The reference solution, or the reason why there is none."""
+        """The reference solution, or the reason why there is no reference solution."""
         self.progress(f"{self.scene.name}: reference solution")
         try:
             return cached_reference(self.scene)
@@ -126,7 +126,9 @@ class Subject:
 
     @property
     def exact(self) -> Reference:
-        """The reference solution; :class:`codegen.errors.SceneError` if there is none."""
+        """The reference solution; raises :class:`codegen.errors.SceneError` if there is no reference
+        solution.
+        """
         if isinstance(self.exact_or_reason, str):
             raise SceneError(self.exact_or_reason)
         return self.exact_or_reason

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import mpmath
 
 ROUNDING = 1e-12
-ROUNDED = "the numbers are rounded: write exact ones, such as cos(Rational(1, 10)) for cos(0.1)"
+ROUNDED = "the numbers are rounded: write exact numbers, such as cos(Rational(1, 10)) for cos(0.1)"
 """The hint for an initial state that is wrong by a rounding error."""
 
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
@@ -40,9 +40,10 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
 
 def check_parts(orbit: Orbit, problem: Problem) -> None:
-    """Raise :class:`SceneError` if the parts of a Hamiltonian do not add up to it.
+    """Raise :class:`SceneError` if the sum of the parts of a Hamiltonian is not the Hamiltonian.
 
-    They are compared on the orbit: H and the sum may differ by a relation such as |q|^2 = 1.
+    The sum and H are compared at points of the orbit, because their formulas may differ by a relation such as
+    |q|^2 = 1.
     """
     if not problem.parts or problem.hamiltonian is None:
         return
@@ -55,7 +56,7 @@ def check_parts(orbit: Orbit, problem: Problem) -> None:
                 f"the parts {names} add up to {orbit.text(sum(values[1:]))} {_place(orbit, point)}",
                 where=orbit.name,
                 expected=f"{orbit.text(values[0])}, the value of H",
-                hint="name every summand of H in parts, and no other terms",
+                hint="list all summands of H in parts, and no other terms",
             )
 
 

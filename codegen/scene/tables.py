@@ -19,7 +19,9 @@ HOLD, EXTRAPOLATE = "hold", "extrapolate"
 OUTSIDE = (HOLD, EXTRAPOLATE)
 
 LARGEST = 512
-"""The largest number of points; more points give exact coefficients of a spline with more digits."""
+"""The largest number of points. The number of digits of the exact spline coefficients grows with the number
+of points.
+"""
 
 
 class TableData(sympy.Atom):  # type: ignore[misc]
@@ -69,15 +71,15 @@ def table(
 ) -> sympy.Expr:
     """Return a formula with the value ys[k] at x = xs[k], for a scene.
 
-    ``xs`` increase. ``smoothness`` is ``cubic``, the natural cubic spline (its second derivative is
-    continuous, and zero at both ends), or ``linear``. Its coefficients are computed exactly from the given
-    numbers; a float means the shortest decimal that prints it. ``outside`` is the rule beyond the first and
-    the last point: ``hold``, the value at this point, or ``extrapolate``, the polynomial of the last
-    interval.
-    :class:`SceneError` is raised for numbers that define no such function.
+    The numbers in ``xs`` must increase. ``smoothness`` is ``cubic``, the natural cubic spline (its second
+    derivative is continuous, and zero at both ends), or ``linear``. The coefficients are computed exactly
+    from the given numbers. A float denotes the decimal number that Python prints for it. ``outside`` is the
+    rule before the first and after the last point: ``hold`` continues with the value at this point,
+    ``extrapolate`` with the polynomial of the nearest interval. :class:`SceneError` is raised if the numbers
+    do not define a function.
 
-    The function is not smooth at its points: a cubic spline has a jump in the third derivative, and a linear
-    table in the first.
+    The function is not smooth at its points: the third derivative of a cubic spline jumps, and the first
+    derivative of a linear table jumps.
 
     >>> from codegen.ir.domain import FloatDomain
     >>> thrust = table([0, 1, 2], [0.0, 0.5, 0.2], sympy.Symbol("t"), "linear")
@@ -90,7 +92,9 @@ def table(
         _refuse(f"outside = {outside!r}", " or ".join(OUTSIDE))
     places, values = _numbers("xs", xs), _numbers("ys", ys)
     if len(places) != len(values):
-        _refuse(f"{len(places)} numbers in xs and {len(values)} in ys", "one value for each point")
+        _refuse(
+            f"{len(places)} numbers in xs and {len(values)} in ys", "one number in ys for each number in xs"
+        )
     if not 2 <= len(places) <= LARGEST:
         _refuse(f"{len(places)} points", f"2 to {LARGEST} points")
     for k, (a, b) in enumerate(pairwise(places)):
@@ -101,7 +105,9 @@ def table(
 
 
 def linear_rows(xs: Sequence[Fraction], ys: Sequence[Fraction]) -> list[tuple[Fraction, ...]]:
-    """Return value and slope at the beginning of each interval."""
+    """Return the coefficients of the linear interpolation: value and slope at the beginning of each
+    interval.
+    """
     return [(c, (d - c) / (b - a)) for (a, b), (c, d) in zip(pairwise(xs), pairwise(ys), strict=True)]
 
 
@@ -142,7 +148,7 @@ def _bends(widths: Sequence[Fraction], slopes: Sequence[Fraction]) -> list[Fract
 def _joined(
     xs: Sequence[Fraction], ys: Sequence[Fraction], rows: list[tuple[Fraction, ...]], outside: str
 ) -> PiecewisePolynomial:
-    """Return the rows as one function, with its values outside the table."""
+    """Return the piecewise polynomial with the given rows, extended to points outside the table."""
     if outside == HOLD:
         return PiecewisePolynomial(tuple(xs), (xs[0], *xs), ((ys[0],), *rows, (ys[-1],)))
     # A function has at least one knot. With two points, both sides of the knot have the same polynomial.

@@ -1,8 +1,8 @@
-"""Modules beside a scene file, which the scene may import.
+"""Neighbours of a scene file: modules in the same folder, which the scene may import.
 
 A neighbour is found before any other module of the same name, except modules of the standard library and of
-installed packages. It is loaded for one scene only. Afterwards it is removed again, so that a scene of
-another folder finds its own neighbour of the same name.
+installed packages. It is loaded for one scene only and removed afterwards, so that a scene in another folder
+can import its own neighbour with the same name.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 from types import ModuleType
 
 OWN = frozenset({"codegen", "orderconds"})
-"""The packages of this program; a folder that contains them has no neighbours of these names."""
+"""The packages of this program. Modules with these names in the folder of a scene are ignored."""
 
 
 class Neighbours(MetaPathFinder):
@@ -37,13 +37,16 @@ class Neighbours(MetaPathFinder):
 
 @contextmanager
 def neighbours_of(file: Path) -> Iterator[None]:
-    """Let imports find the modules beside a file, and remove these modules at the end."""
+    """Return a context in which imports find the modules in the folder of a file. At the end these modules
+    are removed.
+    """
     folder = file.resolve().parent
     names = frozenset(name for name in _modules(folder) if not _installed(name))
     hidden = _taken(names)
     finder, cached = Neighbours(folder, names), sys.dont_write_bytecode
     sys.meta_path.insert(0, finder)
-    # The folder belongs to the user. A cached file could also hide a change within the same second.
+    # No bytecode is written, because the folder belongs to the user, and because a cached file could hide a
+    # change within the same second.
     sys.dont_write_bytecode = True
     invalidate_caches()
     try:
@@ -65,7 +68,9 @@ def _modules(folder: Path) -> Iterator[str]:
 
 
 def _installed(name: str) -> bool:
-    """Whether a name is a module of this program, of the standard library or of an installed package."""
+    """Return True if a name is a module of this program, of the standard library or of an installed
+    package.
+    """
     if name in OWN or name in sys.stdlib_module_names:
         return True
     places = [p for p in sys.path if Path(p).name in ("site-packages", "dist-packages")]
@@ -73,6 +78,6 @@ def _installed(name: str) -> bool:
 
 
 def _taken(names: frozenset[str]) -> dict[str, ModuleType]:
-    """Remove the loaded modules with these names, and their submodules, and return them."""
+    """Remove the loaded modules with these names and their submodules; return the removed modules."""
     loaded = [name for name in sys.modules if name.partition(".")[0] in names]
     return {name: sys.modules.pop(name) for name in loaded}

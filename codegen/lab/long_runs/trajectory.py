@@ -40,7 +40,7 @@ class Series:
 
     Deviations are differences from ``start``: the initial value of an invariant, or zero for the manifold
     equations. A mean is signed. A peak is the largest absolute deviation of an interval. A low is the
-    smallest; it is zero if the deviation changes its sign.
+    smallest absolute deviation of an interval; it is zero if the deviation changes its sign.
     """
 
     start: float

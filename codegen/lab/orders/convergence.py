@@ -36,7 +36,7 @@ FEWEST = 4
 class Convergence:
     """The runs of one method on one scene, and the order from the order conditions.
 
-    ``kinks`` are those of the reference solution (:class:`codegen.lab.reference.Reference`).
+    ``kinks`` describes the kinks of the reference solution (:class:`codegen.lab.reference.Reference`).
     """
 
     scene: str
@@ -70,8 +70,8 @@ class Convergence:
     @property
     def limit(self) -> float:
         """The highest order that equal steps have across the kinks of the solution."""
-        # Where k derivatives of the field are continuous, the local error of the step that contains the kink
-        # has order k + 2. The number of these steps does not depend on h.
+        # If k derivatives of the field are continuous at a kink, the local error of the step that contains
+        # the kink has order k + 2. The number of steps with kinks does not depend on h.
         return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:

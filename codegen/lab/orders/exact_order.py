@@ -110,7 +110,9 @@ class NotExact:
 
 
 def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | NotExact:
-    """Return the leading term of the local error of a method, or the reason why it is not known exactly."""
+    """Return the leading term of the local error of a method, or the reason why the term cannot be computed
+    exactly.
+    """
     try:
         return exact_local_error(scene, method)
     except (InputError, ArithmeticError) as error:
@@ -142,10 +144,10 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
         initial = tuple(ring.text(x.coefficients[0]) for x in problem.initial(domain))
     except Kink as reason:
         raise SceneError(
-            f"the local error has no series in h: {reason}",
+            f"the local error has no power series in h: {reason}",
             where=scene.name,
             expected="an initial state where the field is smooth",
-            hint="move the initial state",
+            hint="choose another initial state",
         ) from reason
     except ArithmeticError as reason:
         raise SceneError(
