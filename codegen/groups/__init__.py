@@ -14,7 +14,22 @@ from codegen.groups.registry import Registry
 from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
-    from codegen.groups.actions import Action, LeftMultiplication, Linear, Motion, Rotation
+    from codegen.groups.actions import (
+        Action,
+        AdjointAction,
+        Affine,
+        CoadjointAction,
+        Columns,
+        Conjugation,
+        FactorwiseAction,
+        JointAction,
+        LeftMultiplication,
+        Linear,
+        Motion,
+        RightMultiplication,
+        Rotation,
+        Stiefel,
+    )
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
     from codegen.groups.gl import GL
@@ -33,15 +48,24 @@ __all__ = [
     "SL2",
     "SO3",
     "Action",
+    "AdjointAction",
+    "Affine",
+    "CoadjointAction",
+    "Columns",
+    "Conjugation",
     "Cotangent",
+    "FactorwiseAction",
+    "JointAction",
     "LeftMultiplication",
     "LieGroup",
     "Linear",
     "MatrixGroup",
     "Motion",
     "Product",
+    "RightMultiplication",
     "Rn",
     "Rotation",
+    "Stiefel",
     "get",
     "listing",
     "register",
@@ -52,7 +76,22 @@ LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2",
 
 lazy(
     __name__,
-    actions=("Action", "LeftMultiplication", "Linear", "Motion", "Rotation"),
+    actions=(
+        "Action",
+        "AdjointAction",
+        "Affine",
+        "CoadjointAction",
+        "Columns",
+        "Conjugation",
+        "FactorwiseAction",
+        "JointAction",
+        "LeftMultiplication",
+        "Linear",
+        "Motion",
+        "RightMultiplication",
+        "Rotation",
+        "Stiefel",
+    ),
     base=("LieGroup",),
     cotangent=("Cotangent",),
     gl=("GL",),

@@ -41,6 +41,10 @@ class SL2(MatrixGroup, Projection):
         """Return Ad*_{g^-1} mu."""
         return self.Adt(d, _adjugate(g), mu)
 
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the adjugate matrix."""
+        return _adjugate(g)
+
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the error of the determinant is then O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))

@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
-from codegen.groups.actions import LeftMultiplication
 from codegen.ir.differentiate import gradient
 from codegen.ir.expr import Expr
 from codegen.scene.orbit import Orbit, orbit_of
@@ -34,17 +33,17 @@ def check_problem(problem: Problem, stated: Stated) -> None:
 
 
 def check_start(orbit: Orbit) -> None:
-    """Raise :class:`SceneError` if the initial state should be an element of the group, because the group
-    acts on itself, but is not."""
-    if not isinstance(orbit.action, LeftMultiplication):
-        return
+    """Raise :class:`SceneError` if the initial state violates the equations of the manifold on which the
+    group acts."""
     start = tuple(orbit.points[0][s] for s in orbit.symbols)
-    for law, defect in orbit.group.laws(orbit.domain, start):
+    for law, defect in orbit.action.laws(orbit.domain, orbit.group, start):
         if not orbit.sized(defect, (1,)):
             raise SceneError(
                 f"an initial state that violates {law} by {orbit.text(defect)}",
                 where=orbit.name,
-                expected=f"an element of {orbit.group.name}",
+                expected=f"an element of {orbit.group.name}"
+                if orbit.action.on_itself
+                else f"a point on which {orbit.group.name} acts by {orbit.action.name}",
             )
 
 
