@@ -278,6 +278,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         facts=(
             ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
             ("source", method.source),
+            *coordinates_of(compiled),
             ("order", order.text()),
             *digits,
             *scene_facts(compiled),
@@ -295,6 +296,15 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         command=command,
         version=__version__,
     )
+
+
+def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
+    """Return the sentence about the coordinate map of the scene, if the method uses the map."""
+    used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
+    if used is None:
+        return ()
+    unread = f"; the cut-off {compiled.method.cutoff} is not read, because nothing is truncated"
+    return (("coordinates", used.text + unread * (compiled.method.cutoff is not None)),)
 
 
 def emit_kernel(

@@ -140,6 +140,23 @@ class MatrixGroup(MatrixElements, Coadjoint, CayleyMap):
         a = self.hat(d, x)
         return _entire(d, self.identity(d), lambda term: matmul(a, term, self.n), 0)
 
+    def expbasis(self, d: Domain, k: int, t: S) -> Vector[S]:
+        """Return exp(t B) for the basis matrix B: in closed form if B^3 = c B, else by :meth:`exp`.
+
+        The closed form is 1 + t c_1(-c t^2) B + t^2 c_2(-c t^2) B^2 with the Stumpff functions.
+        """
+        b = self.basis[k]
+        square = matmul(b, b, self.n)
+        c = _ratio(matmul(square, b, self.n), b)
+        if c is None:
+            return super().expbasis(d, k, t)
+        first, second = _stumpff(d, c, t)
+        terms = zip(self.identity(d), b, square, strict=True)
+        return tuple(
+            _weighted(d, (Fraction(1), p, q), (one, t * first, t * t * second)) if p or q else one
+            for one, p, q in terms
+        )
+
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return [x, y] by the structure constants."""
         total: list[S] = [d.rational(0)] * self.dim
@@ -180,6 +197,24 @@ class MatrixGroup(MatrixElements, Coadjoint, CayleyMap):
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return hat(x) g."""
         return matmul(self.hat(d, x), g, self.n)
+
+
+def _ratio(a: Vector[Fraction], b: Vector[Fraction]) -> Fraction | None:
+    """Return c with a = c b; None if there is no such number."""
+    c = next((x / y for x, y in zip(a, b, strict=True) if y), Fraction(0))
+    return c if all(x == c * y for x, y in zip(a, b, strict=True)) else None
+
+
+def _stumpff(d: Domain, c: Fraction, t: S) -> tuple[S, S]:
+    """Return c_1(-c t^2) and c_2(-c t^2)."""
+    if not c:
+        return d.rational(1), d.rational(1, 2)
+    z: S = d.rational(-c.numerator, c.denominator) * (t * t)
+    if c < 0:
+        return d.call("stumpff1", z), d.call("stumpff2", z)
+    # c_2(z) = c_1(z/4)^2/2
+    half: S = d.call("signed_stumpff1", d.rational(1, 4) * z)
+    return d.call("signed_stumpff1", z), d.rational(1, 2) * (half * half)
 
 
 def _weighted(d: Domain, weights: Sequence[Fraction], values: Sequence[S]) -> S:
