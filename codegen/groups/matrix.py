@@ -151,10 +151,10 @@ class MatrixGroup(MatrixElements, Coadjoint, CayleyMap):
         if c is None:
             return super().expbasis(d, k, t)
         first, second = _stumpff(d, c, t)
-        terms = zip(self.identity(d), b, square, strict=True)
+        unit: Vector[S] = self.identity(d)
         return tuple(
             _weighted(d, (Fraction(1), p, q), (one, t * first, t * t * second)) if p or q else one
-            for one, p, q in terms
+            for one, p, q in zip(unit, b, square, strict=True)
         )
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:

@@ -23,7 +23,7 @@ def check_group(name: str, group: object) -> None:
         _refuse(name, "group", group, "SO3()")
 
 
-def check_action(reader: Reader, group: LieGroup, action: object) -> None:
+def check_points(reader: Reader, group: LieGroup, action: object) -> None:
     """Raise :class:`SceneError` for an object that is no action, or for points on which the group cannot
     act."""
     if not isinstance(action, Action):

@@ -9,9 +9,10 @@ from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.coordinate_maps import EXPONENTIAL, CoordinateMap, coordinate_map
 from codegen.ir.values import Kind
-from codegen.scene.arguments import check_action, check_group, read_span
-from codegen.scene.consistency import Stated, check_problem
+from codegen.scene.arguments import check_group, check_points, read_span
+from codegen.scene.consistency import Stated, check_action, check_problem
 from codegen.scene.formulas import Reader
+from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem, StateField
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def FieldScene(
     """
     check_group(name, group)
     reader = Reader(name, list(y))
-    check_action(reader, group, action)
+    check_points(reader, group, action)
     open_roots = reader.column(f, group.dim, "f")
     roots = reader.closed(open_roots)
     start = reader.column(y0, len(y), "y0", constant=True)
@@ -61,5 +62,6 @@ def FieldScene(
         open_roots=open_roots,
         coordinates=coordinate_map(coordinates, group, name),
     )
+    check_action(orbit_of(problem))
     check_problem(problem, stated)
     return problem

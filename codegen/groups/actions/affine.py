@@ -27,7 +27,8 @@ class Affine(Action):
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)
         n = matrices.order
-        for k, x in enumerate(units(d, group.dim)):
+        basis: tuple[Vector[float], ...] = units(d, group.dim)
+        for k, x in enumerate(basis):
             if any(matrices.hat(d, x)[n * (n - 1) :]):
                 raise SceneError(
                     f"{self.name} by {group.name}, whose basis element {k} has a last row that is not zero",

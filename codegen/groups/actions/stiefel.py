@@ -24,7 +24,8 @@ class Stiefel(Columns):
         super().check(group, where)
         matrices, d = group.require(MatrixElements), FloatDomain(0.0)
         n = matrices.order
-        for x in units(d, group.dim):
+        basis: tuple[Vector[float], ...] = units(d, group.dim)
+        for x in basis:
             a = matrices.hat(d, x)
             if any(a[n * i + j] != -a[n * j + i] for i in range(n) for j in range(i + 1)):
                 raise SceneError(
@@ -57,7 +58,7 @@ class Stiefel(Columns):
     def to_orbit(self, d: Domain, group: LieGroup, y: Vector[S], start: Vector[S]) -> Vector[S]:
         """Return Y (3 - Y^T Y)/2, whose columns are orthonormal up to the square of the error of Y^T Y."""
         gram, half, k = self._gram(y), d.rational(1, 2), self.columns
-        unit = units(d, k)
+        unit: tuple[Vector[S], ...] = units(d, k)
         # Y + Y E/2 with E = 1 - Y^T Y: the correction is small, so rounding 1 + E/2 is avoided.
         defect = [[half * (unit[i][j] - gram[i][j]) for j in range(k)] for i in range(k)]
         rows = [y[i : i + k] for i in range(0, len(y), k)]

@@ -294,6 +294,29 @@ class TestAReaderOfAScene:
         with pytest.raises(SceneError, match=r"silence of the factor R\^2, .*in Silent"):
             scene(Product(Rn(2)), FactorwiseAction(Silent()), 2)
 
+    def test_refuses_an_action_whose_velocity_is_no_derivative(self):
+        class Reversed(Motion):
+            """Motions with the velocity of the opposite motion."""
+
+            def velocity(self, d, group, x, y):
+                return tuple(-a for a in super().velocity(d, group, x, y))
+
+        with pytest.raises(SceneError, match=r"velocity\[0\] of rigid motion is .*eps x.*correct Reversed"):
+            scene(SE2(), Reversed(), 2)
+
+    def test_refuses_an_action_whose_identity_moves_points(self):
+        class Shifted(Motion):
+            """Motions followed by a translation."""
+
+            def act(self, d, group, g, y):
+                return (y[0] + d.rational(1), y[1])
+
+            def velocity(self, d, group, x, y):
+                return (d.rational(0), d.rational(0))
+
+        with pytest.raises(SceneError, match=r"act\[0\] of rigid motion is .*, y for the identity"):
+            scene(SE2(), Shifted(), 2)
+
     @pytest.mark.parametrize("make", [JointAction, FactorwiseAction])
     def test_refuses_no_parts(self, make):
         with pytest.raises(SceneError, match="without parts; expected one action"):
