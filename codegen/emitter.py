@@ -28,8 +28,8 @@ from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
-from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
-from codegen.method import Method, method_of
+from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
+from codegen.method import Method
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -128,7 +128,7 @@ def compile_method(
         scene = with_inputs(scene, tuple(inputs))
     chosen = find_form(scene, form) if form != PRINTED else None
     scene = with_frame(scene if chosen is None else chosen.problem, frame)
-    method = method_of(method, families_for(scene), family)
+    method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)

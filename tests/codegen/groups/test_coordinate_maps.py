@@ -33,7 +33,7 @@ from codegen.lab.orders.local_error import local_error, predicted, valuation
 from codegen.loader import load
 from codegen.scene import FieldScene
 from orderconds.ring import QQ
-from tests.codegen.groups.test_actions import elementary, orthogonal
+from tests.codegen.groups.action_cases import elementary, orthogonal
 from tests.strategies import ALL_GROUPS, field_scene, sampler
 
 SYMPLECTIC = MatrixGroup(
