@@ -15,7 +15,7 @@ from typing import Any
 
 from sympy import Rational, Symbol
 
-from codegen.groups import JointAction, LeftMultiplication, Stiefel, actions, listing
+from codegen.groups import DiagonalAction, LeftMultiplication, Stiefel, actions, listing
 from codegen.groups.capabilities import Coadjoint
 from codegen.ir.domain import FloatDomain
 from codegen.lower import lower, method_for, names
@@ -100,7 +100,7 @@ def scene_of(kind: str, row: str, hamiltonian: bool) -> Problem:
 
 def _start(action: Any, group: Any) -> list[Any]:
     """Return an exact point of the manifold."""
-    if isinstance(action, JointAction):
+    if isinstance(action, DiagonalAction):
         return [x for part in action.actions for x in _start(part, group)]
     if action.on_itself:
         return _exact(group.identity(FloatDomain(0.0)))

@@ -8,8 +8,8 @@ from codegen.groups.actions.base import Action
 from codegen.groups.actions.coadjoint import CoadjointAction
 from codegen.groups.actions.columns import Columns
 from codegen.groups.actions.conjugation import Conjugation
+from codegen.groups.actions.diagonal import DiagonalAction
 from codegen.groups.actions.factorwise import FactorwiseAction
-from codegen.groups.actions.joint import JointAction
 from codegen.groups.actions.left_multiplication import LeftMultiplication
 from codegen.groups.actions.linear import Linear
 from codegen.groups.actions.motion import Motion
@@ -25,8 +25,8 @@ __all__ = [
     "CoadjointAction",
     "Columns",
     "Conjugation",
+    "DiagonalAction",
     "FactorwiseAction",
-    "JointAction",
     "LeftMultiplication",
     "Linear",
     "Motion",
@@ -43,7 +43,7 @@ LISTED = (
     "Columns",
     "Conjugation",
     "FactorwiseAction",
-    "JointAction",
+    "DiagonalAction",
     "LeftMultiplication",
     "Linear",
     "Motion",

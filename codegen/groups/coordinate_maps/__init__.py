@@ -28,11 +28,13 @@ def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> C
     """
     if given == EXPONENTIAL:
         return None
-    found = given if isinstance(given, CoordinateMap) else MAPS.get(given) if isinstance(given, str) else None
-    if found is None:
+    chosen = (
+        given if isinstance(given, CoordinateMap) else MAPS.get(given) if isinstance(given, str) else None
+    )
+    if chosen is None:
         names = ", ".join(repr(name) for name in (EXPONENTIAL, *MAPS))
         raise SceneError(
             f"coordinates={given!r}", where=where, expected=f"one of {names}, or a CoordinateMap of your own"
         )
-    found.check(group, where)
-    return found
+    chosen.check(group, where)
+    return chosen

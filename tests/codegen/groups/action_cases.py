@@ -13,8 +13,8 @@ from codegen.groups import (
     CoadjointAction,
     Columns,
     Conjugation,
+    DiagonalAction,
     FactorwiseAction,
-    JointAction,
     LeftMultiplication,
     Linear,
     MatrixGroup,
@@ -65,8 +65,8 @@ ACTIONS: list[tuple[Action, str, int]] = [
     (Columns(3), "SL(2)", 6),
     (Stiefel(2), "SO(4)", 8),
     (Affine(), "Aff(2)", 2),
-    (JointAction(LeftMultiplication(), Motion()), "SE(2)", 6),
-    (JointAction(Rotation(), CoadjointAction(), Columns(2)), "SO(3)", 12),
+    (DiagonalAction(LeftMultiplication(), Motion()), "SE(2)", 6),
+    (DiagonalAction(Rotation(), CoadjointAction(), Columns(2)), "SO(3)", 12),
     (FactorwiseAction(Rotation(), Motion()), "SO(3) x SE(2)", 5),
 ]
 """Actions, each with a group, and the number of coordinates of a point."""

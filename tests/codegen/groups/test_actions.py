@@ -17,8 +17,8 @@ from codegen.groups import (
     Columns,
     Conjugation,
     Cotangent,
+    DiagonalAction,
     FactorwiseAction,
-    JointAction,
     LeftMultiplication,
     Linear,
     Motion,
@@ -185,7 +185,7 @@ class TestAReaderOfAScene:
             (SE2(), CoadjointAction(), 4, ".*: 3 coordinates"),
             (SE2(), RightMultiplication(), 3, ".*: 4 coordinates"),
             (AFFINE, Affine(), 3, ".*: 2 coordinates"),
-            (SE2(), JointAction(LeftMultiplication(), Motion()), 4, ".*: 6 coordinates"),
+            (SE2(), DiagonalAction(LeftMultiplication(), Motion()), 4, ".*: 6 coordinates"),
             (HERE["SO(3) x SE(2)"], FactorwiseAction(Rotation(), Motion()), 6, ".*: 5 coordinates"),
         ],
     )
@@ -201,7 +201,7 @@ class TestAReaderOfAScene:
             (SO3(), Affine(), 2, "basis element 0 has a last row that is not zero; .*use Linear"),
             (SO3(), FactorwiseAction(Rotation()), 3, "SO.3. has no factors"),
             (Product(SO3(), Rn(1)), FactorwiseAction(Rotation()), 3, "1 actions of the 2 factors"),
-            (SE2(), JointAction(Motion(), Linear()), 4, "SE.2. has no matrix elements"),
+            (SE2(), DiagonalAction(Motion(), Linear()), 4, "SE.2. has no matrix elements"),
         ],
     )
     def test_refuses_a_group_that_cannot_act(self, group, action, n, text):
@@ -243,7 +243,7 @@ class TestAReaderOfAScene:
                 return y
 
         with pytest.raises(SceneError, match=r"the part silence .*point_size\(self, group\) in Silent"):
-            scene(Rn(2), JointAction(LeftMultiplication(), Silent()), 2)
+            scene(Rn(2), DiagonalAction(LeftMultiplication(), Silent()), 2)
         with pytest.raises(SceneError, match=r"silence of the factor R\^2, .*in Silent"):
             scene(Product(Rn(2)), FactorwiseAction(Silent()), 2)
 
@@ -270,7 +270,7 @@ class TestAReaderOfAScene:
         with pytest.raises(SceneError, match=r"act\[0\] of rigid motion is .*, y for the identity"):
             scene(SE2(), Shifted(), 2)
 
-    @pytest.mark.parametrize("make", [JointAction, FactorwiseAction])
+    @pytest.mark.parametrize("make", [DiagonalAction, FactorwiseAction])
     def test_refuses_no_parts(self, make):
         with pytest.raises(SceneError, match="without parts; expected one action"):
             make()

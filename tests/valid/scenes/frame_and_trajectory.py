@@ -6,7 +6,7 @@ coordinates in the frame.
 
 from sympy import Matrix, Rational, symbols
 
-from codegen.groups import SE2, JointAction, LeftMultiplication, Motion
+from codegen.groups import SE2, DiagonalAction, LeftMultiplication, Motion
 from codegen.scene import FieldScene
 
 G = SE2()
@@ -17,7 +17,7 @@ inside = Matrix([[c, s], [-s, c]]) * (z - Matrix([a, b]))
 scene = FieldScene(
     title="Frame and trajectory",
     group=G,
-    action=JointAction(LeftMultiplication(), Motion()),
+    action=DiagonalAction(LeftMultiplication(), Motion()),
     y=[c, s, a, b, *z],
     f=[1 + z[0] / 2, c - z[1], s + a * z[0] / 4],
     y0=[1, 0, 0, 0, 1, Rational(1, 2)],

@@ -11,8 +11,8 @@ from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
 
 
-class JointAction(Action):
-    """One group acting on a product of manifolds, g.(y1, y2, ...) = (g.y1, g.y2, ...).
+class DiagonalAction(Action):
+    """The diagonal action of a group on a product of manifolds, g.(y1, y2, ...) = (g.y1, g.y2, ...).
 
     The coordinates of the points follow one another, in the order of ``actions``. An example is a frame
     beside the trajectory that carries it: left multiplication beside rotation or motion of points.
@@ -20,7 +20,7 @@ class JointAction(Action):
 
     def __init__(self, *actions: Action) -> None:
         if not actions:
-            raise SceneError("a joint action without parts", expected="one action at least")
+            raise SceneError("a diagonal action without parts", expected="one action at least")
         self.actions = actions
         self.name = " and ".join(action.name for action in actions)
 
@@ -37,7 +37,7 @@ class JointAction(Action):
             size = action.point_size(group)
             if size is None:
                 raise SceneError(
-                    f"the part {action.name} of a joint action, without a number of coordinates",
+                    f"the part {action.name} of a diagonal action, without a number of coordinates",
                     where=where,
                     expected="actions that define point_size",
                     hint=f"define point_size(self, group) in {type(action).__name__}",
