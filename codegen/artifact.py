@@ -37,7 +37,7 @@ class Artifact:
 
     @property
     def key(self) -> tuple[str, str]:
-        """Module name and target."""
+        """The module name and the target language."""
         return self.manifest["module"], self.manifest["target"]
 
     def write(self, directory: str | Path) -> list[Path]:
@@ -126,7 +126,7 @@ def entries_of(folder: Path) -> list[dict[str, Any]]:
 
 
 def _is_entry(entry: Mapping[str, Any]) -> bool:
-    """Whether an entry has the required keys, of the right types."""
+    """Return True if an entry has the required keys, of the right types."""
     files = entry["files"]
     plain = [entry["module"], entry["target"], *files, *files.values()]
     return all(isinstance(x, str) for x in plain) and not any("/" in name or "\\" in name for name in files)
@@ -136,7 +136,8 @@ def read(directory: str | Path, module: str = "", target: str = "") -> Artifact:
     """Return a module from a folder. If the folder contains several modules, ``module`` and ``target`` choose
     one.
 
-    InputError is raised if no module or several modules match, and if a file is missing or has changed.
+    InputError is raised if no module matches, if several modules match, or if a file is missing or has
+    changed.
     """
     folder = Path(directory)
     try:

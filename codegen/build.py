@@ -32,11 +32,11 @@ UNWRITABLE = (errno.EACCES, errno.EPERM, errno.EROFS)
 
 
 class CompilerMissing(InputError):
-    """There is no C compiler, or the compiler in $CC does not exist."""
+    """Raised if there is no C compiler, or if the compiler that $CC names does not exist."""
 
 
 class CompileError(InputError):
-    """The compiler rejected the source; the error contains its message."""
+    """Raised if the compiler rejects the source; the error contains the message of the compiler."""
 
 
 @dataclass(frozen=True)

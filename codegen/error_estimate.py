@@ -56,10 +56,11 @@ def order_of_estimate(method: Method, scene: Problem) -> int:
 
 
 def is_blind(method: Method, embedded: Method, scene: Problem, order: int) -> bool:
-    """Whether the difference of two rows has a higher order than the local error, from very short steps.
+    """Return True if the error estimate of an embedded pair has a higher order than the local error.
 
-    ``order`` is the order of both rows. An estimate that is always zero is blind. If the steps cannot be
-    computed, the result is False.
+    The estimate is the difference of the results of the two rows, which both have order ``order``. It is
+    compared with the local error in very short steps. An estimate that is always zero is also blind. If
+    the steps cannot be computed, the result is False.
     """
     h = float(scene.span[1] - scene.span[0]) * 10.0 ** (-SMALLEST / (order + 2))
     main, other = (_stepper(m, scene) for m in (replace(method, adaptive=False), embedded))

@@ -102,8 +102,8 @@ class Method:
         return method
 
     def can_reduce_brackets(self) -> bool:
-        """Whether the tableau is explicit and its coefficients are exact: the search for the fewest brackets
-        requires both."""
+        """Return True if the tableau is explicit and its coefficients are exact: the search for the fewest
+        brackets requires both."""
         method = self.tableau.read_as(("rk",))
         if not isinstance(method, RungeKutta):
             return False
@@ -235,7 +235,7 @@ def _label(family: str, tableau: str) -> str:
 
 
 def _divides_by_zero(family: str, tableau: Tableau) -> bool:
-    """Whether the formulas of the family divide by a weight of the tableau that may be zero."""
+    """Return True if the formulas of the family divide by a weight of the tableau that may be zero."""
     method = tableau.read_as(("rk",))
     if not family_class(family).needs_nonzero_weights or not isinstance(method, RungeKutta):
         return False

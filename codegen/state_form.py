@@ -114,14 +114,14 @@ def batch_of(state: State, size: int) -> Batch | None:
 
 
 def _nested(part: object) -> bool:
-    """Whether a part has two or more levels."""
+    """Return True if a part has two or more levels."""
     if _is_array(part):
         return bool(getattr(part, "ndim", 0) > 1)
     return isinstance(part, list | tuple) and bool(part) and _has_entries(part[0])
 
 
 def _has_entries(part: object) -> bool:
-    """Whether a part is a sequence or an array with at least one axis."""
+    """Return True if a part is a sequence or an array with at least one axis."""
     return getattr(part, "ndim", 0) > 0 if _is_array(part) else isinstance(part, list | tuple)
 
 

@@ -32,7 +32,7 @@ class Summand:
 
     @property
     def timed(self) -> bool:
-        """Whether a flow depends on the time."""
+        """True if a flow depends on the time."""
         return any(flow.timed for _, flow in self.flows)
 
 
@@ -49,7 +49,7 @@ class Part:
 
     @property
     def exact(self) -> bool:
-        """Whether the flow of the whole part is known."""
+        """True if the flow of the whole part is known."""
         return len(self.summands) == 1
 
 
@@ -91,7 +91,7 @@ class Formula:
 
     @cached_property
     def timed(self) -> bool:
-        """Whether the time occurs."""
+        """True if the time occurs."""
         return any(n.op == "sym" and n.payload == TIME for n in walk([self.root]))
 
     @cached_property

@@ -94,8 +94,8 @@ def _powers(roots: Sequence[Expr], kept: Sequence[Expr]) -> dict[int, tuple[int,
 
 
 def _is_power(node: Expr, inside: Sequence[tuple[int, int]]) -> bool:
-    """Whether a node is a product of numbers and powers of one inverse root. ``inside`` lists the node's
-    arguments that are such powers, as pairs (root, exponent)."""
+    """Return True if a node is a product of numbers and powers of one inverse root. ``inside`` lists the
+    node's arguments that are such powers, as pairs (root, exponent)."""
     whole = len(inside) == len(node.args) or node.args[0].op == "const"
     return node.op in ("neg", "pow", "mul") and whole and len({base for base, _ in inside}) == 1
 

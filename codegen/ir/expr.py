@@ -89,7 +89,7 @@ class Expr:
 
     @property
     def is_zero(self) -> bool:
-        """Whether this node is the constant 0."""
+        """True if this node is the constant 0."""
         return self is self.space.zero
 
 
@@ -266,8 +266,7 @@ class Space:
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
-    """Whether the sum or product of two constants can be computed as one constant, which requires a common
-    ring."""
+    """Return True if two constants have a common ring, so that their sum and product are constants of it."""
     # A rational number is an element of every ring. For elements of two different other rings, no common ring
     # is known.
     x, y = a.payload, b.payload

@@ -317,7 +317,7 @@ class Kernel:
 
     @property
     def adaptive(self) -> bool:
-        """Whether there is a run that chooses its step sizes."""
+        """True if there is a run that chooses its step sizes."""
         return self.estimate is not None or (self.expansion is not None and self.expansion.controlled)
 
     @property

@@ -1,4 +1,4 @@
-"""Exact numbers in programs: an element together with its ring, hashable, rounded once by a printer.
+"""Exact numbers of programs: a ring and an element of that ring. Only printers round them to doubles.
 
 Tableau coefficients stay exact (rational, algebraic) or certified (balls) until they are printed. Programs
 represent them as a :class:`Number`. Two numbers are equal when their rings give equal keys. Balls alone never
@@ -24,13 +24,13 @@ _SMALLEST, _LARGEST = Fraction(sys.float_info.min), Fraction(sys.float_info.max)
 
 
 def is_normal(value: Fraction) -> bool:
-    """Whether a double represents this number to the full precision of doubles: the number is neither too
-    large nor denormal.
+    """Return True if a double represents this number to the full precision of doubles: the number is neither
+    too large nor denormal.
 
     >>> [is_normal(Fraction(10) ** n) for n in (-308, -307, 308, 309)]
     [False, True, True, False]
     """
-    # A denormal number has fewer bits, so its rounding error is not relative.
+    # A denormal number has fewer bits, so its relative rounding error may exceed 2^-53.
     return not value or _SMALLEST <= abs(value) <= _LARGEST
 
 
@@ -43,7 +43,7 @@ class Number:
 
     @cached_property
     def key(self) -> tuple[object, ...]:
-        """The key by which numbers are compared: equal numbers have equal keys."""
+        """The key that comparisons use: two numbers are equal if their keys are equal."""
         # Keys make equality decidable also for balls: coefficients with the same name in a file have equal
         # keys.
         return tuple(self.ring.key(self.element))
@@ -84,23 +84,23 @@ class Number:
 
     @cached_property
     def is_zero(self) -> bool:
-        """Whether this number is provably zero."""
+        """True if this number is provably zero."""
         # The ring's is_zero returns None if the question is undecided; such a number does not count as zero.
         return self.ring.is_zero(self.element) is True
 
     @cached_property
     def is_one(self) -> bool:
-        """Whether this number is provably one."""
+        """True if this number is provably one."""
         return self.ring.is_zero(self.element - 1) is True
 
     @cached_property
     def is_minus_one(self) -> bool:
-        """Whether this number is provably minus one."""
+        """True if this number is provably minus one."""
         return self.ring.is_zero(self.element + 1) is True
 
     @property
     def is_rational(self) -> bool:
-        """Whether this number is stored as an element of QQ."""
+        """True if this number is stored as an element of QQ."""
         return self.ring is QQ
 
     def _join(self, other: Number) -> tuple[Ring, Element, Element]:

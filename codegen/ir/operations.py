@@ -59,10 +59,10 @@ class Operation(ABC):
     # Passes use linearity to move factors and sums out of an operation, for example ad_x(c v + w) = c ad_x v
     # + ad_x w.
     linear_in_last: ClassVar[bool] = False
-    """Whether the result is linear in the last argument."""
+    """True if the result is linear in the last argument."""
     # The cost of a method is the number of its evaluations of the scene and of its exponentials.
     evaluates_scene: ClassVar[bool] = False
-    """Whether the operation counts as one evaluation of the field or of the derivatives of the
+    """True if the operation counts as one evaluation of the field or of the derivatives of the
     Hamiltonian."""
     exponentials: ClassVar[int] = 0
     """The number of exponentials or flows that the operation computes."""
@@ -85,7 +85,7 @@ class Operation(ABC):
         """Return the results for arguments of a domain."""
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Whether an assignment of these kinds is well-formed."""
+        """Return True if an assignment of these kinds is well-formed."""
         return (arguments, results) == self.signature()
 
     def text(self) -> str:
@@ -109,7 +109,7 @@ class Zero(Operation):
         return NONE, (self.kind,)
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Whether an assignment of these kinds is well-formed."""
+        """Return True if an assignment of these kinds is well-formed."""
         # A group and a manifold have no zero.
         return self.kind in LINEAR and super().accepts(arguments, results)
 
@@ -133,8 +133,8 @@ class Linear(Operation):
         return (Kind.ALG,) * len(self.coefficients), A
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Whether there is one argument for each coefficient, at least one, and all have the kind of the
-        result."""
+        """Return True if there is one argument for each coefficient, at least one, and all have the kind of
+        the result."""
         # A combination has at least one argument, because its kind is the kind of its arguments. An empty sum
         # is a Zero, which stores its kind.
         alike = len(results) == 1 and results[0] in LINEAR and set(arguments) == set(results)
@@ -427,7 +427,7 @@ class AdSeries(Operation):
         return A + own, own
 
     def accepts(self, arguments: Kinds, results: Kinds) -> bool:
-        """Whether an assignment of these kinds is well-formed; the empty word is not allowed."""
+        """Return True if an assignment of these kinds is well-formed; the empty word is not allowed."""
         # An empty word is the identity. The pass that simplifies a word to the empty one removes the
         # assignment.
         return bool(self.word) and super().accepts(arguments, results)

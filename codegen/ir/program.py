@@ -53,7 +53,7 @@ class Assign:
     # This test is for passes that move the coefficient of c x out of a linear map: L(c x) = c L(x).
     @property
     def is_multiple(self) -> bool:
-        """Whether the operation is a combination of one term: one coefficient times one value."""
+        """True if the operation is a combination of one term: one coefficient times one value."""
         return isinstance(self.operation, Linear) and len(self.args) == 1
 
     @classmethod

@@ -130,7 +130,7 @@ class _Loop:
         return self.known[id(root)]
 
     def constant(self, series: Series) -> bool:
-        """Whether a series is constant in time."""
+        """Return True if a series is constant in time."""
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:

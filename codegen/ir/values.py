@@ -39,12 +39,12 @@ class Coefficient:
     # "Provably" is important for balls: the number in a ball that contains 0 or 1 need not be 0 or 1.
     @property
     def is_zero(self) -> bool:
-        """Whether the number is provably zero."""
+        """True if the number is provably zero."""
         return self.value.is_zero
 
     @property
     def is_one(self) -> bool:
-        """Whether this is provably the constant 1, without a power of h."""
+        """True if this is provably the constant 1, without a power of h."""
         return self.power == 0 and self.value.is_one
 
     def text(self) -> str:

@@ -134,9 +134,8 @@ class Assignments:
         return [x for b in self.blocks[k + 1 :] for x in b.targets()]
 
     def _is_short(self, k: int) -> bool:
-        """Whether computing all later values that depend on block k costs less than half a sweep of block
-        k.
-        """
+        """Return True if computing all later values that depend on block k costs less than half a sweep of
+        block k."""
         rest = [*self._later(k), *self.roots]
         # Recomputed values belong to the corrected unknowns. They replace an additional sweep, at less than
         # half of its cost.

@@ -31,7 +31,7 @@ class Frames:
 
     @property
     def _alike(self) -> bool:
-        """Whether the program and the emitted code use the same frame for momenta."""
+        """True if the step program and the emitted code represent momenta in the same frame."""
         # If both use space, or both the body, the momentum needs no transformation.
         return (self.program.frame == BODY) == (self.scene.body_group is not None)
 

@@ -87,7 +87,7 @@ def with_deferred(kernel: Kernel, parted: Parted, scene: Problem, chains: int = 
 
 
 def _is_h(letter: Letter) -> bool:
-    """Whether a flow has duration h, as each part of a consistent splitting does, proved or not."""
+    """Return True if a flow has duration h, as each part of a consistent splitting does, proved or not."""
     # The comparison rounds the duration to a double. A ball around one cannot prove that the duration is one,
     # but the ball is rounded to one.
     return letter.duration.power == 1 and float(letter.duration.value) == 1.0

@@ -180,7 +180,8 @@ class Outline:
         return read
 
     def _even(self, tree: Tree, read: set[int]) -> bool:
-        """Whether all results of a tree that are read depend on the same blocks as the inputs of the tree.
+        """Return True if all results of a tree that are read depend on the same blocks as the inputs of the
+        tree.
 
         The results must also be newer than the inputs: an older node is the result of another operation.
         """

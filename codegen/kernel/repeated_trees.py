@@ -51,7 +51,7 @@ class Execution:
 
     @property
     def may_join(self) -> bool:
-        """Whether a function may compute this assignment."""
+        """True if a function may compute this assignment."""
         return self.joined and not isinstance(self.assign.operation, NEVER)
 
 
@@ -245,7 +245,7 @@ class Trees:
         return tuple(shape)
 
     def useful(self, tree: Tree) -> bool:
-        """Whether a tree has enough operations to be worth a call."""
+        """Return True if a tree has enough operations to be worth a call."""
         results = self.results(tree)
         # Operations are counted between operands and results, because the caller computes the operands.
         stop = {x.id for x in self.inputs(tree)}

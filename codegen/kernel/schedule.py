@@ -18,7 +18,7 @@ METHODS = {
     NEWTON: "Newton's method",
     SIMPLIFIED_NEWTON: "Newton's method with the matrix to first order in h",
 }
-"""Names of the solvers in headers."""
+"""The names of the solvers of implicit equations in the headers of emitted files."""
 
 STUMPFF = {f"stumpff{k}": k for k in range(4)}
 
@@ -135,7 +135,7 @@ class Arrangement:
         yield from self.errors
 
     def symbols(self) -> frozenset[str]:
-        """Return every symbol that some expression reads, in no particular order."""
+        """Return all symbols that the expressions read, as a set without an order."""
         return frozenset(n.payload for n in walk(self.expressions()) if n.op == "sym")
 
 
@@ -250,7 +250,7 @@ class _Scope:
     def nested(
         self, lets: Sequence[Let], values: Sequence[Expr]
     ) -> tuple[tuple[Simple, ...], tuple[Expr, ...]]:
-        """Return the statements and values of a nested block; later statements cannot read them."""
+        """Return the statements and values of a nested block; statements after the block cannot read them."""
         # The scope is separate, because these statements may be skipped at run time: no later statement may
         # use their names.
         inner = self.inside([*(let.value for let in lets), *values])
@@ -294,7 +294,8 @@ class _Scope:
         return pending
 
     def rewrite(self, root: Expr) -> Expr:
-        """Return root with Stumpff calls and awkward powers replaced by names."""
+        """Return the expression ``root`` with names in place of Stumpff calls and of powers that are
+        written as products."""
         space = root.space
         for node in walk([root], lambda n: n.id in self.known):
             if node.id in self.known:

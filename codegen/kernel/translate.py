@@ -294,7 +294,7 @@ class _Translation:
 
 
 def is_long(body: Iterable[Let | Start | Loop]) -> bool:
-    """Whether a step has enough assignments to be outlined."""
+    """Return True if a step has enough assignments to be outlined."""
     return _count(body) > LONG
 
 

@@ -57,7 +57,7 @@ class Measurement(ABC, Generic[R]):
         return ""
 
     def holds(self, result: R) -> bool:
-        """Whether every check holds; the exit status of ``report`` is 1 otherwise."""
+        """Return True if every check passed; otherwise the exit status of ``report`` is 1."""
         return True
 
     def lines(self, result: R, subject: Subject) -> Iterable[str]:

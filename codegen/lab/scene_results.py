@@ -33,7 +33,7 @@ class Measured:
 
     @property
     def holds(self) -> bool:
-        """Whether the measurement succeeded and every check holds."""
+        """True if the measurement succeeded and all its checks passed."""
         return not self.failure and self.measurement.holds(self.result)
 
     def section(self) -> Section | None:
@@ -77,7 +77,7 @@ class SceneResults:
 
     @property
     def held(self) -> bool:
-        """Whether all measurements hold."""
+        """True if all measurements succeeded and passed their checks."""
         return all(m.holds for m in self.measured)
 
     def as_json(self) -> dict[str, object]:

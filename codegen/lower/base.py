@@ -48,12 +48,12 @@ class Lowering(ABC):
     """The name of the family in :mod:`orderconds.families` and in names of methods such as
     ``vcg:midpoint``."""
     hamiltonian: ClassVar[bool] = False
-    """Whether the state of the programs is (q, mu) of a Hamiltonian scene, and not the point y of a vector
+    """True if the state of the programs is (q, mu) of a Hamiltonian scene, and not the point y of a vector
     field."""
     preference: ClassVar[int] = 0
     """If a method's name contains no family, the family with the highest number is preferred."""
     repeats_substeps: ClassVar[bool] = False
-    """Whether the step of a composed tableau is, in this family, the composition of shorter steps.
+    """True if the step of a composed tableau is, in this family, the composition of shorter steps.
 
     This is false for a family that expands dexp^{-1} over the whole step.
     """
@@ -63,11 +63,11 @@ class Lowering(ABC):
     (:mod:`codegen.groups.coordinate_maps`). Other families use the exponential map."""
 
     in_coordinates: ClassVar[bool] = False
-    """Whether the methods integrate the coordinates of the state. Such methods accept every classical form of
+    """True if the methods integrate the coordinates of the state. Such methods accept every classical form of
     a scene (:mod:`codegen.scene.classical_forms`)."""
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Whether the states of a step stay on the manifold of the scene up to rounding.
+        """Return True if the states of a step stay on the manifold of the scene up to rounding.
 
         A step by group elements stays on the manifold. If the group is abelian, the manifold has the
         coordinates of a vector space, so every method stays on the manifold.
@@ -98,7 +98,7 @@ class Lowering(ABC):
         """
 
     def symplectic(self, scene: Problem, method: Method) -> bool:
-        """Whether steps of one size are symplectic maps on a Hamiltonian scene.
+        """Return True if steps of one size are symplectic maps on a Hamiltonian scene.
 
         By default they are symplectic where T*G is a vector space and the tableau is symplectic.
         """

@@ -184,7 +184,7 @@ def unread(parts: Parts, method: Method) -> MethodError:
 
 
 def is_kick(summand: Summand) -> bool:
-    """Whether a summand changes only the momentum."""
+    """Return True if a summand changes only the momentum."""
     return all(isinstance(flow, Kick) for _, flow in summand.flows)
 
 

@@ -91,7 +91,7 @@ def _in_order(
 
 
 def _nystroem(scene: Problem, parts: Sequence[Part], summand: Summand) -> bool:
-    """Whether [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require; V is the part of
+    """Return True if [V, [V, [V, T]]] = 0, as Runge-Kutta-Nystroem splittings require; V is the part of
     ``summand``."""
     (V,) = [scene.parts[p.name] for p in parts if p.summands[0] is summand]
     (T,) = [scene.parts[p.name] for p in parts if p.summands[0] is not summand]

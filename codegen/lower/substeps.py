@@ -105,7 +105,7 @@ def _repeated(method: Method, rk: RungeKutta) -> tuple[RungeKutta, tuple[Number,
 
 
 def _separate(A: Sequence[Sequence[Number]], b: Sequence[Number], k: int) -> bool:
-    """Whether the stages from k on start from the result of the update by the stages before k."""
+    """Return True if the stages from k on start from the result of the update by the stages before k."""
     s = len(b)
     # Lemma 3.5.4: later stages depend on the finished update of earlier stages, and earlier stages do not
     # depend on later stages.

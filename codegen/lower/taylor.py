@@ -36,9 +36,8 @@ class Taylor(Lowering):
     in_coordinates = True
 
     def keeps_manifold(self, scene: Problem) -> bool:
-        """Whether states stay on the manifold: the projection at the end of a step reaches the manifold, or
-        the manifold is open and no projection is needed.
-        """
+        """Return True if states stay on the manifold: the projection at the end of a step reaches the
+        manifold, or the manifold is open and no projection is needed."""
         return scene.group.abelian or reaches_orbit(scene)
 
     def objection(self, scene: Problem) -> Objection | None:

@@ -197,9 +197,8 @@ class Reference:
         return _Step(domain, inputs, after, solutions, moved, tiny) if finite else None
 
     def _is_short(self, step: _Step, power: int) -> bool:
-        """Whether a tiny step changes the state only slightly. This is the case if h times each coefficient
-        is small.
-        """
+        """Return True if a tiny step changes the state only slightly. This is the case if h times each
+        coefficient is small."""
         return all(
             abs(x - y) <= max(1, abs(x)) * 2.0 ** -(power // 2)
             for name in self.kinds.keys() & step.after.keys()

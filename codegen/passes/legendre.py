@@ -170,7 +170,7 @@ def _residual(block: Solve, route: Path, build: Builder) -> Var:
 
 
 def _function_of_one(block: Solve, route: Path) -> bool:
-    """Whether P is Ad*_{exp x} of a sum of functions of multiples of ad*_x."""
+    """Return True if P is Ad*_{exp x} of a sum of functions of multiples of ad*_x."""
     maker = {target: assign for assign in block.body for target in assign.targets}
     if len(route.inward) != 1 or route.inward[0].operation != Adjoint(dual=True):
         return False

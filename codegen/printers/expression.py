@@ -122,7 +122,7 @@ def _add(x: Rendering, y: Rendering) -> Rendering:
 
 
 def _sum(x: Rendering) -> bool:
-    """Whether x is printed as a sum without parentheses; a negated sum has parentheses."""
+    """Return True if x is printed as a sum without parentheses; a negated sum has parentheses."""
     return x.precedence == SUM and not x.negative
 
 

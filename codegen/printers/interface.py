@@ -65,7 +65,7 @@ class Interface:
 
     @property
     def newton(self) -> bool:
-        """Whether statistics count matrices of Newton's method."""
+        """True if statistics count matrices of Newton's method."""
         return NEWTON in self.solvers
 
     @property

@@ -20,7 +20,7 @@ CAUSE = "cause"
 
 
 def is_searched(plan: Plan) -> bool:
-    """Whether the unit has the function."""
+    """Return True if the unit has the function."""
     # The values of run-time inputs may be the cause, and a shorter step samples other values.
     return plan.start is None and not plan.kernel.inputs
 

@@ -150,7 +150,7 @@ class Machine:
 
 
 def is_number(x: Any) -> bool:
-    """Whether a scalar is neither infinite nor NaN."""
+    """Return True if a scalar is neither infinite nor NaN."""
     # x - x is NaN for infinities and NaNs; the test needs no function that an exact ring lacks.
     return bool(x - x == 0)
 

@@ -62,7 +62,7 @@ class Plan:
 
     @property
     def time(self) -> bool:
-        """Whether a step reads the time."""
+        """True if a step reads the time."""
         return TIME.text in self._used
 
     @property
@@ -72,12 +72,12 @@ class Plan:
 
     @property
     def counting(self) -> bool:
-        """Whether there are implicit blocks; their sweeps are counted."""
+        """True if there are implicit blocks; their sweeps are counted."""
         return bool(self.kernel.loops)
 
     @property
     def newton(self) -> bool:
-        """Whether matrices of Newton's method are kept from step to step."""
+        """True if matrices of Newton's method are kept from step to step."""
         # Simplified Newton computes its matrix in each step and keeps nothing.
         return any(loop.solver == NEWTON for loop in self.kernel.loops)
 
@@ -88,7 +88,7 @@ class Plan:
 
     @property
     def remembers(self) -> bool:
-        """Whether a step stores data for the next."""
+        """True if a step stores data for the next."""
         # Kernels without implicit equations store nothing, so their steps have no argument for a memory.
         return self.start is not None or self.newton
 

@@ -121,7 +121,7 @@ class _Scopes:
         return result
 
     def begins(self, body: Body, name: str) -> bool:
-        """Whether a body assigns a variable before it reads it."""
+        """Return True if a body assigns a variable before it reads it."""
         for statement in body:
             if name not in self.mentioned(statement):
                 continue
@@ -174,7 +174,7 @@ class _Scopes:
         return self.known_own[id(statement)]
 
     def within(self, body: Body, name: str) -> bool:
-        """Whether a body mentions a variable."""
+        """Return True if a body mentions a variable."""
         return any(name in self.mentioned(statement) for statement in body)
 
     def mentioned(self, statement: Statement) -> frozenset[str]:

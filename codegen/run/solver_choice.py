@@ -164,7 +164,7 @@ def trial_steps(kernel: Kernel) -> int:
 
 
 def is_linear(loop: Loop) -> bool:
-    """Whether the images of a block are linear in its unknowns."""
+    """Return True if the images of a block are linear in its unknowns."""
     degrees: dict[str, int] = dict.fromkeys(loop.unknowns, 1)
     for let in loop.body:
         degrees[let.name] = _degree(let.value, degrees)
@@ -201,7 +201,7 @@ class Candidate:
 
     @property
     def robust(self) -> bool:
-        """Whether the solver also converges in the longer step, in at most SWEEPS sweeps."""
+        """True if the solver also converges in the longer step, in at most SWEEPS sweeps."""
         return self.far is not None and self.far.converged and self.far.most <= SWEEPS
 
     def block(self, k: int) -> float:
@@ -306,7 +306,7 @@ class _Selection:
 
     @cached_property
     def linear(self) -> bool:
-        """Whether the equations of all blocks are linear."""
+        """True if the equations of all blocks are linear."""
         return all(is_linear(loop) for loop in self.fixed.loops)
 
     def allowed(self, solver: str, candidate: Candidate) -> float:

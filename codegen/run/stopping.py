@@ -93,7 +93,7 @@ class Stopping:
 
     @cached_property
     def warm(self) -> bool:
-        """Whether the loop has a warm start."""
+        """True if the loop has a warm start."""
         # Loops without starting values of their own share the warm start of the kernel.
         return not self.loop.starts
 

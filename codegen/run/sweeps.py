@@ -210,7 +210,7 @@ class _Newton(_Loop):
 
     @property
     def kept(self) -> bool:
-        """Whether the matrix is kept from step to step."""
+        """True if the matrix is kept from step to step."""
         return self.iteration.loop.solver == NEWTON
 
     @property

@@ -58,9 +58,8 @@ LOOP = "loop"
 
 
 def is_looped(plan: Plan) -> bool:
-    """Whether the kernel is inlined in a run: the kernel has a small state, and no other function contains
-    the kernel.
-    """
+    """Return True if the kernel is inlined in a run: the kernel has a small state, and no other function
+    contains the kernel."""
     kernel = plan.kernel
     # If each step were a function call, the state would have to be stored in memory.
     alone = kernel.deferred is None and not plan.parts and plan.size <= REGISTERS
@@ -69,7 +68,7 @@ def is_looped(plan: Plan) -> bool:
 
 
 def _may_raise(kernel: Kernel) -> bool:
-    """Whether a target may raise an exception where C computes an infinity or a NaN."""
+    """Return True if a target may raise an exception where C computes an infinity or a NaN."""
     # An exception can become a status only in a function that contains nothing but the kernel.
     return any(n.op == "div" or (n.op == "call" and n.payload in RAISING) for n in walk(kernel.expressions()))
 

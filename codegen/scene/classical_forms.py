@@ -53,7 +53,7 @@ class ClassicalForm:
 
     @property
     def printed(self) -> bool:
-        """Whether the form contains the equations as the scene states them."""
+        """True if the form contains the equations as the scene states them."""
         return self.key == PRINTED
 
     def scene_state(self, domain: Domain, state: Sequence[Scalar]) -> tuple[Scalar, ...]:
@@ -291,7 +291,7 @@ class _Change:
         return "; ".join(dict.fromkeys(parts))
 
     def moving(self, leaf: _Leaf) -> bool:
-        """Whether the velocity of a factor is its velocity in the body frame."""
+        """Return True if the velocity of a factor of the group is expressed in the body frame."""
         return self.body and leaf.group.offers(LeftTranslation) is not None and not leaf.group.abelian
 
     def evaluated(self, roots: Sequence[Expr], known: Bindings) -> tuple[Expr, ...]:

@@ -1,4 +1,4 @@
-"""The frame of the momenta that emitted code accepts and returns."""
+"""The frame, space or body, in which emitted code accepts and returns momenta."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from codegen.scene.problem import Problem
 from orderconds.errors import UnknownName
 
 FRAMES = (SPACE, BODY)
-"""The frames of the momentum: right-trivialised (space) and left-trivialised (body)."""
+"""The frames of the momentum: ``space`` is right-trivialised, ``body`` is left-trivialised."""
 
 
 def with_frame(problem: Problem, frame: str) -> Problem:
-    """Return a problem with the momenta of emitted code in a frame: ``space`` or ``body``.
+    """Return the problem, changed so that emitted code accepts and returns momenta in the given frame.
 
-    The momentum in the body is Ad*_q mu, left-trivialised. Step programs compute with mu, whichever frame is
-    chosen. :class:`SceneError` is raised for the body frame of a problem without momenta, or on an abelian
-    group.
+    ``frame`` is ``space`` for the right-trivialised momentum mu or ``body`` for the left-trivialised momentum
+    Ad*_q mu. Step programs compute with mu in both cases. A :class:`SceneError` is raised if ``frame`` is
+    ``body`` and the problem has no momenta or its group is abelian.
     """
     if frame not in FRAMES:
         raise UnknownName(f"unknown frame {frame}", expected=" or ".join(FRAMES))

@@ -1,4 +1,4 @@
-"""Whether the projection of a scene's action reaches the orbit of the initial state.
+"""Tests whether the projection of a scene's action reaches the orbit of the initial state.
 
 An action of a group without projection returns a point unchanged (:meth:`Action.to_orbit`). In this case the
 results of a method that relies on the projection stay on the orbit only if the orbit is open.
@@ -27,7 +27,8 @@ INDEPENDENT times the vector.
 
 
 def reaches_orbit(problem: Problem) -> bool:
-    """Whether the orbit of the initial state is open, or points near the initial state are projected onto it.
+    """Return True if the orbit of the initial state is open, or points near the initial state are projected
+    onto it.
 
     Each direction perpendicular to the orbit is tested at the initial state.
     """

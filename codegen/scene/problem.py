@@ -99,12 +99,12 @@ class Problem:
 
     @property
     def autonomous(self) -> bool:
-        """Whether the field depends neither on the time nor on signals that are read at run time."""
+        """True if the field depends neither on the time nor on signals that are read at run time."""
         return not self.inputs and not any(n.op == "sym" and n.payload == TIME for n in walk(self.roots))
 
     @property
     def is_hamiltonian(self) -> bool:
-        """Whether programs have the state (q, mu) and evaluate the operation ``hamilton``."""
+        """True if programs have the state (q, mu) and evaluate the operation ``hamilton``."""
         return self.paired
 
     def dimension(self) -> int:
@@ -180,7 +180,7 @@ class Problem:
 
     @property
     def has_body(self) -> bool:
-        """Whether the field has formulas in the body frame."""
+        """True if the field has formulas in the body frame."""
         return self.body is not None
 
     @cached_property

@@ -1,20 +1,20 @@
 """The cost of a step in each family: field evaluations, exponentials and brackets.
 
-A field evaluation is counted for each stage on which the update depends. The first stage of an explicit
-first-same-as-last method counts only in the first step, and an implicit method counts one sweep of its
-iteration. Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage,
-without simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
+A field evaluation is counted for each stage on which the update depends. Stages that only the error
+estimate uses are not counted. An explicit first-same-as-last method evaluates its last stage for the next
+step, in place of the first stage of that step. An implicit method counts one sweep of its iteration.
+Equal exponents count as one exponential. The brackets of dexpinv are counted at each stage, without
+simplification; dexpinv at zero needs no bracket. For a Magnus method the brackets are the different
 commutators in its exponents, and a Cayley transform counts as an exponential.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.brackets import Bracket, Product, Term, spell
-from orderconds.tableau.method_properties import explicit, fsal
 from orderconds.tableau.methods import CommutatorFree, PartitionedRungeKutta, RungeKutta
 from orderconds.tableau.products import Magnus
 from orderconds.tableau.record import Tableau
@@ -45,8 +45,7 @@ def evaluations(tableau: Tableau) -> Work | None:
     if isinstance(method, RungeKutta):
         return Work(_stages_evaluated(method, ring))
     if isinstance(method, CommutatorFree):
-        rows = _rows(method)
-        return Work(sum(any(ring.is_zero(row[j]) is not True for row in rows) for j in range(method.s)))
+        return Work(len(_used(_rows(method, ring), ring)))
     return Work(method.s) if isinstance(method, PartitionedRungeKutta) else None
 
 
@@ -66,7 +65,7 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
         method = method.as_crouch_grossman(ring)
     if not isinstance(method, CommutatorFree):
         return counted
-    return Work(counted.evaluations, _distinct(_rows(method), ring), 0)
+    return Work(counted.evaluations, _distinct(_rows(method, ring), ring), 0)
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
@@ -91,7 +90,8 @@ def munthe_kaas_work(tableau: Tableau, cutoff: int | None) -> Work | None:
     method, ring = tableau.read_as(("rk",)), tableau.ring
     if not isinstance(method, RungeKutta):
         return evaluations(tableau)
-    moved = [row for row in method.A if any(ring.is_zero(x) is not True for x in row)]
+    needed = _needed(method, ring)
+    moved = [method.A[i] for i in needed if any(ring.is_zero(x) is not True for x in method.A[i])]
     count = len(moved) * _nested(cutoff)
     return Work(_stages_evaluated(method, ring), _distinct(moved, ring) + 1, count)
 
@@ -109,11 +109,40 @@ def magnus_work(tableau: Tableau) -> Work | None:
 
 
 def _stages_evaluated(method: RungeKutta, ring: Ring) -> int:
-    return method.s - (1 if explicit(method, ring) and fsal(method, ring) else 0)
+    # The field at the last stage of an explicit first-same-as-last method is the field at the first stage of
+    # the next step. Its weight is zero, so it is not among the needed stages.
+    return len(_needed(method, ring))
 
 
-def _rows(method: CommutatorFree) -> list[tuple[Element, ...]]:
-    return [row for stage in (*method.stages, method.update) for row in stage.exponentials]
+def _needed(method: RungeKutta, ring: Ring) -> list[int]:
+    """Return the indices of the stages on which the update depends, in ascending order."""
+    needed = _used([method.b], ring)
+    waiting = sorted(needed)
+    while waiting:
+        found = _used([method.A[waiting.pop()]], ring) - needed
+        needed |= found
+        waiting += sorted(found)
+    return sorted(needed)
+
+
+def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
+    """Return the exponents of the update and of all stages on which the update depends."""
+    rows: list[tuple[Element, ...]] = []
+    reached: set[int] = set()
+    waiting = [method.update]
+    while waiting:
+        stage = waiting.pop()
+        rows += stage.exponentials
+        # A stage may begin at the point of another stage.
+        found = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
+        waiting += [method.stages[j] for j in sorted(found - reached)]
+        reached |= found
+    return rows
+
+
+def _used(rows: Iterable[Sequence[Element]], ring: Ring) -> set[int]:
+    """Return the indices of the entries that are non-zero in some row."""
+    return {j for row in rows for j, x in enumerate(row) if ring.is_zero(x) is not True}
 
 
 def _linear(method: Magnus, ring: Ring) -> Work:

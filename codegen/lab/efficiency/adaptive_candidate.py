@@ -38,7 +38,7 @@ class AdaptiveCandidate(EmittedCandidate):
         return iter(TOLERANCES)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Whether to stop; never after a run that diverged, because a tighter tolerance may succeed."""
+        """Return True if no finer run is needed; False after a run that diverged: a finer one may succeed."""
         error = rows[-1].error
         diverged = error is not None and error > max(1.0, math.hypot(*map(float, self.exact.state)))
         return not diverged and super().enough(rows)

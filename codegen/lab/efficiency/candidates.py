@@ -101,7 +101,7 @@ def in_printed_form(problem: Problem, tableaux: Sequence[str] = ()) -> Iterator[
 
 
 def readable(tableau: Tableau, kind: type[Family]) -> bool:
-    """Whether a family reads a tableau, and a step does not divide by a zero weight."""
+    """Return True if a family reads a tableau, and a step does not divide by a zero weight."""
     if tableau.family not in kind.formats and tableau.read_as(kind.formats) is None:
         return False
     method = tableau.read_as(("rk",))
@@ -148,7 +148,8 @@ def size(tableau: Tableau) -> int:
 
 
 def is_explicit(tableau: Tableau) -> bool:
-    """Whether each stage depends on earlier stages only; true for tableaux that are not read as A and b."""
+    """Return True if each stage depends on earlier stages only; true for tableaux that are not read as A and
+    b."""
     method = tableau.read_as(("rk",))
     if not isinstance(method, RungeKutta):
         return True

@@ -119,7 +119,8 @@ class EmittedCandidate:
         return net_times(sample, overhead)
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Whether the budget is reached or rounding errors dominate, so that finer runs are not needed."""
+        """Return True if the budget is reached or rounding errors dominate, so that finer runs are not
+        needed."""
         return beyond_budget(rows, self.budget) or at_rounding(rows, self.exact)
 
     def _row(

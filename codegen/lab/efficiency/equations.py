@@ -25,7 +25,7 @@ class Equations:
 
     @property
     def printed(self) -> bool:
-        """Whether the coordinates are those of the scene."""
+        """True if the coordinates are those of the scene."""
         return self.form is None or self.form.printed
 
     @property

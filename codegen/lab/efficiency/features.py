@@ -47,7 +47,7 @@ def features(compiled: Compiled, artifact: Artifact, label: str = "") -> Feature
 
 
 def is_symplectic(compiled: Compiled) -> bool:
-    """Whether steps of constant size are symplectic maps.
+    """Return True if steps of constant size are symplectic maps.
 
     False for methods with step-size control, because variable steps destroy the long-time behaviour of
     symplectic methods.

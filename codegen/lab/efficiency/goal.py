@@ -52,16 +52,16 @@ class Goal:
 
     @property
     def long(self) -> bool:
-        """Whether a need includes long times."""
+        """True if a need includes long times."""
         return any(need.long for need in NEEDS if need.name in self.needs)
 
     @property
     def explicit(self) -> bool:
-        """Whether methods that solve equations are excluded."""
+        """True if methods that solve equations are excluded."""
         return "explicit" in self.needs
 
     def met(self, properties: Features) -> bool:
-        """Whether a compiled recipe meets the needs."""
+        """Return True if a compiled recipe meets the needs."""
         given = {
             "manifold": properties.on_manifold,
             "symplectic": properties.symplectic,
@@ -75,7 +75,7 @@ class Goal:
 
 
 def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
-    """Whether a recipe may meet the needs; other needs are tested when the recipe is compiled."""
+    """Return True if a recipe may meet the needs; other needs are tested when the recipe is compiled."""
     if ("adaptive" in needs and not recipe.adaptive) or ("fixed" in needs and recipe.adaptive):
         return False
     if "manifold" in needs and not stays_on_manifold(recipe, problem):
@@ -91,5 +91,5 @@ def possible(recipe: Recipe, needs: tuple[str, ...], problem: Problem) -> bool:
 
 
 def stays_on_manifold(recipe: Recipe, problem: Problem) -> bool:
-    """Whether the states of a recipe stay on the manifold of the scene up to rounding."""
+    """Return True if the states of a recipe stay on the manifold of the scene up to rounding."""
     return recipe.form == PRINTED and lowering(recipe.family).keeps_manifold(problem)

@@ -90,7 +90,8 @@ class PeerCandidate:
         )
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Whether to stop: the budget is reached, the peer does not support the scene, or rounding dominates.
+        """Return True if no finer run is needed: the budget is reached, the peer does not support the scene,
+        or rounding dominates.
 
         Rounding is tested only for peers with equal steps.
         """

@@ -133,7 +133,7 @@ class Bar:
     explicit: bool = False
 
     def too_high(self, family: str, explicit: bool, step_seconds: float = 0.0) -> bool:
-        """Whether a method whose step takes at least ``step_seconds`` cannot reach the bar.
+        """Return True if a method whose step takes at least ``step_seconds`` cannot reach the bar.
 
         If the methods of the next higher orders are far from the error, lower orders are even farther.
         """
@@ -147,7 +147,7 @@ class Bar:
         return max(self.steps, min(MANY_STEPS, self.seconds / step_seconds)) if step_seconds else MANY_STEPS
 
     def hopeless(self, family: str) -> bool:
-        """Whether neither explicit nor implicit methods of a family can reach the bar."""
+        """Return True if neither explicit nor implicit methods of a family can reach the bar."""
         return self.too_high(family, True) and self.too_high(family, False)
 
 

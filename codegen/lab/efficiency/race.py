@@ -182,7 +182,7 @@ class Racer:
         return control, False
 
     def _at_rounding(self, values: list[float]) -> bool:
-        """Whether the last three refinements did not reduce an error that is near rounding."""
+        """Return True if the last three refinements did not reduce an error that is near rounding."""
         size = max(1.0, math.hypot(*map(float, self.exact.state)))
         return len(values) > 4 and min(values) < 1e-9 * size and min(values[-3:]) > min(values[:-3]) / 2
 

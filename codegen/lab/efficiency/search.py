@@ -267,7 +267,8 @@ class Search:
         return ranked, lost
 
     def _loses(self, result: Result) -> bool:
-        """Whether a conserved quantity is lost, or a step fails, in a long run with the step of a result."""
+        """Return True if a conserved quantity is lost, or a step fails, in a long run with the step of a
+        result."""
         racer = self.racers[result.entry.recipe]
         h = (racer.last - racer.first) / result.steps
         done = record(self.problem, racer.integrator, racer.initial, h, LONG_STEPS, racer.first)

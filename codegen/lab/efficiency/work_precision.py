@@ -88,7 +88,7 @@ class Candidate(Protocol):
         """Run once for the error, then several times for the CPU time."""
 
     def enough(self, rows: Sequence[Row]) -> bool:
-        """Whether finer runs are not needed."""
+        """Return True if finer runs are not needed."""
 
 
 def net_times(sample: Callable[[], Sequence[float]], overhead: Callable[[], float]) -> list[float]:
@@ -173,7 +173,7 @@ def monotone(rows: Sequence[Row], measure: Callable[[float], Row], fresh: Collec
 
 
 def _inverted(a: Row, b: Row) -> bool:
-    """Whether the first of two rows has fewer steps and took longer."""
+    """Return True if the first of two rows has fewer steps and took longer."""
     if None in (a.seconds, b.seconds, a.steps, b.steps):
         return False
     return (a.steps or 0) < (b.steps or 0) and (a.seconds or 0.0) > (b.seconds or 0.0)
@@ -215,13 +215,14 @@ def doubled_steps() -> Iterator[float]:
 
 
 def beyond_budget(rows: Sequence[Row], budget: float) -> bool:
-    """Whether the next run would take longer than ``budget`` CPU seconds."""
+    """Return True if the next run would take longer than ``budget`` CPU seconds."""
     last = rows[-1]
     return last.seconds is not None and 2 * last.seconds > budget
 
 
 def at_rounding(rows: Sequence[Row], exact: Reference) -> bool:
-    """Whether the errors are near rounding and the last two halvings of the step hardly reduced them."""
+    """Return True if the errors are near rounding and the last two halvings of the step hardly reduced
+    them."""
     errors = [r.error for r in rows[-3:] if r.error is not None]
     size = max(1.0, math.hypot(*map(float, exact.state)))
     return len(errors) == 3 and errors[0] <= NEAR_ROUNDING * size and min(errors[1:]) > errors[0] / 3

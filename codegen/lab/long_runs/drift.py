@@ -100,7 +100,7 @@ class Drift:
 
     @property
     def is_drift(self) -> bool:
-        """Whether the interval of the slope excludes zero."""
+        """True if the interval of the slope excludes zero."""
         return abs(self.slope) > self.half_width
 
     @property
@@ -136,7 +136,7 @@ class Drift:
 
     @property
     def drifts(self) -> bool | None:
-        """Whether the quantity drifts or is lost; None if the run is too short to tell."""
+        """True if the quantity drifts or is lost; None if the run is too short to tell."""
         return None if self.law == "too short to tell" else self.law in ("drift", "lost", "random walk")
 
     def as_json(self) -> dict[str, object]:

@@ -48,7 +48,7 @@ class LongRuns(Measurement[Result]):
         return [*(run.as_json() for run in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Whether every method could be run."""
+        """Return True if every method could be run."""
         return not result.failures
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:

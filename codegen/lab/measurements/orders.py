@@ -34,7 +34,7 @@ class Orders(Measurement[Result]):
         return [*(m.as_json() for m in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Whether every observed order equals the computed order."""
+        """Return True if every observed order equals the computed order."""
         return not result.failures and all(m.verdict == "holds" for m in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:

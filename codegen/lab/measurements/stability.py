@@ -52,7 +52,7 @@ class StabilityTests(Measurement[Result]):
         return [*(s.as_json() for s in result.measured), *(f.as_json() for f in result.failures)]
 
     def holds(self, result: Result) -> bool:
-        """Whether every method was tested, no result is wrong, and every endurance run holds."""
+        """Return True if every method was tested, no result is wrong, and every endurance run passed."""
         return not result.failures and all(s.honest for s in result.measured)
 
     def lines(self, result: Result, subject: Subject) -> Iterable[str]:

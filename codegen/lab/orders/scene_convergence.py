@@ -92,7 +92,7 @@ class Convergences:
         return self.results[index]
 
     def __bool__(self) -> bool:
-        """Whether every observed order equals the stated order."""
+        """Return True if every observed order equals the stated order."""
         return all(result.verdict == "holds" for result in self.results)
 
     def __repr__(self) -> str:

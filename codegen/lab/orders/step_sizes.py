@@ -73,7 +73,7 @@ class Refinement:
 
     @property
     def settled(self) -> bool:
-        """Whether the last two changes of the slope leave an estimated error of at most :data:`SETTLED`."""
+        """True if the last two changes of the slope leave an estimated error of at most :data:`SETTLED`."""
         last, ratio = self.slopes[-3:], [a.h / b.h for a, b in pairwise(self.clean)][-2:]
         changes = [abs(b - a) for a, b in pairwise(last)]
         return len(last) == 3 and all(c <= SETTLED * (r - 1) for c, r in zip(changes, ratio, strict=True))
@@ -108,7 +108,7 @@ class Refinement:
 
     @property
     def too_fine(self) -> bool:
-        """Whether the errors of the finest runs are too small to be used."""
+        """True if the errors of the finest runs are too small to be used."""
         return any(r.excluded and math.isfinite(r.error) for r in self.runs)
 
 

@@ -92,7 +92,7 @@ GROUPS = {
 
 
 def installed(name: str) -> bool:
-    """Whether the software of a peer is installed.
+    """Return True if the software of a peer is installed.
 
     >>> installed("scipy-dop853")
     True

@@ -38,7 +38,7 @@ class Endurance:
 
     @property
     def held(self) -> bool:
-        """Whether the final state is on the manifold up to rounding, or the run stopped with a status."""
+        """True if the final state is on the manifold up to rounding, or the run stopped with a status."""
         return bool(self.failure) or self.defect is None or self.defect <= 64 * self.steps * 2.0**-53
 
     def as_json(self) -> dict[str, object]:

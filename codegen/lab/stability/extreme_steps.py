@@ -26,18 +26,26 @@ import math
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import accumulate
+from typing import TYPE_CHECKING
+
+from flint import arb
 
 from codegen.emitter import Compiled, Optimised
 from codegen.groups import Rotation
 from codegen.integrator import StepFailed
-from codegen.ir.domain import FloatDomain, NotConverged, PreciseDomain
+from codegen.ir.ball_domain import BallDomain
+from codegen.ir.domain import FloatDomain, NotConverged, Value
 from codegen.ir.interpret import flatten, interpret
 from codegen.ir.values import Kind
 from codegen.lab.number_types import Scalar, Vector
 from codegen.lab.runner import Emitted, split_state
 from codegen.lower import problem_for
 from codegen.printers import target
+
+if TYPE_CHECKING:
+    import mpmath
 
 DIGITS = 60
 EPSILON = 2.0**-53
@@ -204,11 +212,7 @@ def _blocks(compiled: Compiled) -> list[range]:
 
 def _probe(case: Case, number: int) -> tuple[Vector, Scalar, Scalar]:
     """Return the input of a case with a random rounding error of either sign in every number."""
-    import mpmath
-
-    draw = random.Random(number)
-    context = mpmath.mp.clone()
-    context.dps = DIGITS
+    draw, context = random.Random(number), mpmath_context(DIGITS)
 
     def rounded(x: float) -> Scalar:
         return context.mpf(x) * (1 + draw.choice((-1, 1)) * context.mpf(EPSILON))
@@ -261,7 +265,7 @@ def solutions(runner: Emitted, state: Sequence[float], t: float, h: float) -> li
     return [x[end - n : end] for x in solved for n, end in zip(widths, ends, strict=True)]
 
 
-class Rounding(PreciseDomain):
+class Rounding(BallDomain):
     """Numbers of many digits in which every result of an operation has one rounding error of a double.
 
     The right-hand side of every equation has two rounding errors: one relative to its own size, and one
@@ -272,24 +276,32 @@ class Rounding(PreciseDomain):
     def __init__(self, h: Scalar, digits: int, probe: int) -> None:
         super().__init__(h, digits)
         self.probe = probe
+        self.signs: dict[str, list[int]] = {}
+        with self.precision():
+            self.unit = arb(EPSILON)
 
-    def computed(self, name: str, value: Scalar) -> Scalar:
+    def computed(self, name: str, value: Value) -> Value:
         """Return the result of an operation with a rounding error."""
-        draw = random.Random(f"{self.probe} {name}")
-        if isinstance(value, tuple):
-            return tuple(x * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON)) for x in value)
-        return value * (1 + draw.choice((-1, 1)) * self.context.mpf(EPSILON))
+        size = len(value) if isinstance(value, tuple) else 1
+        if name not in self.signs:
+            draw = random.Random(f"{self.probe} {name}")
+            self.signs[name] = [draw.choice((-1, 1)) for _ in range(size)]
+        if not isinstance(value, tuple):
+            return (value * (1 + self.signs[name][0] * self.unit)).mid()
+        pairs = zip(value, self.signs[name], strict=True)
+        return tuple((x * (1 + sign * self.unit)).mid() for x, sign in pairs)
 
     def rounded(self, images: list[Scalar]) -> list[Scalar]:
         """Return the right-hand sides of the equations with rounding errors."""
         draw = random.Random(self.probe)
-        moves = [[draw.choice((-1, 1)) * EPSILON for _ in range(2)] for _ in images]
+        moves = [[draw.choice((-1, 1)) * self.unit for _ in range(2)] for _ in images]
         after = [*images[1:], images[0]]
-        return [x + a * x + b * y for x, y, (a, b) in zip(images, after, moves, strict=True)]
+        pairs = zip(images, after, moves, strict=True)
+        return [(x + a * x + b * y).mid() for x, y, (a, b) in pairs]
 
     def increment(self, x: Scalar) -> Scalar:
         """Return the offset of a difference quotient, for a result with a few correct digits."""
-        return self.context.mpf(2) ** -40 * max(1, abs(x))
+        return arb((1, -40)) * max(arb(1), abs(x.mid()))
 
 
 def precise_step(
@@ -304,20 +316,40 @@ def precise_step(
     probe: int | None = None,
     digits: int = DIGITS,
 ) -> list[Scalar]:
-    """Return the state after one step of the program, in many digits; ``near`` as for :func:`interpret`.
+    """Return the state after one step of the program as mpmath numbers with many digits.
 
-    ``probe`` is the seed of the rounding errors, None for exact operations.
+    ``near`` as for :func:`interpret`; its numbers are replaced by mpmath numbers. ``probe`` is the seed of
+    the rounding errors, None for exact operations. ArithmeticError or ValueError is raised if a number of the
+    step is not a finite real number.
     """
-    domain = PreciseDomain(h, digits) if probe is None else Rounding(h, digits, probe)
+    domain = BallDomain(h, digits) if probe is None else Rounding(h, digits, probe)
+    context = mpmath_context(digits)
     problem = problem_for(compiled.scene, compiled.method)
-    numbers = tuple(domain.context.mpf(x) for x in state)
-    values: dict[str, Scalar] = {"t": domain.context.mpf(t), **split_state(problem, numbers)}
     program = compiled.program
-    if near is not None:
-        near[:] = [[domain.context.mpf(x) for x in block] for block in near]
-    inputs = {v.name: values[v.name] for v in program.inputs}
-    outputs = interpret(program, problem, domain, inputs, limit=limit, newton=newton, near=near)
-    return [x for block in problem.state for x in flatten(block.kind, outputs[block.name])]
+    with domain.precision():
+        numbers = tuple(map(domain.scalar, state))
+        values: dict[str, Scalar] = {"t": domain.scalar(t), **split_state(problem, numbers)}
+        if near is not None:
+            near[:] = [[domain.scalar(x) for x in block] for block in near]
+        inputs = {v.name: values[v.name] for v in program.inputs}
+        outputs = interpret(program, problem, domain, inputs, limit=limit, newton=newton, near=near)
+        if near is not None:
+            near[:] = [[domain.mpf(x, context) for x in block] for block in near]
+        end = [x for block in problem.state for x in flatten(block.kind, outputs[block.name])]
+        if not all(x.is_finite() for x in end):
+            raise ArithmeticError("the step divides by zero, or a number is not finite")
+        return [domain.mpf(x, context) for x in end]
+
+
+@cache
+def mpmath_context(digits: int) -> mpmath.ctx_mp.MPContext:
+    """Return an mpmath context of its own with this number of digits."""
+    # mpmath's global context is not changed, because its precision belongs to the caller.
+    import mpmath
+
+    context = mpmath.mp.clone()
+    context.dps = digits
+    return context
 
 
 def solved_step(

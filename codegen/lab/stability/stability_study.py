@@ -49,12 +49,12 @@ class Stability:
 
     @property
     def honest(self) -> bool:
-        """Whether no result is wrong, and every endurance run holds."""
+        """True if no result is wrong and every endurance run passed."""
         return not self.wrong and all(e.held for e in self.findings.endurance)
 
     @property
     def held(self) -> bool:
-        """Whether no result is wrong or undetermined, and every endurance run holds."""
+        """True if no result is wrong or undetermined, and every endurance run passed."""
         return self.honest and not any(a.verdict == SILENT for a in self.findings.answers)
 
     def as_json(self) -> dict[str, object]:

@@ -384,5 +384,5 @@ def _arguments(given: Sequence[str]) -> tuple[str, ...]:
 
 
 def _is_short(line: str) -> bool:
-    """Whether a statement is a single copy without a declaration."""
+    """Return True if a statement is a single copy without a declaration."""
     return len(line.split()) == 3 and line.endswith(";")

@@ -170,9 +170,8 @@ class _Body:
         return group
 
     def follow(self, group: Sequence[Assign], statement: Assign, reading: bool) -> bool:
-        """Whether a statement reads (or writes) the next entry after the entries of ``group`` and may join
-        the group.
-        """
+        """Return True if a statement reads (or writes) the next entry after the entries of ``group`` and may
+        join the group."""
 
         def one(s: Assign) -> Term:
             return s.value if reading else s.target

@@ -71,7 +71,7 @@ class _Module:
 
     @property
     def single(self) -> bool:
-        """Whether numbers are NumPy's float32."""
+        """True if numbers are NumPy's float32."""
         return self.interface.format is not DOUBLE
 
     @cached_property

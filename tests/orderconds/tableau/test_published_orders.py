@@ -18,10 +18,11 @@ PUBLISHED = {
         "lobatto3a3 lobatto3b3 lobatto3c3 lobatto3d3 kahan_triple_jump",
         5: "nystrom5 butcher5 lawson5 fehlberg5 england5 cash_karp5 dormand_prince5 bogacki_shampine5 "
         "radau1a3 radau2a3",
-        6: "butcher6 luther6 verner6 gauss3 lobatto3a4 lobatto3b4 lobatto3c4 lobatto3d4",
-        7: "radau1a4 radau2a4",
-        8: "cooper_verner8 fehlberg8 dop853 gauss4 lobatto3a5 lobatto3b5 lobatto3c5 lobatto3d5",
-        9: "radau1a5 radau2a5",
+        6: "butcher6 luther6 verner6 verner6_efficient gauss3 lobatto3a4 lobatto3b4 lobatto3c4 lobatto3d4",
+        7: "verner7_efficient radau1a4 radau2a4",
+        8: "cooper_verner8 fehlberg8 dop853 verner8_efficient gauss4 lobatto3a5 lobatto3b5 "
+        "lobatto3c5 lobatto3d5",
+        9: "verner9_efficient radau1a5 radau2a5",
         10: "gauss5",
     },
     "cg": {3: "cg3 cg3b", 4: "cg4 cg4a"},
@@ -89,6 +90,10 @@ PAIRS = {
     "dormand_prince5": 4,
     "bogacki_shampine5": 4,
     "verner6": 5,
+    "verner6_efficient": 5,
+    "verner7_efficient": 6,
+    "verner8_efficient": 7,
+    "verner9_efficient": 8,
     "fehlberg8": 7,
     "dop853": 5,
 }

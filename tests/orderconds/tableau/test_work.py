@@ -54,3 +54,32 @@ def test_equal_exponents_are_one_exponential() -> None:
 def test_the_report_has_the_counts_of_each_family_checked() -> None:
     record = check("rk4", family="rkmk(1)").as_json()
     assert record["work"] == {"rkmk(1)": {"evaluations": 4, "exponentials": 4, "brackets": 3}}
+
+
+@pytest.mark.parametrize(
+    ("name", "evaluated", "exponentials"),
+    [("zonneveld4", 4, 4), ("verner6", 7, 7), ("dormand_prince5", 6, 6), ("verner9_efficient", 15, 15)],
+)
+def test_a_stage_that_only_the_estimate_uses_costs_nothing(
+    name: str, evaluated: int, exponentials: int
+) -> None:
+    work = get("rkmk", cutoff=0).work(read(name))
+    assert work is not None
+    assert (work.evaluations, work.exponentials) == (evaluated, exponentials)
+
+
+def test_an_exponential_of_an_unused_stage_of_a_commutator_free_method_is_not_counted() -> None:
+    text = """
+name = "t"
+family = "cf"
+[[stage]]
+[[stage]]
+exp = [["1/2"]]
+[[stage]]
+from = 2
+exp = [["0", "1/3"], ["0", "1/5"]]
+[update]
+exp = [["0", "1"]]
+"""
+    work = get("cf").work(Tableau.loads(text))
+    assert work == Work(2, 2, 0)
