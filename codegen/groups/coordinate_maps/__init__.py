@@ -28,9 +28,8 @@ def coordinate_map(given: str | CoordinateMap, group: LieGroup, where: str) -> C
     """
     if given == EXPONENTIAL:
         return None
-    chosen = (
-        given if isinstance(given, CoordinateMap) else MAPS.get(given) if isinstance(given, str) else None
-    )
+    known = MAPS.get(given) if isinstance(given, str) else None
+    chosen = given if isinstance(given, CoordinateMap) else known
     if chosen is None:
         names = ", ".join(repr(name) for name in (EXPONENTIAL, *MAPS))
         raise SceneError(
