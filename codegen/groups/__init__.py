@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from codegen.groups.actions import (
         Action,
         AdjointAction,
-        Affine,
+        AffineAction,
         CoadjointAction,
         Columns,
         Conjugation,
@@ -49,7 +49,7 @@ __all__ = [
     "SO3",
     "Action",
     "AdjointAction",
-    "Affine",
+    "AffineAction",
     "CoadjointAction",
     "Columns",
     "Conjugation",
@@ -79,7 +79,7 @@ lazy(
     actions=(
         "Action",
         "AdjointAction",
-        "Affine",
+        "AffineAction",
         "CoadjointAction",
         "Columns",
         "Conjugation",

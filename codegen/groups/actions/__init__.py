@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.groups.actions.adjoint import AdjointAction
-from codegen.groups.actions.affine import Affine
+from codegen.groups.actions.affine import AffineAction
 from codegen.groups.actions.base import Action
 from codegen.groups.actions.coadjoint import CoadjointAction
 from codegen.groups.actions.columns import Columns
@@ -21,7 +21,7 @@ from codegen.groups.registry import Registry
 __all__ = [
     "Action",
     "AdjointAction",
-    "Affine",
+    "AffineAction",
     "CoadjointAction",
     "Columns",
     "Conjugation",
@@ -38,7 +38,7 @@ __all__ = [
 
 LISTED = (
     "AdjointAction",
-    "Affine",
+    "AffineAction",
     "CoadjointAction",
     "Columns",
     "Conjugation",

@@ -10,7 +10,7 @@ from codegen.groups.linear_algebra import S, Vector, dot, units
 from codegen.ir.domain import Domain, FloatDomain
 
 
-class Affine(Action):
+class AffineAction(Action):
     """Affine maps acting on points, g.z = A z + b, for matrices g = [[A, b], [0, 1]].
 
     The velocity is x.z = L z + c for the matrix [[L, c], [0, 0]] of x. For a semilinear equation z' = L z +

@@ -6,7 +6,7 @@ the exponential Euler method.
 
 from sympy import Matrix, Rational, symbols
 
-from codegen.groups import Affine, MatrixGroup
+from codegen.groups import AffineAction, MatrixGroup
 from codegen.scene import FieldScene
 
 n = 3
@@ -26,7 +26,7 @@ N = Matrix([x - x**3 + Rational(k + 1, 10) for k, x in enumerate(u)])
 scene = FieldScene(
     title="Diffusion with a reaction",
     group=MatrixGroup("maps exp(t L) u + b", BASIS),
-    action=Affine(),
+    action=AffineAction(),
     y=u,
     f=[1, *N],
     y0=[Rational(1, 2), 1, Rational(-1, 4)],
