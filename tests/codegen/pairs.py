@@ -17,10 +17,12 @@ from sympy import Rational, Symbol
 
 from codegen.groups import DiagonalAction, LeftMultiplication, Stiefel, actions, listing
 from codegen.groups.capabilities import Coadjoint
+from codegen.groups.linear_algebra import units
 from codegen.ir.domain import FloatDomain
 from codegen.lower import lower, method_for, names
 from codegen.printers import names as target_names
 from codegen.scene import FieldScene, HamiltonianScene
+from codegen.scene.energy import ENERGY
 from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 from tests.codegen.family_cases import CASES, SHORT
@@ -46,6 +48,7 @@ class Pair:
     method: str
     order: int
     hamiltonian: bool
+    energy: bool
     refusal: str
 
 
@@ -58,12 +61,37 @@ def _exact(values: Any) -> list[Any]:
     return [Rational(*Fraction(x).as_integer_ratio()) for x in values]
 
 
-def _field(row: str, group: Any, action: Any, start: list[Any]) -> Problem:
-    """Return a quadratic field without symmetry."""
+class Formulas(FloatDomain):
+    """Sympy expressions as the scalars of an action whose formulas are rational."""
+
+    def rational(self, p: int, q: int = 1) -> Any:
+        """Return p/q."""
+        return Rational(p, q)
+
+
+def _field(row: str, group: Any, action: Any, start: list[Any], energy: bool) -> Problem:
+    """Return a quadratic field without symmetry, or a field f = B g that keeps the energy H.
+
+    g_i is the derivative of H along the basis element e_i, and B is a constant skew matrix.
+    """
     rng = random.Random(row)
     y = [Symbol(f"y{k}", real=True) for k in range(len(start))]
-    f = [quadratic(rng, y, 3) / 2 for _ in range(group.dim)]
-    return FieldScene(group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair")
+    if not energy:
+        f = [quadratic(rng, y, 3) / 2 for _ in range(group.dim)]
+        return FieldScene(group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair")
+    H = quadratic(rng, y, 3) / 16
+    d = Formulas(0.0)
+    basis: Any = units(d, group.dim)
+    slopes = [
+        sum(H.diff(s) * v for s, v in zip(y, action.velocity(d, group, e, tuple(y)), strict=True))
+        for e in basis
+    ]
+    f = [slopes[(k + 1) % group.dim] - slopes[k - 1] for k in range(group.dim)]
+    if group.dim == 2:
+        f = [slopes[1], -slopes[0]]
+    return FieldScene(
+        group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair", invariants={ENERGY: H}
+    )
 
 
 def _hamiltonian(row: str, group: Any) -> Problem:
@@ -87,15 +115,15 @@ def _hamiltonian(row: str, group: Any) -> Problem:
 
 
 @cache
-def scene_of(kind: str, row: str, hamiltonian: bool) -> Problem:
+def scene_of(kind: str, row: str, hamiltonian: bool, energy: bool) -> Problem:
     """Return the scene of a group or of an action; InputError if there is none."""
     if kind == GROUP:
         group = SAMPLES[row]
         if hamiltonian:
             return _hamiltonian(row, group)
-        return _field(row, group, LeftMultiplication(), _exact(group.identity(FloatDomain(0.0))))
+        return _field(row, group, LeftMultiplication(), _exact(group.identity(FloatDomain(0.0))), energy)
     action, name = ONE_OF_EACH[row]
-    return _field(row, HERE[name], action, _start(action, HERE[name]))
+    return _field(row, HERE[name], action, _start(action, HERE[name]), energy)
 
 
 def _start(action: Any, group: Any) -> list[Any]:
@@ -107,7 +135,7 @@ def _start(action: Any, group: Any) -> list[Any]:
     size = action.point_size(group)
     if isinstance(action, Stiefel):
         return [int(k // action.columns == k % action.columns) for k in range(size)]
-    return [Rational(k + 1, 2) for k in range(size)]
+    return [Rational(k + 1, size + 1) for k in range(size)]
 
 
 @cache
@@ -117,12 +145,13 @@ def pair(kind: str, row: str, family: str) -> Pair:
     refusal = ""
     # On a group a family for Hamiltonians is tried on T*G; an action gives a field on its manifold.
     hamiltonian = kind == GROUP and case.polynomial().paired
+    energy = not hamiltonian and bool(case.polynomial().invariants)
     try:
-        scene = scene_of(kind, row, hamiltonian)
+        scene = scene_of(kind, row, hamiltonian, energy)
         lower(scene, method_for(scene, case.method))
     except InputError as error:
         refusal = str(error)
-    return Pair(kind, row, family, case.method, case.order, hamiltonian, refusal)
+    return Pair(kind, row, family, case.method, case.order, hamiltonian, energy, refusal)
 
 
 def pairs(kind: str) -> Iterator[Pair]:
