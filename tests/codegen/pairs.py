@@ -79,7 +79,7 @@ def _field(row: str, group: Any, action: Any, start: list[Any], energy: bool) ->
     if not energy:
         f = [quadratic(rng, y, 3) / 2 for _ in range(group.dim)]
         return FieldScene(group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair")
-    H = quadratic(rng, y, 3) / 16
+    H = quadratic(rng, y, 3) / 4
     d = Formulas(0.0)
     basis: Any = units(d, group.dim)
     slopes = [
