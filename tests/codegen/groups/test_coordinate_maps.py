@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from itertools import product
 
 import pytest
 from sympy import Matrix, Rational, symbols
@@ -191,9 +192,16 @@ def in_coordinates(name, coordinates):
     return replace(scene, coordinates=coordinate_map(coordinates, scene.group, name))
 
 
-@pytest.mark.parametrize("coordinates", ["cayley", "second_kind"])
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("method", ["rkmk:kutta3", "rkmk(0):rk4"])
+QUICK = [("S^2", "cayley", "rkmk:kutta3"), ("SL(2)", "second_kind", "rkmk:kutta3")]
+
+
+@pytest.mark.parametrize(
+    ("name", "coordinates", "method"),
+    [
+        pytest.param(*case, marks=() if case in QUICK else pytest.mark.slow)
+        for case in product(NAMES, ("cayley", "second_kind"), ("rkmk:kutta3", "rkmk(0):rk4"))
+    ],
+)
 def test_the_order_on_the_group_is_the_order_of_the_tableau(name, coordinates, method):
     scene = in_coordinates(name, coordinates)
     made = compile_method(scene, method)
@@ -228,8 +236,10 @@ EMITTED = [
 
 @pytest.mark.parametrize(
     ("group", "action", "y0", "coordinates"),
-    EMITTED,
-    ids=lambda x: getattr(x, "name", x) if not isinstance(x, list) else "",
+    [
+        pytest.param(*case, id=f"{case[0].name}-{case[3]}", marks=() if k in (0, 6) else pytest.mark.slow)
+        for k, case in enumerate(EMITTED)
+    ],
 )
 def test_emitted_code_takes_the_step_of_the_interpreter(group, action, y0, coordinates):
     scene = spinning(group, action, y0, coordinates)

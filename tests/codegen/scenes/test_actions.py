@@ -57,8 +57,17 @@ def stepped(name, label, domain, y):
     return interpret(program, problem, domain, {"y": y})["y"]
 
 
-@pytest.mark.parametrize("label", ["rkmk:rk4", "rkmk(1):kutta3", "cf:cf4", "cg:cg3", "rkmk(0):euler"])
-@pytest.mark.parametrize("name", NAMES)
+LABELS = ("rkmk:rk4", "rkmk(1):kutta3", "cf:cf4", "cg:cg3", "rkmk(0):euler")
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        pytest.param(name, label, marks=() if label == "cf:cf4" else pytest.mark.slow)
+        for name in NAMES
+        for label in LABELS
+    ],
+)
 def test_the_order_on_the_orbit_is_the_order_of_the_method(name, label):
     method, problem, program = lowered(name, label)
     order = certified_order(method, scene(name)).order
@@ -67,7 +76,7 @@ def test_the_order_on_the_orbit_is_the_order_of_the_method(name, label):
 
 
 class TestToda:
-    @pytest.mark.parametrize("label", ["rkmk:rk4", "cf:cf4"])
+    @pytest.mark.parametrize("label", ["rkmk:rk4", pytest.param("cf:cf4", marks=pytest.mark.slow)])
     def test_emitted_steps_keep_the_eigenvalues(self, label):
         module = load_module(emit(scene("toda_isospectral"), label, "c"))
         start = np.array(module.initial).reshape(3, 3)
@@ -92,7 +101,7 @@ class TestPrincipalComponents:
             y = interpret(program, problem, d, {"y": y})["y"]
         self.check(y)
 
-    @pytest.mark.parametrize("coordinates", ["cayley", "second_kind"])
+    @pytest.mark.parametrize("coordinates", ["cayley", pytest.param("second_kind", marks=pytest.mark.slow)])
     def test_emitted_lie_euler_finds_the_ritz_values(self, coordinates):
         module = load_module(emit(scene("pca_flow", coordinates), "rkmk(0):euler", "c"))
         self.check(module.run(module.initial, 0.05, 2000))
@@ -105,7 +114,7 @@ class TestPrincipalComponents:
 
 
 @pytest.mark.parametrize("name", ["lie_poisson_se2", "lie_poisson_so3"])
-@pytest.mark.parametrize("label", ["rkmk:rk4", "cf:cf4"])
+@pytest.mark.parametrize("label", ["rkmk:rk4", pytest.param("cf:cf4", marks=pytest.mark.slow)])
 def test_emitted_steps_keep_the_casimir_function(name, label):
     module = load_module(emit(scene(name), label, "c"))
 
