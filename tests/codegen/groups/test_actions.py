@@ -32,7 +32,7 @@ from codegen.groups import (
     listing,
 )
 from codegen.groups.capabilities import Coadjoint, Inverse
-from codegen.groups.linear_algebra import dot
+from codegen.groups.linear_algebra import dot, matvec
 from codegen.ir.domain import FloatDomain
 from codegen.scene import FieldScene
 from orderconds.errors import UnknownName
@@ -152,6 +152,13 @@ class TestStiefel:
         near = Stiefel(2).to_orbit(d, group, y, start)
         assert max(abs(x) for _, x in Stiefel(2).laws(d, group, y)) > eps / 8
         assert max(abs(x) for _, x in Stiefel(2).laws(d, group, near)) < 2 * eps * eps
+
+
+def test_an_affine_map_is_the_product_of_its_matrix_and_the_point_with_a_one():
+    s = sampler(AFFINE, "exact, series")
+    g, y = s.element(), s.covector()[:2]
+    moved = AffineAction().act(s.domain, s.group, g, y)
+    assert s.equal((*moved, s.domain.rational(1)), matvec(g, (*y, s.domain.rational(1))))
 
 
 def test_conjugation_keeps_the_trace_of_the_square():
