@@ -11,6 +11,7 @@ import click
 from orderconds.commands import screen
 from orderconds.commands.names import completing, family_names
 from orderconds.commands.place import FILE, put
+from orderconds.exit_status import json_text
 
 if TYPE_CHECKING:
     from orderconds.derivation import Derivation
@@ -36,7 +37,12 @@ FORMATS = ("text", "latex", "sympy", "json")
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
-@click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
+@click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="The same as --format json; stdout has the JSON also if --output names a file.",
+)
 def command(
     family: str,
     order: int,
@@ -71,20 +77,27 @@ def command(
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, stages, explicit=explicit, every=every)
     chosen = "json" if as_json else form or "text"
-    if output is None:
+    if output is not None:
+        put(output, _text(derivation, chosen, explain).encode())
+    if output is None or as_json:
         _print(derivation, chosen, explain)
-        return 0
-    with redirect_stdout(io.StringIO()) as printed:
-        _print(derivation, chosen, explain)
-    put(output, printed.getvalue().encode())
     return 0
+
+
+def _text(derivation: Derivation, form: str, explain: bool) -> str:
+    """Return a derivation in one of the :data:`FORMATS`."""
+    if form == "json":
+        return json_text(_record(derivation, explain)) + "\n"
+    with redirect_stdout(io.StringIO()) as printed:
+        _print(derivation, form, explain)
+    return printed.getvalue()
 
 
 def _print(derivation: Derivation, form: str, explain: bool) -> None:
     """Print a derivation in one of the :data:`FORMATS`."""
     match form:
         case "json":
-            _print_json(derivation, explain)
+            screen.print_json(_record(derivation, explain))
         case "latex":
             from orderconds.typeset.article import article
 
@@ -128,11 +141,11 @@ def _print_entries(derivation: Derivation, order: int) -> None:
         click.echo("\n".join(f"  {line}" for line in lines))
 
 
-def _print_json(derivation: Derivation, explain: bool) -> None:
-    """Print the JSON; with ``explain`` each condition has its elementary differential."""
-    record = derivation.as_json()
+def _record(derivation: Derivation, explain: bool) -> dict[str, object]:
+    """Return the JSON object; with ``explain`` each condition has its elementary differential."""
+    record: dict[str, object] = derivation.as_json()
     if explain:
         from orderconds.explain.kinds import named_by
 
         record["conditions"] = [{**c.as_json(), "names": named_by(c)} for c in derivation.conditions]
-    screen.print_json(record)
+    return record

@@ -135,7 +135,10 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
     from orderconds.explain.kinds import refuse_too_many_trees
     from orderconds.solve.solver import Order
     from orderconds.solve.spec import Spec
+    from orderconds.tableau.file import verify_name
 
+    # A search may take hours, so the name is verified before it begins.
+    verify_name(options["name"], "--name")
     # The bound is that of order p - 1: symmetric methods of even order p need conditions up to p - 1 only.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(

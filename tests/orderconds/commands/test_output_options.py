@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 import subprocess
@@ -124,3 +125,20 @@ def test_the_examples_run(line: str, tmp_path: Path) -> None:
         timeout=1200,
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_derive_writes_the_json_to_the_file_and_to_stdout(tmp_path: Path) -> None:
+    place = tmp_path / "conditions.json"
+    done = run("derive", "rk", "--order", "2", "--json", "-o", str(place))
+    assert json.loads(done.stdout) == json.loads(place.read_text())
+    refused = run("derive", "rk", "--order", "2", "--json", "-o", str(tmp_path))
+    assert refused.exit_code == 2
+    assert json.loads(refused.stdout)["error"]["status"] == 2
+
+
+def test_solve_refuses_a_name_before_it_searches(tmp_path: Path) -> None:
+    words = ("solve", "rk", "-s", "2", "-p", "2", "-o", str(tmp_path / "out.toml"), "--name", "ü")
+    done = run(*words)
+    assert done.exit_code == 2
+    assert "--name: name = 'ü'" in done.stderr
+    assert not list(tmp_path.iterdir())
