@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         Rotation,
         Stiefel,
     )
+    from codegen.groups.affine import Affine
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
     from codegen.groups.gl import GL
@@ -38,17 +39,26 @@ if TYPE_CHECKING:
     from codegen.groups.rn import Rn
     from codegen.groups.s3 import S3
     from codegen.groups.se2 import SE2
+    from codegen.groups.sl import SL
     from codegen.groups.sl2 import SL2
+    from codegen.groups.so import SO
     from codegen.groups.so3 import SO3
+    from codegen.groups.sp import Sp
+    from codegen.groups.u import SU, U
+    from codegen.groups.unitriangular import Heisenberg, Unitriangular
 
 __all__ = [
     "GL",
     "S3",
     "SE2",
+    "SL",
     "SL2",
+    "SO",
     "SO3",
+    "SU",
     "Action",
     "AdjointAction",
+    "Affine",
     "AffineAction",
     "CoadjointAction",
     "Columns",
@@ -56,6 +66,7 @@ __all__ = [
     "Cotangent",
     "DiagonalAction",
     "FactorwiseAction",
+    "Heisenberg",
     "LeftMultiplication",
     "LieGroup",
     "Linear",
@@ -65,14 +76,35 @@ __all__ = [
     "RightMultiplication",
     "Rn",
     "Rotation",
+    "Sp",
     "Stiefel",
+    "U",
+    "Unitriangular",
     "get",
     "listing",
     "register",
     "unregister",
 ]
 
-LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2", "SO3")
+LISTED = (
+    "Affine",
+    "Cotangent",
+    "GL",
+    "Heisenberg",
+    "MatrixGroup",
+    "Product",
+    "Rn",
+    "S3",
+    "SE2",
+    "SL",
+    "SL2",
+    "SO",
+    "SO3",
+    "Sp",
+    "SU",
+    "U",
+    "Unitriangular",
+)
 
 lazy(
     __name__,
@@ -92,6 +124,7 @@ lazy(
         "Rotation",
         "Stiefel",
     ),
+    affine=("Affine",),
     base=("LieGroup",),
     cotangent=("Cotangent",),
     gl=("GL",),
@@ -101,7 +134,18 @@ lazy(
     s3=("S3",),
     se2=("SE2",),
     sl2=("SL2",),
+    sl=("SL",),
     so3=("SO3",),
+    so=("SO",),
+    sp=("Sp",),
+    u=(
+        "SU",
+        "U",
+    ),
+    unitriangular=(
+        "Heisenberg",
+        "Unitriangular",
+    ),
 )
 
 GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)

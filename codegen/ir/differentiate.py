@@ -3,11 +3,12 @@ function."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
 from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.vector_function import component, partial
 
 
 class NotDifferentiable(ValueError):
@@ -38,9 +39,11 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     return [bars.get(space.sym(name).id, space.zero) for name in symbols]
 
 
-def partials(node: Expr) -> list[Expr]:
+def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
+    If the ids of the nodes that are not constant are given as ``moving``, the derivatives of a vector
+    function with respect to other arguments may be zero.
     The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
     raised for the slopes.
     """
@@ -62,7 +65,11 @@ def partials(node: Expr) -> list[Expr]:
             n = node.payload
             return [space.const(Number.rational(n)) * space.pow(args[0], n - 1)]
         case "call":
-            return _derivatives(node)
+            found = component(node.payload)
+            if found is None:
+                return _derivatives(node)
+            wanted = [moving is None or a.id in moving for a in node.args]
+            return [partial(node, *found, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
             return []
 

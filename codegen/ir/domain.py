@@ -15,6 +15,7 @@ from typing import Any, Protocol, TypeAlias
 
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
+from codegen.ir.vector_function import VectorFunction, vector_function
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Ring
 
@@ -51,6 +52,9 @@ class Domain(Protocol):
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
+
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether an iteration has converged, and the size of its last change. The caller passes this
@@ -115,6 +119,14 @@ def slope(k: int, z: float) -> float:
     return total
 
 
+def _vector(name: str) -> VectorFunction:
+    """Return a vector function; ValueError for an unknown name."""
+    function = vector_function(name)
+    if function is None:
+        raise ValueError(f"unknown vector function {name}")
+    return function
+
+
 class FloatDomain:
     """IEEE double precision.
 
@@ -145,6 +157,10 @@ class FloatDomain:
             return args[0] / args[1] if args[1] else 0.0
         result: float = getattr(math, function)(*args)
         return result
+
+    def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
+        """Return the results of a vector function, with the operations of emitted code."""
+        return _vector(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last change."""
@@ -238,6 +254,10 @@ class PreciseDomain:
             term = -term * z / ((2 * j + k) * (2 * j + k - 1))
         return total
 
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function."""
+        return _vector(function).in_digits(self.context, self.digits, args)
+
     def _slope(self, k: int, z: Scalar) -> Scalar:
         """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
         if abs(z) > 1:
@@ -327,6 +347,10 @@ class SeriesDomain:
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function, exactly."""
+        return _vector(function).over_series(self.ring, args)
+
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
         total, power = self.ring.zero, z
@@ -391,6 +415,11 @@ class ExprDomain:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node."""
         return self.space.call(function, *args)
+
+    def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return a call node for each result, or the results themselves if they are short."""
+        expanded = _vector(function).expanded(args)
+        return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
         """Return symbols for run-time inputs at a time; the symbols are the same for equal times."""

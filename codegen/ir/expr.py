@@ -6,17 +6,18 @@ text depend only on the input. Nodes simplify only locally (constants, zeros, on
 never flattened, because flattening would destroy sharing.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
-exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
+exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`, or a result of a vector function).
 """
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.number import Number
+from codegen.ir.vector_function import component
 
 if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
@@ -106,6 +107,8 @@ class Space:
     def __init__(self) -> None:
         # The table keeps every node in memory, so node numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
+        self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
+        """The derivatives of vector functions that are known."""
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 
@@ -257,12 +260,17 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return function(args) for a function of :data:`FUNCTIONS`."""
-        if function not in FUNCTIONS:
+        """Return function(args) for a function of :data:`FUNCTIONS`, or for a result of a vector function."""
+        if function not in FUNCTIONS and component(function) is None:
             # Without this test an unknown name would cause an error only later, in a printer.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
+
+    def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
+        given = tuple(args)
+        return tuple(self._make("call", given, f"{function}.{k}") for k in range(len(given)))
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
@@ -324,6 +332,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     # second time.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
+    # The results of a vector function are computed together, by its name and the ids of its arguments.
+    vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # walk yields the arguments of a node before the node, so the values of the arguments are already
         # known.
@@ -338,6 +348,12 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = -result[args[0]]
         elif node.op == "pow":
             value = power(result[args[0]], node.payload)
+        elif (found := component(node.payload)) is not None:
+            function, index = found
+            key = function.name, tuple(a.id for a in args)
+            if key not in vectors:
+                vectors[key] = domain.vector(function.name, [result[a] for a in args])
+            value = vectors[key][index]
         else:
             value = domain.call(node.payload, *(result[a] for a in args))
         result[node] = value
