@@ -15,7 +15,7 @@ from typing import Any
 
 from sympy import Rational, Symbol
 
-from codegen.groups import DiagonalAction, LeftMultiplication, Stiefel, actions, listing
+from codegen.groups import DiagonalAction, LeftMultiplication, Stiefel, actions, get, listing
 from codegen.groups.capabilities import Coadjoint
 from codegen.groups.linear_algebra import units
 from codegen.ir.domain import FloatDomain
@@ -33,6 +33,12 @@ SAMPLES: dict[str, Any] = {}
 """A group of each class, by the name of the class."""
 for _group in ALL_GROUPS.values():
     SAMPLES.setdefault(type(_group).__name__, _group)
+SIZES = {"SL": 3, "SO": 4, "Sp": 4, "Unitriangular": 3}
+"""The sizes of the matrices of groups that depend on a number and are not among the groups of other tests."""
+for _row in listing():
+    if _row["name"] not in SAMPLES:
+        _class: Any = get(_row["name"])
+        SAMPLES[_row["name"]] = _class(SIZES.get(_row["name"], 2))
 
 GROUP, ACTION = "group", "action"
 

@@ -10,16 +10,23 @@ from pathlib import Path
 import mpmath
 import numpy as np
 import pytest
+from sympy import Matrix, Symbol
 
 from codegen.certify import certified_order
-from codegen.emitter import emit
+from codegen.emitter import compile_method, emit
+from codegen.groups import SO, Conjugation
 from codegen.groups.coordinate_maps import coordinate_map
+from codegen.groups.linear_algebra import units
 from codegen.ir.domain import FloatDomain, PreciseDomain
 from codegen.ir.interpret import interpret
+from codegen.lab.orders.convergence import converge
 from codegen.lab.orders.local_error import local_error, valuation
+from codegen.lab.reference import reference
+from codegen.lab.runner import Emitted
 from codegen.loader import load as load_module
 from codegen.lower import families_for, lower, problem_for
 from codegen.method import parse
+from codegen.scene import FieldScene
 from codegen.scenes import load
 from orderconds.ring import QQ
 
@@ -49,6 +56,11 @@ def lowered(name, label):
     method = parse(label, families_for(found))
     problem = problem_for(found, method)
     return method, problem, lower(found, method)
+
+
+@cache
+def emitted(name, label, target):
+    return load_module(emit(scene(name), label, target))
 
 
 def stepped(name, label, domain, y):
@@ -92,19 +104,54 @@ class TestToda:
         assert np.abs(after - np.diag(np.linalg.eigvalsh(start)[::-1])).max() < 1e-12
 
 
-class TestPrincipalComponents:
-    def test_lie_euler_finds_the_ritz_values(self):
-        _, problem, program = lowered("pca_flow", "rkmk(0):euler")
-        d = FloatDomain(0.05)
-        y = tuple(float(x) for x in scene("pca_flow").initial(d))
-        for _ in range(600):
-            y = interpret(program, problem, d, {"y": y})["y"]
-        self.check(y)
+@pytest.mark.slow
+@pytest.mark.parametrize("label", ["rkmk:rk4", "cf:cf4"])
+def test_emitted_steps_keep_the_eigenvalues_of_eight_particles(label):
+    n, group = 8, SO(8)
+    L = Matrix(n, n, lambda i, j: Symbol(f"l{i}_{j}", real=True))
+    places = [(i, j) for i in range(n) for j in range(n)]
+    start = [int(abs(i - j) == 1) + int(i == j) * (i * i % 5 - 2) for i, j in places]
+    # The generator is L above the diagonal and -L below it.
+    upper = Matrix(n, n, [L[i, j] * (int(i < j) - int(i > j)) for i, j in places])
+    lattice = FieldScene(
+        group=group,
+        action=Conjugation(),
+        y=list(L),
+        f=[sum(g * x for g, x in zip(row, upper, strict=True)) / 2 for row in coordinates_of(group)],
+        y0=start,
+        span=(0, 5),
+        velocity=list(upper * L - L * upper),
+        name="toda8",
+    )
+    module = load_module(emit(lattice, label, "c"))
+    after = np.array(module.run(module.initial, 0.01, 100_000)).reshape(n, n)
+    before = np.array(module.initial).reshape(n, n)
+    gap = np.linalg.eigvalsh((after + after.T) / 2) - np.linalg.eigvalsh(before)
+    assert np.abs(gap).max() < 1e-12
 
-    @pytest.mark.parametrize("coordinates", ["cayley", pytest.param("second_kind", marks=pytest.mark.slow)])
+
+def coordinates_of(group):
+    """Return the matrices of the basis, as integers."""
+    d = FloatDomain(0.0)
+    return [[int(a) for a in group.hat(d, x)] for x in units(d, group.dim)]
+
+
+class TestPrincipalComponents:
+    @pytest.mark.parametrize(
+        "coordinates", ["exp", *(pytest.param(c, marks=pytest.mark.slow) for c in ("cayley", "second_kind"))]
+    )
     def test_emitted_lie_euler_finds_the_ritz_values(self, coordinates):
         module = load_module(emit(scene("pca_flow", coordinates), "rkmk(0):euler", "c"))
         self.check(module.run(module.initial, 0.05, 2000))
+
+    @pytest.mark.slow
+    @pytest.mark.parametrize("coordinates", ["exp", "cayley"])
+    def test_emitted_rkmk4_converges_with_order_four(self, coordinates):
+        made = compile_method(scene("pca_flow", coordinates), "rkmk:rk4")
+        stated = certified_order(made.method, made.scene)
+        result = converge(Emitted(made, "c", stated), stated, reference(made.scene))
+        assert stated.order == 4
+        assert result.verdict == "holds", result.sentence()
 
     def check(self, y):
         X = np.array(y).reshape(5, 2)
@@ -157,6 +204,17 @@ class TestExponentialEuler:
         y = tuple(float(x) for x in scene("semilinear").initial(d))
         for _ in range(5):
             after = stepped("semilinear", "rkmk(0):euler", d, y)
+            for a, b in zip(after, self.formula(y, h), strict=True):
+                assert abs(mpmath.mpf(a) - b) <= 8 * np.spacing(max(abs(a) for a in after))
+            y = after
+
+    @pytest.mark.parametrize("target", ["c", pytest.param("python", marks=pytest.mark.slow)])
+    @pytest.mark.parametrize("h", [1.0, 0.25, 2.0**-10])
+    def test_is_emitted_lie_euler(self, h, target):
+        module = emitted("semilinear", "rkmk(0):euler", target)
+        y = module.initial
+        for _ in range(10):
+            after = module.step(y, h)
             for a, b in zip(after, self.formula(y, h), strict=True):
                 assert abs(mpmath.mpf(a) - b) <= 8 * np.spacing(max(abs(a) for a in after))
             y = after
