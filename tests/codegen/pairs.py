@@ -85,16 +85,18 @@ def _field(row: str, group: Any, action: Any, start: list[Any], energy: bool) ->
     if not energy:
         f = [quadratic(rng, y, 3) / 2 for _ in range(group.dim)]
         return FieldScene(group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair")
-    H = quadratic(rng, y, 3) / 4
+    H = quadratic(rng, y, 2 + len(y)) / 4
     d = Formulas(0.0)
     basis: Any = units(d, group.dim)
     slopes = [
         sum(H.diff(s) * v for s, v in zip(y, action.velocity(d, group, e, tuple(y)), strict=True))
         for e in basis
     ]
-    f = [slopes[(k + 1) % group.dim] - slopes[k - 1] for k in range(group.dim)]
-    if group.dim == 2:
-        f = [slopes[1], -slopes[0]]
+    f: list[Any] = [0] * group.dim
+    for i in range(group.dim):
+        for j in range(i):
+            entry = rng.choice((-2, -1, 1, 2))
+            f[i], f[j] = f[i] + entry * slopes[j], f[j] - entry * slopes[i]
     return FieldScene(
         group=group, action=action, y=y, f=f, y0=start, span=SHORT, name="pair", invariants={ENERGY: H}
     )
@@ -105,7 +107,12 @@ def _hamiltonian(row: str, group: Any) -> Problem:
     rng = random.Random(row)
     group.require(Coadjoint, "pair")
     q, mu = group.point("q"), group.dual("mu")
-    T, V = mu.dot(mu) / 2, quadratic(rng, list(q), 3) / 2
+    # Coordinates that are constant on the group would make the potential linear.
+    d = FloatDomain(0.0)
+    basis: Any = units(d, group.dim)
+    rates = [group.velocity(d, x, group.identity(d)) for x in basis]
+    moving = [s for k, s in enumerate(q) if any(rate[k] for rate in rates)]
+    T, V = mu.dot(mu) / 2, quadratic(rng, moving, 3 + group.dim) / 2
     momenta = [Rational(rng.choice((-2, -1, 1, 2)), rng.randint(2, 4)) for _ in range(group.dim)]
     return HamiltonianScene(
         group=group,

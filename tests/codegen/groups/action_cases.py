@@ -78,7 +78,7 @@ ONE_OF_EACH: dict[str, tuple[Action, str]] = {
         *reversed([(action, name) for action, name, _ in ACTIONS]),
         (LeftMultiplication(), "SO(3)"),
         (RightMultiplication(), "SO(3)"),
-        (AdjointAction(), "SE(2)"),
+        (AdjointAction(), "SO(3) x SE(2)"),
         (CoadjointAction(), "SE(2)"),
         (Linear(), "SL(2)"),
     )
