@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
+from inspect import signature
 from typing import Any
 
 from sympy import Rational, Symbol
@@ -38,7 +39,8 @@ SIZES = {"SL": 3, "SO": 4, "Sp": 4, "Unitriangular": 3}
 for _row in listing():
     if _row["name"] not in SAMPLES:
         _class: Any = get(_row["name"])
-        SAMPLES[_row["name"]] = _class(SIZES.get(_row["name"], 2))
+        _sized = bool(signature(_class).parameters)
+        SAMPLES[_row["name"]] = _class(SIZES.get(_row["name"], 2)) if _sized else _class()
 
 GROUP, ACTION = "group", "action"
 
