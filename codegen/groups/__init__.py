@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from codegen.groups.so import SO
     from codegen.groups.so3 import SO3
     from codegen.groups.sp import Sp
-    from codegen.groups.u import SU, U
+    from codegen.groups.unitary import SU, Unitary
     from codegen.groups.unitriangular import Heisenberg, Unitriangular
 
 __all__ = [
@@ -78,7 +78,7 @@ __all__ = [
     "Rotation",
     "Sp",
     "Stiefel",
-    "U",
+    "Unitary",
     "Unitriangular",
     "get",
     "listing",
@@ -102,7 +102,7 @@ LISTED = (
     "SO3",
     "Sp",
     "SU",
-    "U",
+    "Unitary",
     "Unitriangular",
 )
 
@@ -138,14 +138,8 @@ lazy(
     so3=("SO3",),
     so=("SO",),
     sp=("Sp",),
-    u=(
-        "SU",
-        "U",
-    ),
-    unitriangular=(
-        "Heisenberg",
-        "Unitriangular",
-    ),
+    unitary=("SU", "Unitary"),
+    unitriangular=("Heisenberg", "Unitriangular"),
 )
 
 GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)

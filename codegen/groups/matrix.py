@@ -14,6 +14,7 @@ from codegen.groups.capabilities import Coadjoint, Projection, RightTrivialisati
 from codegen.groups.linear_algebra import S, Vector, invert, matmul, transposed
 from codegen.groups.matrix_algebra import Sparse, matrix_algebra, sparse
 from codegen.groups.matrix_coordinates import MatrixCoordinates
+from codegen.groups.rational_rows import rational_rows
 from codegen.ir.domain import Domain
 from codegen.ir.vector_function import EXPANDED
 
@@ -34,6 +35,7 @@ class MatrixGroup(MatrixCoordinates, RightTrivialisation, Coadjoint):
 
     def __init__(self, name: str, basis: Sequence[Rows]) -> None:
         self.name = name
+        basis = [rational_rows(name, matrix) for matrix in basis]
         self.n = len(basis[0]) if basis else 0
         if not self.n or any(len(rows) != self.n for matrix in basis for rows in (matrix, *matrix)):
             raise SceneError("a basis that is empty or not square", where=name, expected="n x n matrices")

@@ -21,6 +21,7 @@ from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
 from codegen.ir.number import Number
+from codegen.ir.selection import selected, selects, sign_of_number
 from codegen.ir.vector_function import MatrixExponential, MatrixInverse, vector_function
 from orderconds.ring.precision import precision
 
@@ -98,6 +99,10 @@ class BallDomain:
             raise NotConverged(f"the argument of {function} is not a finite number")
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
+        if selects(function):
+            centres = tuple(x.mid() for x in args)
+            value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
+            return value.mid()
         if any(_exponent(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
@@ -116,19 +121,19 @@ class BallDomain:
         (0, A). ZeroDivisionError is raised for the inverse of a singular matrix, OverflowError for the
         exponential of a matrix with entries above 2^40.
         """
-        found, numbers = vector_function(function), [x.mid() for x in args]
-        if isinstance(found, MatrixExponential):
-            first = numbers[: found.n**2]
+        called, numbers = vector_function(function), [x.mid() for x in args]
+        if isinstance(called, MatrixExponential):
+            first = numbers[: called.n**2]
             if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
                 raise OverflowError("the exponential of a matrix of this norm")
             # The exponential may be smaller than the terms of its series by a factor exp(-2 norm).
-            norm = float(found.n * max(abs(x) for x in first))
+            norm = float(called.n * max(abs(x) for x in first))
             with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
-                result = arb_mat(_block(found.n, found.level, numbers)).exp().tolist()
-            return tuple(x.mid() for x in _first_row(result, found.level))
-        if isinstance(found, MatrixInverse):
+                result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
+            return tuple(x.mid() for x in _first_row(result, called.level))
+        if isinstance(called, MatrixInverse):
             with precision(2 * self.bits):
-                inverse = arb_mat(_block(found.n, 0, numbers)).inv().tolist()
+                inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
             return tuple(x.mid() for row in inverse for x in row)
         raise ValueError(f"unknown vector function {function}")
 

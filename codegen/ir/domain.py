@@ -13,8 +13,10 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, Protocol, TypeAlias
 
+from codegen.ir.elementary import ANGLE
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
+from codegen.ir.selection import Kink, selected, selects, sign_of_number
 from codegen.ir.vector_function import VectorFunction, vector_function
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Ring
@@ -155,6 +157,8 @@ class FloatDomain:
             return slope(int(function[-1]), args[0])
         if function == "quotient":
             return args[0] / args[1] if args[1] else 0.0
+        if selects(function):
+            return float(selected(self, function, args, sign_of_number))
         result: float = getattr(math, function)(*args)
         return result
 
@@ -231,6 +235,8 @@ class PreciseDomain:
         """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
+        if selects(function):
+            return selected(self, function, args, sign_of_number)
         if any(self.context.mag(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
@@ -315,6 +321,10 @@ class SeriesDomain:
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
+        if selects(function):
+            return selected(self, function, args, self._sign)
+        if function == ANGLE:
+            return self._angle(z, args[1])
         one = self.ring.one
         starts = {
             "sin": (1, 2, z),
@@ -346,6 +356,19 @@ class SeriesDomain:
         # of the argument removes the alternation.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
+
+    def _sign(self, z: Scalar) -> int:
+        """Return the sign of a series for small h; :class:`Kink` if it vanishes at h = 0."""
+        start = z.coefficients[0]
+        if self.base.is_zero(start) is not False:
+            raise Kink("the field is not smooth at the initial state")
+        return -1 if self.base.approximate(start).startswith("-") else 1
+
+    def _angle(self, y: Scalar, x: Scalar) -> Scalar:
+        """Return atan2(y, x) near the positive x-axis; all other angles are transcendental."""
+        if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
+            raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
+        return self._arc("atan", y / x)
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function, exactly."""

@@ -15,8 +15,10 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE, SELECTING
+from codegen.ir.table import PiecewisePolynomial
 from codegen.ir.vector_function import component
 
 if TYPE_CHECKING:
@@ -28,6 +30,8 @@ exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
     *MATHEMATICAL,
+    ANGLE,
+    *SELECTING,
     # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
     "stumpff0",
     "stumpff1",
@@ -260,8 +264,13 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return function(args) for a function of :data:`FUNCTIONS`, or for a result of a vector function."""
-        if function not in FUNCTIONS and component(function) is None:
+        """Return function(args) for a function of :data:`FUNCTIONS`, a table, or a result of a vector
+        function."""
+        known = _folded(function, args)
+        if known is not None:
+            return known
+        table = isinstance(function, PiecewisePolynomial)
+        if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test an unknown name would cause an error only later, in a printer.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
@@ -271,6 +280,23 @@ class Space:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
         given = tuple(args)
         return tuple(self._make("call", given, f"{function}.{k}") for k in range(len(given)))
+
+
+def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
+    """Return the value of a selection that is known; None if it is not known."""
+    if function == CHOOSE and args[1] is args[2]:
+        return args[1]
+    if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
+        test, *values = args[0].args
+        # A comparison with 1 and -1 as results is the comparison itself.
+        if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
+            return test.space.call(CHOOSE, test, *args[1:])
+    if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
+        return None
+    value = args[0].payload.fraction()
+    if function == ABSOLUTE:
+        return -args[0] if value < 0 else args[0]
+    return args[1] if value > 0 else args[2]
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
@@ -348,8 +374,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = -result[args[0]]
         elif node.op == "pow":
             value = power(result[args[0]], node.payload)
-        elif (found := component(node.payload)) is not None:
-            function, index = found
+        elif (result_of := component(node.payload)) is not None:
+            function, index = result_of
             key = function.name, tuple(a.id for a in args)
             if key not in vectors:
                 vectors[key] = domain.vector(function.name, [result[a] for a in args])

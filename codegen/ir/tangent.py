@@ -34,9 +34,9 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # for it.
         if not moving:
             continue
-        found = component(node.payload) if node.op == "call" else None
-        if found is not None:
-            function, index = found
+        result = component(node.payload) if node.op == "call" else None
+        if result is not None:
+            function, index = result
             key = function.name, tuple(a.id for a in node.args)
             if key not in together:
                 rates = [known.get(a.id, node.space.zero) for a in node.args]

@@ -178,7 +178,7 @@ class MatrixInverse(VectorFunction):
 
     def in_digits(self, context: Any, digits: int, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the inverse for mpmath numbers; ZeroDivisionError for a singular matrix."""
-        return self._found(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
+        return self._invertible(matrix_inverse.inverse(self.n, args, context.mpf(1), abs))
 
     def over_series(self, ring: Any, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the inverse for power series; ZeroDivisionError if its constant terms are singular."""
@@ -186,9 +186,9 @@ class MatrixInverse(VectorFunction):
         def size(x: Scalar) -> int:
             return int(ring.valuation(x) == 0)
 
-        return self._found(matrix_inverse.inverse(self.n, args, ring.one, size))
+        return self._invertible(matrix_inverse.inverse(self.n, args, ring.one, size))
 
-    def _found(self, result: tuple[Scalar, ...] | None) -> tuple[Scalar, ...]:
+    def _invertible(self, result: tuple[Scalar, ...] | None) -> tuple[Scalar, ...]:
         if result is None:
             raise ZeroDivisionError("the inverse of a singular matrix")
         return result
@@ -204,10 +204,10 @@ def vector_function(name: str) -> VectorFunction | None:
     >>> vector_function("expm3_d1"), vector_function("sin")
     (MatrixExponential(n=3, level=1), None)
     """
-    found = _NAME.fullmatch(name)
-    if found is None:
+    match = _NAME.fullmatch(name)
+    if match is None:
         return None
-    kind, n, level = found.groups(default="0")
+    kind, n, level = match.groups(default="0")
     return MatrixExponential(int(n), int(level)) if kind == "expm" else MatrixInverse(int(n))
 
 

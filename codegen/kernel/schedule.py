@@ -340,8 +340,8 @@ class _Scope:
     def _results(self, node: Expr) -> int | None:
         """Return the number of results of a call of an outlined function or of a vector function, otherwise
         None."""
-        found = component(node.payload)
-        return self.outlined.get(node.payload.partition(".")[0]) if found is None else found[0].size
+        vector = component(node.payload)
+        return self.outlined.get(node.payload.partition(".")[0]) if vector is None else vector[0].size
 
     def _invoke(self, node: Expr, args: list[Expr]) -> None:
         function = node.payload.partition(".")[0]

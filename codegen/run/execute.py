@@ -457,13 +457,8 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-
-        def fill(given: Sequence[Any], results: list[Any]) -> Sequence[Any]:
-            # A domain has the same operations as the function of the unit, and is faster.
-            results[:] = domain.vector(function, given)
-            return ()
-
-        return fill
+        # A domain has the same operations as the function of the unit, and is faster.
+        return lambda x, results: operator.setitem(results, slice(None), domain.vector(function, x)) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
         together = getattr(domain, "together", None)

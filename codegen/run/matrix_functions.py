@@ -54,8 +54,8 @@ _ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place"
 def used(functions: Iterable[Function]) -> list[VectorFunction]:
     """Return the vector functions that functions of a unit call, sorted by name."""
     called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
-    found = {name: vector_function(name) for name in sorted(called)}
-    return [function for function in found.values() if function is not None]
+    functions_called = map(vector_function, sorted(called))
+    return [function for function in functions_called if function is not None]
 
 
 def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:

@@ -6,7 +6,7 @@ from math import factorial, isqrt
 
 import pytest
 
-from codegen.groups import GL, SL, SO, SU, Affine, Heisenberg, Sp, U, Unitriangular
+from codegen.groups import GL, SL, SO, SU, Affine, Heisenberg, Sp, Unitary, Unitriangular
 from codegen.groups.capabilities import Projection
 from codegen.groups.linear_algebra import matmul
 from tests.codegen.groups.test_laws import (
@@ -24,8 +24,8 @@ from tests.codegen.groups.test_laws import (
 from tests.strategies import Sampler, sampler
 
 DOUBLES, DIGITS, EXACT = "doubles, uniform", "40 digits, uniform", "exact, series"
-SMALL = (SO(2), SO(4), U(1), SU(2), Sp(2), GL(3), SL(2), Affine(1), Heisenberg(1), Unitriangular(4))
-LARGE = (SO(5), U(2), SU(3), Sp(4), SL(3), Affine(2), Heisenberg(2), Unitriangular(5))
+SMALL = (SO(2), SO(4), Unitary(1), SU(2), Sp(2), GL(3), SL(2), Affine(1), Heisenberg(1), Unitriangular(4))
+LARGE = (SO(5), Unitary(2), SU(3), Sp(4), SL(3), Affine(2), Heisenberg(2), Unitriangular(5))
 
 CASES = [
     pytest.param((group, sample), id=f"{group.name}-{sample}")
@@ -164,7 +164,7 @@ def test_a_projection_leaves_a_quadratic_error(group):
     ("group", "dim", "rows"),
     [
         (SO(10), 45, 10),
-        (U(3), 9, 6),
+        (Unitary(3), 9, 6),
         (SU(4), 15, 8),
         (Sp(6), 21, 6),
         (SL(4), 15, 4),

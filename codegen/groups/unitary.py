@@ -9,7 +9,7 @@ from codegen.groups.matrix import IsometryGroup
 from codegen.ir.domain import Domain
 
 
-class U(IsometryGroup):
+class Unitary(IsometryGroup):
     """Unitary n x n matrices A + i B as real 2n x 2n matrices with the rows (A, -B) and (B, A).
 
     The basis of the algebra: for j < k, row by row, the matrices E_jk - E_kj and i (E_jk + E_kj); then the
@@ -38,7 +38,7 @@ class U(IsometryGroup):
         return (*super().laws(d, g), *(("g is complex", x) for x in blocks))
 
 
-class SU(U):
+class SU(Unitary):
     """Unitary n x n matrices A + i B with determinant 1, n >= 2, as real 2n x 2n matrices with the rows
     (A, -B) and (B, A).
 
