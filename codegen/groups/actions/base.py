@@ -10,6 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import ClassVar
 
+from codegen.errors import SceneError
 from codegen.groups.base import LieGroup
 from codegen.groups.linear_algebra import S, Vector
 from codegen.ir.domain import Domain
@@ -30,7 +31,18 @@ class Action(ABC):
 
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` if the group cannot act in this way."""
-        group.require(self.needs, where)
+        self.require(group, self.needs, where)
+
+    def require(self, group: LieGroup, capability: type[LieGroup], where: str) -> None:
+        """Raise :class:`codegen.errors.SceneError` if the group lacks a capability that the action needs."""
+        if group.offers(capability) is None:
+            raise SceneError(
+                f"the action {self.name} of {group.name}, which has no {capability.provides}",
+                where=where,
+                expected=f"a group with the capability {capability.__name__}, or an action that "
+                f"{group.name} has",
+                hint="use LeftMultiplication() if the points are elements of the group",
+            )
 
     def point_size(self, group: LieGroup) -> int | None:
         """Return the number of coordinates of a point; None if the action does not fix the number."""

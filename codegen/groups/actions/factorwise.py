@@ -33,7 +33,8 @@ class FactorwiseAction(Action):
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` unless there is one action for each factor, which the
         factor admits."""
-        factors = group.require(DirectProduct, where).factors
+        self.require(group, DirectProduct, where)
+        factors = group.require(DirectProduct).factors
         if len(factors) != len(self.actions):
             raise SceneError(
                 f"{len(self.actions)} actions of the {len(factors)} factors of {group.name}",

@@ -22,8 +22,8 @@ class RightMultiplication(Action):
 
     def check(self, group: LieGroup, where: str = "") -> None:
         """Raise :class:`codegen.errors.SceneError` unless the group has inverses and an adjoint map."""
-        group.require(Inverse, where)
-        group.require(Coadjoint, where)
+        self.require(group, Inverse, where)
+        self.require(group, Coadjoint, where)
 
     def point_size(self, group: LieGroup) -> int:
         """Return the number of coordinates of an element."""

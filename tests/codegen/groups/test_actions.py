@@ -210,9 +210,14 @@ class TestAReaderOfAScene:
             (SL2(), Stiefel(1), 2, "by SL.2.; expected a group of orthogonal matrices.*use Columns.1."),
             (SO3(), Stiefel(4), 12, "4 orthonormal columns of 3 rows; expected at most 3 columns"),
             (SO3(), AffineAction(), 2, "basis element 0 has a last row that is not zero; .*use Linear"),
-            (SO3(), FactorwiseAction(Rotation()), 3, "SO.3. has no factors"),
+            (SO3(), FactorwiseAction(Rotation()), 3, "of SO.3., which has no factors; .*LeftMultiplication"),
             (Product(SO3(), Rn(1)), FactorwiseAction(Rotation()), 3, "1 actions of the 2 factors"),
-            (SE2(), DiagonalAction(Motion(), Linear()), 4, "SE.2. has no matrix elements"),
+            (
+                SE2(),
+                DiagonalAction(Motion(), Linear()),
+                4,
+                "linear maps of SE.2., which has no matrix elements",
+            ),
         ],
     )
     def test_refuses_a_group_that_cannot_act(self, group, action, n, text):
