@@ -28,6 +28,7 @@ from codegen.groups import (
 from codegen.groups.capabilities import CayleyMap, Coadjoint
 from codegen.groups.coordinate_maps import MAPS, CoordinateMap, coordinate_map
 from codegen.groups.linear_algebra import matmul
+from codegen.integrator import Status, StepFailed
 from codegen.ir.domain import PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.lab.orders.local_error import local_error, predicted, valuation
@@ -294,3 +295,23 @@ def test_a_scene_may_bring_its_own_map():
     scene = replace(field_scene("S^2"), coordinates=coordinate_map(Doubled(), SO3(), "S^2"))
     made = compile_method(scene, "rkmk:rk4")
     assert valuation(local_error(made.program, made.problem, QQ, 5)) == 5
+
+
+@pytest.mark.parametrize("target", ["c", "python"])
+def test_a_step_to_a_singular_point_of_the_cayley_map_returns_a_status(target):
+    # 1 - x/2 is singular for x = h diag(1, -1) at h = 2.
+    y = SL2().point("y")
+    scene = FieldScene(
+        group=SL2(),
+        action=LeftMultiplication(),
+        y=list(y),
+        f=[0, 0, 1],
+        y0=[1, 0, 0, 1],
+        span=(0, 1),
+        coordinates="cayley",
+    )
+    module = load(emit(scene, "rkmk:euler", target))
+    assert module.step([1, 0, 0, 1], 1.0) == pytest.approx([3, 0, 0, 1 / 3])
+    with pytest.raises(StepFailed) as caught:
+        module.step([1, 0, 0, 1], 2.0)
+    assert caught.value.status is Status.TOO_FAR
