@@ -16,7 +16,7 @@ from typing import Any
 
 from sympy import Rational, Symbol
 
-from codegen.groups import DiagonalAction, LeftMultiplication, Stiefel, actions, get, listing
+from codegen.groups import SO2, DiagonalAction, LeftMultiplication, Product, Stiefel, actions, get, listing
 from codegen.groups.capabilities import Coadjoint
 from codegen.groups.linear_algebra import units
 from codegen.ir.domain import FloatDomain
@@ -34,6 +34,8 @@ SAMPLES: dict[str, Any] = {}
 """A group of each class, by the name of the class."""
 for _group in ALL_GROUPS.values():
     SAMPLES.setdefault(type(_group).__name__, _group)
+# A Hamiltonian on a group of dimension one has curves as its energy levels, on which orders may be higher.
+SAMPLES["SO2"] = Product(SO2(), SO2())
 SIZES = {"SL": 3, "SO": 4, "Sp": 4, "Unitriangular": 3}
 """The sizes of the matrices of groups that depend on a number and are not among the groups of other tests."""
 for _row in listing():
