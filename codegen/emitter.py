@@ -29,8 +29,8 @@ from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
-from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
-from codegen.method import Method, method_of
+from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
+from codegen.method import Method
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -134,7 +134,7 @@ def compile_method(
         scene = with_inputs(scene, tuple(inputs))
     chosen = find_form(scene, form) if form != PRINTED else None
     scene = with_frame(scene if chosen is None else chosen.problem, frame)
-    method = method_of(method, families_for(scene), family)
+    method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
@@ -296,6 +296,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         facts=(
             ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
             ("source", method.source),
+            *coordinates_of(compiled),
             ("order", order.text()),
             *digits,
             *scene_facts(compiled),
@@ -313,6 +314,15 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         command=command,
         version=__version__,
     )
+
+
+def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
+    """Return the sentence about the coordinate map of the scene, if the method uses the map."""
+    used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
+    if used is None:
+        return ()
+    unread = f"; the cut-off {compiled.method.cutoff} is not read, because nothing is truncated"
+    return (("coordinates", used.text + unread * (compiled.method.cutoff is not None)),)
 
 
 def emit_kernel(

@@ -289,6 +289,20 @@ def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:
                 yield variant.claim(order.order)
 
 
+def family_in(given: Method | str) -> str:
+    """Return the family that an argument names; '' if it names none.
+
+    >>> family_in("rkmk(2):rk4"), family_in("taylor(12)"), family_in("rk4")
+    ('rkmk', 'taylor', '')
+    """
+    if isinstance(given, Method):
+        return given.family
+    alone, match = ALONE.fullmatch(given.strip()), PATTERN.fullmatch(given.strip())
+    if alone is not None and alone["family"] in names() and not family_class(alone["family"]).has_tableau:
+        return alone["family"]
+    return (match["family"] or "") if match is not None else ""
+
+
 def parse(text: str, families: Sequence[str]) -> Method:
     """Return the method that a text names; ``families`` are the families that accept the scene.
 

@@ -218,6 +218,26 @@ class Exp(OfGroup):
 
 
 @dataclass(frozen=True)
+class ElementAt(OfGroup):
+    """tau(x) for the coordinate map tau of the scene (:mod:`codegen.groups.coordinate_maps`)."""
+
+    name = "element_at"
+    exponentials = 1
+    takes, gives = A, G
+    noun = "coordinate map{s}"
+
+
+@dataclass(frozen=True)
+class InverseDifferential(OfGroup):
+    """dtau^{-1}_x y for the coordinate map tau of the scene, without truncation."""
+
+    linear_in_last = True
+    name = "inverse_differential"
+    takes, gives = A + A, A
+    noun = "inverse differential{s}"
+
+
+@dataclass(frozen=True)
 class Multiply(OfGroup):
     """g k; the right factor acts first."""
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from codegen.groups.actions import LeftMultiplication
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.ir.interpret import inward, outward
@@ -100,6 +99,6 @@ def _meaning(kind: Kind, scene: Problem) -> str:
     group, action = scene.group, scene.action
     if kind is Kind.DUAL:
         return f"right-trivialised momentum in the dual algebra of {group.name}"
-    if kind is Kind.POINT and not isinstance(action, LeftMultiplication):
+    if kind is Kind.POINT and not action.on_itself:
         return f"point that {group.name} acts on by {action.name}"
     return f"element of {group.name}{group.layout}"

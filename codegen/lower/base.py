@@ -58,6 +58,10 @@ class Lowering(ABC):
     This is false for a family that expands dexp^{-1} over the whole step.
     """
 
+    reads_coordinates: ClassVar[bool] = False
+    """Whether the methods parametrise the group by the coordinate map of the scene
+    (:mod:`codegen.groups.coordinate_maps`). Other families use the exponential map."""
+
     in_coordinates: ClassVar[bool] = False
     """True if the methods integrate the coordinates of the state. Such methods accept every classical form of
     a scene (:mod:`codegen.scene.classical_forms`)."""

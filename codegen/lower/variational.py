@@ -16,6 +16,12 @@ from codegen.scene.problem import Problem
 from orderconds.errors import ZeroWeight
 from orderconds.tableau import RungeKutta
 
+HAMILTONIAN = (
+    "a Hamiltonian scene, because a variational method computes momenta in T*G, which a field on a "
+    "manifold does not have"
+)
+"""The scene that a variational family expects."""
+
 
 class VariationalLowering(Lowering):
     """A family that discretises Hamilton's principle on a group, for scenes with a state (q, mu) and a
@@ -27,7 +33,7 @@ class VariationalLowering(Lowering):
 
     def objection(self, scene: Problem) -> Objection | None:
         """Return the reason why the family does not accept a scene; None if it accepts the scene."""
-        return None if scene.is_hamiltonian else Objection("", "a Hamiltonian scene")
+        return None if scene.is_hamiltonian else Objection("", HAMILTONIAN)
 
     def problem(self, scene: Problem, method: Method) -> Problem:
         """Return the scene itself."""

@@ -14,9 +14,11 @@ from codegen.ir.operations import (
     Advance,
     Bracket,
     DualDexp,
+    ElementAt,
     Exp,
     Identity,
     InverseDexp,
+    InverseDifferential,
     Multiply,
     Zero,
 )
@@ -24,7 +26,7 @@ from codegen.ir.program import Assign, Program
 from codegen.ir.values import Coefficient, Var
 from codegen.passes.rewrite import Rewriter, rewrite
 
-AT_ZERO = (InverseDexp, DualDexp)
+AT_ZERO = (InverseDexp, DualDexp, InverseDifferential)
 """Operations that return their last argument if the first argument is zero."""
 
 AT_IDENTITY = (Act, Adjoint)
@@ -47,7 +49,7 @@ def _rule(rewriter: Rewriter, assign: Assign) -> tuple[Var, ...]:
     sources = [rewriter.definitions[a].operation if a in rewriter.definitions else None for a in assign.args]
     zero = [isinstance(source, Zero) for source in sources]
     identity = [isinstance(source, Identity) for source in sources]
-    if isinstance(operation, Exp) and zero[0]:
+    if isinstance(operation, Exp | ElementAt) and zero[0]:
         return rewriter.emit(Assign(assign.targets, Identity(), ()))
     if isinstance(operation, Multiply) and any(identity):
         # A product of the identity and another factor is the other factor.

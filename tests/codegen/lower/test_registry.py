@@ -77,7 +77,7 @@ def test_variational_families_come_first_on_hamiltonian_scenes(scene, able):
     ("scene", "family", "message"),
     [
         ("dipole", "rk", r"rk on dipole, whose group is T\*SO\(3\); expected R\^n; use rkmk, cg or cf"),
-        ("free_rigid_body", "slgi", "slgi on free_rigid_body; expected a Hamiltonian scene; use one of rkmk"),
+        ("free_rigid_body", "slgi", "slgi on free_rigid_body; expected a Hamiltonian scene, because a"),
         ("driven_spin", "discrete_gradient", "discrete_gradient on driven_spin, which depends on time"),
         ("actuated_rigid_body", "splitting", "splitting on actuated_rigid_body, which is driven by a wrench"),
     ],
