@@ -42,7 +42,7 @@ def partials(node: Expr) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
     The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
-    raised for the slopes.
+    raised for the functions slope1, slope2 and slope3, which are derivatives of Stumpff functions themselves.
     """
     space, args = node.space, node.args
     match node.op:
@@ -85,7 +85,7 @@ def _derivatives(node: Expr) -> list[Expr]:
             return [node]
         case "log":
             return [space.one / x]
-        # For k = 0 the term in c_2 is absent: c_0' = -c_1/2. The rule holds for z of either sign.
+        # For k = 0 the term k c_{k+2} is zero: c_0' = -c_1/2. The rule holds for positive and negative z.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
@@ -104,5 +104,5 @@ def _derivatives(node: Expr) -> list[Expr]:
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
-            message = f"{node.payload} is not differentiated"
+            message = f"the function {node.payload} has no rule for its derivative"
             raise NotDifferentiable(message)

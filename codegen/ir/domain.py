@@ -20,8 +20,8 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """The error of an iteration of the interpreter that did not converge within its limit, or computed a
-    number that is not finite."""
+    """The error for an iteration of the interpreter that exceeded its limit of sweeps, or computed a number
+    that is not finite."""
 
 
 # The type is Any, because scalars are float, mpf, series or Expr, which have the same operators but no common
@@ -67,9 +67,9 @@ class Differenced(Domain, Protocol):
 def stumpff(k: int, z: float) -> float:
     """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
 
-    The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
-    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, so its number of full
-    turns takes up half of the digits.
+    The error is a few units in the last place of the amplitude of the oscillation at z. For z > 2^52 the
+    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so half of its digits are the number of
+    full turns.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -80,9 +80,11 @@ def stumpff(k: int, z: float) -> float:
         return math.cosh(root) if k == 0 else math.sinh(root) / root
     if k == 0:
         return math.cos(math.sqrt(z))
-    # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
+    # The closed form of c_3 contains sqrt z - sin sqrt z, which loses digits for angles below about 2. The
+    # series is therefore used on a longer interval than for the other functions.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule begins with the smallest term. If z < 4, the first omitted term is below 1e-27.
+        # Horner's rule begins with the term of the highest power. For z < 4 the first omitted term is below
+        # 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -118,8 +120,7 @@ def slope(k: int, z: float) -> float:
 class FloatDomain:
     """IEEE double precision.
 
-    If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's method solves the block
-    instead.
+    If a fixed-point iteration has not converged after ``patience`` sweeps, Newton's method replaces it.
     """
 
     patience = 40
@@ -162,8 +163,8 @@ class FloatDomain:
         # so the change itself must also be small.
         if change <= 2.0**-48 * scale and change * change <= 2.0**-53 * scale * before:
             return True, change
-        # Changes that no longer decrease are rounding errors if they are small, and a sign of divergence if
-        # they are not.
+        # Small changes that no longer decrease are rounding errors; large changes that no longer decrease are
+        # a sign of divergence.
         return change == 0.0 or 0 < before <= change <= 2.0**-44 * max(1.0, scale), change
 
     def increment(self, x: float) -> float:
@@ -195,8 +196,8 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # Newton's method replaces a fixed-point iteration in which a sweep gives less than a third of a
-        # correct digit.
+        # The number of sweeps after which Newton's method replaces a fixed-point iteration: three sweeps for
+        # each digit.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -251,12 +252,12 @@ class PreciseDomain:
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether the changes are within 2^12 units of the precision and no longer decrease, and the
-        last change."""
+        """Return two values: True if the changes are within 2^12 rounding units and no longer decrease, and
+        the size of the last change."""
         change = max(abs(a - b) for a, b in zip(old, new, strict=True))
         small = change <= 4096 * self.context.eps * max(1, *(abs(a) for a in old))
-        # A small change is not sufficient, because the next sweep may give further correct digits. The
-        # changes must also have stopped decreasing.
+        # A small change is not sufficient, because the next sweep may give further correct digits. Therefore
+        # the changes must also have stopped decreasing.
         return small and (change == 0 or (previous is not None and change >= previous)), change
 
     def increment(self, x: Scalar) -> Scalar:
@@ -270,7 +271,8 @@ class SeriesDomain:
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # The coefficients are exact, so a local error that is zero up to some order proves the order.
+        # The coefficients are exact: if the local error has no terms up to h^p, the method is proved to have
+        # order p.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
@@ -289,8 +291,8 @@ class SeriesDomain:
         """Return an entire function of a series without constant term, exactly; raise an ArithmeticError
         otherwise.
 
-        In a quotient by a series whose lowest power is h^v, the last v coefficients are unknown and are set
-        to zero.
+        If a divisor has the lowest power h^v, the last v coefficients of the quotient cannot be known and are
+        set to zero.
         """
         z = args[0]
         if function == "quotient":
@@ -305,7 +307,9 @@ class SeriesDomain:
         }
         # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
         if self.base.is_zero(z.coefficients[0]) is not True:
-            raise ArithmeticError(f"{function} of a series with a constant term is not exact")
+            raise ArithmeticError(
+                f"{function} of a power series with a constant term cannot be computed exactly"
+            )
         if "slope" in function:
             k = int(function[-1])
             # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
@@ -320,7 +324,7 @@ class SeriesDomain:
         if function in ("atan", "asin"):
             return self._arc(function, z)
         if function not in starts:
-            raise ArithmeticError(f"{function} has no exact series")
+            raise ArithmeticError(f"the function {function} has no rule for exact power series")
         k, step, first = starts[function]
         # The signs alternate in _sum. This is right for sin and cos; for exp, sinh and cosh the opposite sign
         # of the argument removes the alternation.
@@ -344,7 +348,7 @@ class SeriesDomain:
         if power > self.order:
             return self.ring.zero
         if self.ring.valuation(a) < power:
-            raise ArithmeticError("a quotient with a pole at h = 0")
+            raise ArithmeticError("a quotient of power series has a pole at h = 0")
         # Both are divided by h^valuation, after which the divisor is a unit of the ring.
         shifted = (self.ring.from_coefficients(x.coefficients[power:]) for x in (a, b))
         return next(shifted) / next(shifted)
@@ -364,14 +368,15 @@ class SeriesDomain:
             total = total + term
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
-        """Return whether all unknowns are unchanged, and None: an exact comparison needs no size."""
+        """Return True if no unknown has changed, and None in place of the size of the change, which an exact
+        comparison does not need."""
         # Each sweep of a contraction by O(h) determines one further coefficient, so order + 1 sweeps suffice.
         return all(self.ring.is_zero(a - b) for a, b in zip(old, new, strict=True)), None
 
 
 class ExprDomain:
-    """Expressions of one space; ``h`` is a symbol. Blocks are not iterated, but become loops of the emitted
-    code."""
+    """Expressions of one space; ``h`` is a symbol. Implicit blocks are not iterated, but become loops of the
+    emitted code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
@@ -403,4 +408,4 @@ class ExprDomain:
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise :class:`NotConverged`, because expressions have no values to compare."""
-        raise NotConverged("expressions are not iterated")
+        raise NotConverged("an iteration over expressions has no numbers to compare")

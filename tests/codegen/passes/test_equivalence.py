@@ -129,7 +129,7 @@ def test_a_field_that_is_not_there_around_the_initial_state_is_bad_input(field):
         return Reference(program, view)
 
     with pytest.raises(
-        SceneError, match=r"no step can be computed from|f at the initial state is not a finite"
+        SceneError, match=r"no step of the method can be computed from|f at the initial state is not a finite"
     ):
         compared()
 
