@@ -142,10 +142,10 @@ class Reference:
         self.points = [point for point in points if point.computed]
         if not self.points:
             raise SceneError(
-                "no step of the method can be computed from the initial state of the scene, nor from a state nearby",
+                "no step of the method can be computed from the initial state, nor from a state nearby",
                 where=scene.name,
-                expected="a field that is finite at these states, and stages that can be solved for small steps",
-                hint="check the formulas of the scene for roots of negative numbers, zero denominators and numbers above 1e308",
+                expected="a field that is finite at these states, and stages solvable for small steps",
+                hint="check the scene for roots of negative numbers, zero denominators and numbers above 1e308",
             )
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:
