@@ -32,25 +32,25 @@ class MuntheKaas(FieldLowering):
 
     def lower(self, problem: Problem, method: Method) -> Program:
         """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
-        # Without a cut-off the series of dexp^{-1} is infinite, so a search determines a finite set of
-        # brackets.
+        # Without a cut-off, a search determines which brackets of the infinite series of dexp^{-1} are
+        # needed.
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions; without a cut-off they come from the series of the compiled program
-        itself."""
+        """Return the order conditions; without a cut-off they are computed from the series of the compiled
+        program."""
         if method.cutoff is not None:
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The certificate reads the compiled program, so certificate and program cannot differ.
+        # The conditions are computed from the program that is compiled, so both have the same brackets.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order. Without a cut-off no failing conditions are listed, because they have no
-        names."""
+        """Return the order. For a method without a cut-off, failing conditions are not listed, because these
+        conditions have no names."""
         if method.cutoff is not None:
             return super().order(method, scene)
         from orderconds.checking import family_order
@@ -69,8 +69,8 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # u is in the algebra, which is a vector space: the stages are a Runge-Kutta step for u' =
-            # dexp^{-1}_u f(exp(u).y0).
+            # The stages are a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0), an equation in the Lie
+            # algebra, which is a vector space.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.exp(f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])

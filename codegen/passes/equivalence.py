@@ -145,7 +145,7 @@ class Reference:
                 "no step of the method can be computed from the initial state, nor from a state nearby",
                 where=scene.name,
                 expected="a field that is finite at these states, and stages solvable for small steps",
-                hint="check the scene for roots of negative numbers, zero denominators and numbers above 1e308",
+                hint="check the scene for roots of negative numbers, zero denominators, numbers above 1e308",
             )
 
     def _some(self, program: Program, moved: bool) -> Iterator[_Step]:

@@ -134,24 +134,14 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
     )
 
 
-def race_all(
-    request: Request, errors: Sequence[float], progress: Progress = str, most: float = math.inf
-) -> tuple[dict[float, list[Result]], int, int]:
-    """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark.
-
-    The race ends after ``most`` seconds. Recipes with few stages are first. The results are followed by the
-    number of recipes that were emitted or refused, and the number of all recipes.
-    """
+def race_all(request: Request, errors: Sequence[float]) -> dict[float, list[Result]]:
+    """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark."""
     search = Search(request.task, (request.goal,))
     results: dict[float, list[Result]] = {error: [] for error in errors}
-    recipes, done = sorted(search.suited, key=lambda recipe: recipe.stages), 0
-    for done, candidate in enumerate(in_processes(partial(emitted, request.task), recipes), 1):
-        progress(f"{search.problem.name}: recipe {done} of {len(recipes)}")
+    for candidate in in_processes(partial(emitted, request.task), list(search.suited)):
         if isinstance(candidate, Entry) and request.goal.met(candidate.features):
             racer = search.racer(candidate)
             for error, known in results.items():
                 best = min((r.seconds for r in known if r.reached), default=math.inf)
                 known.append(racer.reach(error, best))
-        if time.monotonic() - search.start > most:
-            break
-    return results, done, len(recipes)
+    return results
