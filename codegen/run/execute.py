@@ -473,9 +473,8 @@ def _inverted(n: int, matrix: list[Any]) -> int:
     rows = numpy.array(matrix, dtype=object if not all(isinstance(x, float) for x in matrix) else float)
     rows = rows.reshape(n, n)
     order = []
-    with numpy.errstate(
-        all="ignore"
-    ):  # emitted code does not report overflow or NaN here, so the exception is ignored
+    # Emitted code gives no warning of overflow or NaN, so numpy must give none.
+    with numpy.errstate(all="ignore"):
         for k in range(n):
             sizes = abs(rows[k:, k])
             pivot = k + max(range(n - k), key=sizes.__getitem__)

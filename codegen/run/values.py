@@ -13,7 +13,7 @@ def simple(statement: Simple) -> list[Statement]:
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
         given = tuple(map(value, statement.arguments))
-        # A single result is returned by value; an array of one entry would cost a store and a load.
+        # A single result is returned by value, because an array of one entry would cost a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)

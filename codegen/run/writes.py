@@ -21,7 +21,8 @@ def written(unit: Unit, function: Function) -> frozenset[str]:
                     changed_names |= {root(a).text for a in arguments if name == "invert"}
                     continue
                 changed = written(unit, callee)
-                # This recursion ends, because functions of a unit do not call each other recursively.
+                # The recursion ends, because no function of a unit calls itself, directly or through other
+                # functions.
                 pairs = zip(callee.parameters, arguments, strict=True)
                 changed_names |= {root(a).text for p, a in pairs if p.text in changed and a.op != "none"}
             case Array():
