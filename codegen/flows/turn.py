@@ -17,8 +17,9 @@ class Turn(Flow):
     """H = rate (e.P)^2/2 + offset e.P, where P is the momentum in the body or in space: a turn about the
     fixed axis e.
 
-    e.P is conserved, so the angle is tau (rate e.P + offset). In the body P = Ad*_q mu: the turn multiplies q
-    from the right, and mu is constant. In space P = mu: the turn acts on q and mu from the left.
+    The component e.P is conserved, so the turn has the angle tau (rate e.P + offset). In the body P = Ad*_q
+    mu: the turn multiplies q from the right, and mu is constant. In space P = mu: the turn acts on q and mu
+    from the left.
     """
 
     axis: tuple[Fraction, ...]
@@ -49,7 +50,7 @@ class Turn(Flow):
         return tuple(speed * e for e in axis), n
 
     def _axis(self, d: Domain, group: Coadjoint, q: Vector[S]) -> Vector[S]:
-        """Return the axis in space."""
+        """Return the axis in the space frame."""
         axis: Vector[S] = tuple(d.rational(x.numerator, x.denominator) for x in self.axis)
         return group.Ad(d, q, axis) if self.body else axis
 

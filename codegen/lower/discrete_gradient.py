@@ -113,6 +113,6 @@ def _check_bivector(scene: Problem, method: Method) -> None:
         # The formula of the bivector divides by |gamma|^2, so it is valid only where gamma = 0 implies f = 0.
         if not all(orbit.sized(a - b, (a, b)) for a, b in zip(image, f, strict=True)):
             raise MethodError(
-                f"{method.label} on {scene.name}, whose energy has zero differential where the field is not zero",
+                f"{method.label} on {scene.name}, whose energy has differential zero where f is not zero",
                 expected="an energy whose differential along the group vanishes only where f vanishes",
             )

@@ -46,7 +46,7 @@ def unregister(name: str) -> None:
 def targets() -> tuple[Target, ...]:
     """Return all targets; the built-in targets are first."""
     every = (*_built_in(), *_from_entry_points(), *_registered.values())
-    # The keys are names, so that a target that is registered a second time appears once in listings.
+    # The table has names as keys, so that a target that is registered twice is listed once.
     return tuple({each.name: each for each in every}.values())
 
 

@@ -122,7 +122,7 @@ class _Continuation:
         # The emitted comment names a step or a substep: with substeps, only the failed substep is repeated.
         about = (
             f"Repeat a {part} whose equations did not converge: first without the earlier solutions, which "
-            "mislead if the motion has changed, then by continuation in h from shorter steps."
+            "are bad initial guesses if the motion has changed, then by continuation in h from shorter steps."
         )
         return Function(CONTINUED, about, parameters, body, Kind.STATUS)
 

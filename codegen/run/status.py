@@ -34,7 +34,7 @@ REASONS = {
     NOT_FINITE: "the new state is not finite",
     BAD_STEP: "the step size h = {h} is not finite",
     LIMIT: "the end is not reached: too many steps",
-    TOO_FAR: "the step turns or moves too far: its result is not finite, but a shorter step has a finite result",
+    TOO_FAR: "the step turns or moves too far: only a shorter step has a finite result",
     SINGULAR: "the matrix of {block} is singular",
     TOO_SHORT: "the end is not reached: the step became too small to change t",
 }

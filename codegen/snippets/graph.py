@@ -19,7 +19,7 @@ from codegen.snippets import stumpff
 from codegen.templates import environment
 
 LIBRARY = ("fabs", "isfinite", *sorted(MATHEMATICAL))
-"""Functions that both targets have in their mathematical library."""
+"""Functions that are in the mathematical libraries of both C and Python."""
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,8 @@ def graph(precision: Precision = DOUBLE) -> nx.DiGraph:
 
 @dataclass(frozen=True)
 class Needed:
-    """The requirements of a set of functions: library functions, sorted, and helper texts, callees first."""
+    """What a set of functions requires: library functions, sorted by name, and texts of helpers, callees
+    first."""
 
     library: tuple[str, ...]
     texts: tuple[str, ...]
