@@ -15,9 +15,9 @@
  * left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4 sums: equal
  *             values are computed once
  *             1 adjoint map, 1 evaluation of dexp*, 1 evaluation of the derivatives of H, 3 sums:
- *             no result depends on them
+ *             no result depends on these operations
  *             6 adjoint maps, 2 evaluations of dexp*, 2 exponentials, 2 functions of ad: a linear
- *             map is applied to a sum, not to each term
+ *             map is applied once to a sum and not to each term
  *             3 adjoint maps: an adjoint map and its inverse cancel
  *             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv: functions of the
  *             same ad_x are combined
@@ -881,8 +881,8 @@ static inline int dipole_vrkmk2_gauss2_advance(double state[static 12], double h
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
- * if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
+ * initial guesses if the motion has changed, then by continuation in h from shorter steps.
  */
 static int dipole_vrkmk2_gauss2_continued(double state[static 12], double h,
     struct dipole_vrkmk2_gauss2_memory *memory, dipole_vrkmk2_gauss2_statistics *statistics)

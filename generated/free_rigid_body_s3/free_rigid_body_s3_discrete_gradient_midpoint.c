@@ -1065,8 +1065,8 @@ static inline int free_rigid_body_s3_discrete_gradient_midpoint_advance(double s
 }
 
 /*
- * Repeat a step whose equations did not converge: first without the earlier solutions, which mislead
- * if the motion has changed, then by continuation in h from shorter steps.
+ * Repeat a step whose equations did not converge: first without the earlier solutions, which are bad
+ * initial guesses if the motion has changed, then by continuation in h from shorter steps.
  */
 static int free_rigid_body_s3_discrete_gradient_midpoint_continued(double state[static 4],
     double h, struct free_rigid_body_s3_discrete_gradient_midpoint_memory *memory,
