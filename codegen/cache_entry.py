@@ -56,10 +56,8 @@ def _require_private(folder: Path) -> None:
     """Remove other users' access to the folder; raise an OSError if it does not belong to the user alone."""
     if not hasattr(os, "geteuid"):
         return
-    for status in (
-        folder.lstat(),
-        folder.stat(),
-    ):  # if the folder is a symbolic link, the link must belong to the user, too
+    # If the folder is a symbolic link, the link must belong to the user, too.
+    for status in (folder.lstat(), folder.stat()):
         if status.st_uid != os.geteuid():
             raise PermissionError(1, "a folder of another user")
     if folder.stat().st_mode & 0o077:

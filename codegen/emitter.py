@@ -373,10 +373,10 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
     if folded:
-        lines.append(f"parameters, folded: {', '.join(folded)}")
+        lines.append(f"arguments for parameters, which are constants: {', '.join(folded)}")
     closed = [name for name in scene.signals if name not in scene.inputs]
     if closed:
-        lines.append(f"run-time inputs: {', '.join(closed)} by formula")
+        lines.append(f"run-time inputs: {', '.join(closed)} computed by formula")
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):

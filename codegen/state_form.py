@@ -100,10 +100,8 @@ def batch_of(state: State, size: int) -> Batch | None:
 
     try:
         tables = [np.array(part, dtype=float) for part in parts]
-    except (
-        TypeError,
-        ValueError,
-    ):  # the array is ragged or complex; such a state is refused later, when its numbers are read
+    # The array is ragged or complex; such a state is refused later, when its numbers are read.
+    except (TypeError, ValueError):
         return None
     count = len(tables[0])
     if sum(table.size for table in tables) == size or any(len(table) != count for table in tables):

@@ -42,7 +42,8 @@ class Turn(Flow):
     def field(
         self, d: Domain, group: Coadjoint, values: Mapping[str, S], q: Vector[S], mu: Vector[S]
     ) -> tuple[Vector[S], Vector[S]]:
-        """Return (speed e, 0) for an axis in space, else (speed Ad_q e, n), where n keeps mu constant."""
+        """Return the field (xi, n): (speed e, 0) for an axis in space, else (speed Ad_q e, n), where n is
+        such that mu is constant."""
         axis = self._axis(d, group, q)
         speed = self._speed(d, axis, mu)
         zero: Vector[S] = (d.rational(0),) * group.dim

@@ -111,7 +111,8 @@ class BallDomain:
     def _stumpff(self, k: int, z: arb) -> arb:
         """Return c_k(z) = sum_j (-z)^j/(2j + k)!."""
         if z > 1:
-            # Above 1 the closed forms lose at most three bits. The worst case is c_3, since 1 - sin 1 = 0.16.
+            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3, which
+            # contains sqrt z - sin sqrt z: 1 - sin 1 = 0.16.
             root = z.sqrt()
             if k == 0:
                 return root.cos()

@@ -224,7 +224,8 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # Above 1 the closed forms lose at most three bits. The worst case is c_3, since 1 - sin 1 = 0.16.
+            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3, which
+            # contains sqrt z - sin sqrt z: 1 - sin 1 = 0.16.
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)

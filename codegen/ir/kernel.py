@@ -32,12 +32,13 @@ FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON = "fixed-point", "newton", "simplified-ne
 """The names of the methods that solve implicit blocks."""
 
 SLOWEST = 2.0**-12
-"""The least contraction factor of a sweep that is trusted. Rounding errors make a smaller measured factor
-unreliable, so a smaller factor is replaced by this value.
+"""The least value of the contraction factor of a sweep. Near rounding level a smaller measured factor is
+unreliable, so it is replaced by this value.
 """
 
 UNIT = 2.0**-53
-"""Half the distance from 1 to the next larger double: the largest relative rounding error."""
+"""Half the distance from 1 to the next larger double, which is the largest relative rounding error of a
+double."""
 
 LOST = 2.0**-47
 """A change below this fraction of the largest number in a block of the state is of the size of rounding
@@ -90,7 +91,8 @@ class Newton:
         Computing the inverse of an n x n matrix costs a multiple of n^3. An old inverse is less accurate, so
         a step takes more sweeps.
         """
-        # With n = len(matrix), n/2 steps share the cost of order n^3, so each step pays a cost of order n^2.
+        # With n = len(matrix), an inverse is used in about n/2 steps, so its cost of order n^3 adds a cost of
+        # order n^2 to each step.
         return max(1, len(self.matrix) // 2) if self.residuals else 0
 
 
@@ -132,7 +134,7 @@ class Loop:
 
     @property
     def close(self) -> float:
-        """The largest change at which the measured rate of convergence may end the loop.
+        """The largest change of the unknowns at which the test of the rate of convergence may end the loop.
 
         Values of the body that are read after the loop were computed before the last change. Let L be the
         Lipschitz constant of the images. Simplified Newton contracts by (h L)^2, while the values of the body
@@ -172,11 +174,12 @@ class Start:
     # The extrapolation of degree 0 is u1, and its error is the change of the unknowns. A start with half of
     # this error is hardly better.
     ROUGH: ClassVar[float] = 0.5
-    # The limit is hardly ever reached. Before the first success each try halves the step, so 100 tries reach
-    # 2^-100 h. After the first success each failure replaces the factor by its square root: nine consecutive
-    # failures end the search.
+    # This limit is hardly ever reached. Until a step converges, each try halves the step, so 100 tries reach
+    # 2^-100 h. After that, each failure replaces the factor between step sizes by its square root, and nine
+    # consecutive failures end the search.
     TRIES: ClassVar[int] = 100
-    # The largest factor is 4, and 4^(1/2^9) < 1 + 2^-8: the ninth failure in a row is the last.
+    # The largest factor is 4. After nine consecutive failures it is at most 4^(1/2^9) < 1 + 2^-8, and the
+    # search ends.
     SHORTEST: ClassVar[float] = 2.0**-8
 
 

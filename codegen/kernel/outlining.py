@@ -225,7 +225,7 @@ class Outline:
                 continue
             scale = max(1.0, *map(abs, old))
             if not all(abs(a - b) <= AGREE * scale for a, b in zip(old, new, strict=True)):
-                raise IllFormed(f"outlining changed the meaning of {self.program.name}")
+                raise IllFormed(f"outlining changed the results of {self.program.name}")
             return
         raise MethodError(
             f"the step of {self.program.name} gave infinite or undefined numbers at every test point",

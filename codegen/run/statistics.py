@@ -67,7 +67,7 @@ def count_sweeps(plan: Plan, block: int, sweeps: Term = SWEEPS) -> Statement:
 
 
 def count_matrix(plan: Plan) -> Statement:
-    """Return the call after a matrix was computed."""
+    """Return the call that counts a matrix; it follows the computation of the matrix."""
     return Call("count_matrix", (plan.statistics,))
 
 

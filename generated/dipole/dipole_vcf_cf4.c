@@ -21,7 +21,7 @@
  *             not to each term
  *             4 adjoint maps: an adjoint map and its inverse cancel
  *             5 evaluations of dexp*: functions of the same ad_x are combined
- *             parameters, folded: beta = 1, depth = 3/2
+ *             arguments for parameters, which are constants: beta = 1, depth = 3/2
  *             the time: the scene does not depend on it
  * operations: 116 add, 179 mul, 2 sqrt, 2 div, 2 stumpff_12 a step
  *             2 mul for an initial guess, in the first step of a run

@@ -20,7 +20,7 @@ left out:   3 adjoint maps, 2 products: coefficients are zero, or terms cancel
             4 adjoint maps: an adjoint map and its inverse cancel
             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are
             combined
-            parameters, folded: beta = 1, depth = 3/2
+            arguments for parameters, which are constants: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 38 add, 58 mul, 1 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run

@@ -26,7 +26,7 @@ left out:   17 adjoint maps, 15 evaluations of dexp*, 2 evaluations of the
             4 adjoint maps: an adjoint map and its inverse cancel
             2 adjoint maps, 2 evaluations of dexp*: functions of the same ad_x are
             combined
-            parameters, folded: beta = 1, depth = 3/2
+            arguments for parameters, which are constants: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 114 add, 174 mul, 3 stumpff_12 a step
             6 mul for an initial guess, in the first step of a run

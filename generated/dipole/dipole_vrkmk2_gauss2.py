@@ -22,7 +22,7 @@ left out:   2 Legendre transforms, 7 evaluations of dexp*, 4 functions of ad, 4
             4 adjoint maps, 3 evaluations of dexp*, 4 evaluations of dexpinv:
             functions of the same ad_x are combined
             2 sums: numbers are multiplied into sums
-            parameters, folded: beta = 1, depth = 3/2
+            arguments for parameters, which are constants: beta = 1, depth = 3/2
             the time: the scene does not depend on it
 operations: 47 add, 80 mul, 1 stumpff_12 a step
             2 mul for an initial guess, in the first step of a run

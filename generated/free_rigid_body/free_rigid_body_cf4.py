@@ -12,7 +12,7 @@ scene:      Free rigid body on the sphere, group SO(3)
 state:      [0..2] y: point that SO(3) acts on by rotation
 left out:   1 evaluation of the field: equal values are computed once
             5 exponentials: exp(x).y is computed without exp(x)
-            parameters, folded: alpha = 0
+            arguments for parameters, which are constants: alpha = 0
             the time: the scene does not depend on it
             equation solving: every stage is explicit
 operations: 89 add, 149 mul, 5 stumpff_12 a step

@@ -10,7 +10,7 @@
  * state:      [0..2] y: point that SO(3) acts on by rotation
  * left out:   1 evaluation of the field: equal values are computed once
  *             6 exponentials: exp(x).y is computed without exp(x)
- *             parameters, folded: alpha = 0
+ *             arguments for parameters, which are constants: alpha = 0
  *             the time: the scene does not depend on it
  *             equation solving: every stage is explicit
  * operations: 84 add, 161 mul, 6 stumpff_12 a step

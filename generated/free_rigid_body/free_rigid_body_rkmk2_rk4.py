@@ -13,7 +13,7 @@ left out:   1 action, 1 evaluation of dexpinv, 1 exponential: coefficients are z
             or terms cancel
             1 evaluation of the field: equal values are computed once
             4 exponentials: exp(x).y is computed without exp(x)
-            parameters, folded: alpha = 0
+            arguments for parameters, which are constants: alpha = 0
             the time: the scene does not depend on it
             equation solving: every stage is explicit
 operations: 101 add, 164 mul, 4 stumpff_12 a step
