@@ -52,6 +52,13 @@ class Stopped(Exception):
         self.cause = cause
 
 
+def json_text(value: Any) -> str:
+    """Return a JSON document as text: indented, keys in their given order, ASCII only."""
+    import json
+
+    return json.dumps(value, indent=2, allow_nan=False)
+
+
 @dataclass
 class Run:
     """One run of the program: options of the command line, and the number of JSON documents printed so
@@ -64,10 +71,8 @@ class Run:
     documents: int = 0
 
     def print_document(self, value: Any) -> None:
-        """Print one JSON document: indented, keys in their given order, ASCII only."""
-        import json
-
-        text = json.dumps(value, indent=2, allow_nan=False)
+        """Print one JSON document, as :func:`json_text` writes it."""
+        text = json_text(value)
         self.documents += 1
         click.echo(text)
 

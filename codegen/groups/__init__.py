@@ -15,6 +15,7 @@ from orderconds.lazy import lazy
 
 if TYPE_CHECKING:
     from codegen.groups.actions import Action, LeftMultiplication, Linear, Motion, Rotation
+    from codegen.groups.affine import Affine
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
     from codegen.groups.gl import GL
@@ -23,17 +24,27 @@ if TYPE_CHECKING:
     from codegen.groups.rn import Rn
     from codegen.groups.s3 import S3
     from codegen.groups.se2 import SE2
+    from codegen.groups.sl import SL
     from codegen.groups.sl2 import SL2
+    from codegen.groups.so import SO
     from codegen.groups.so3 import SO3
+    from codegen.groups.sp import Sp
+    from codegen.groups.unitary import SU, Unitary
+    from codegen.groups.unitriangular import Heisenberg, Unitriangular
 
 __all__ = [
     "GL",
     "S3",
     "SE2",
+    "SL",
     "SL2",
+    "SO",
     "SO3",
+    "SU",
     "Action",
+    "Affine",
     "Cotangent",
+    "Heisenberg",
     "LeftMultiplication",
     "LieGroup",
     "Linear",
@@ -42,17 +53,39 @@ __all__ = [
     "Product",
     "Rn",
     "Rotation",
+    "Sp",
+    "Unitary",
+    "Unitriangular",
     "get",
     "listing",
     "register",
     "unregister",
 ]
 
-LISTED = ("Cotangent", "GL", "MatrixGroup", "Product", "Rn", "S3", "SE2", "SL2", "SO3")
+LISTED = (
+    "Affine",
+    "Cotangent",
+    "GL",
+    "Heisenberg",
+    "MatrixGroup",
+    "Product",
+    "Rn",
+    "S3",
+    "SE2",
+    "SL",
+    "SL2",
+    "SO",
+    "SO3",
+    "Sp",
+    "SU",
+    "Unitary",
+    "Unitriangular",
+)
 
 lazy(
     __name__,
     actions=("Action", "LeftMultiplication", "Linear", "Motion", "Rotation"),
+    affine=("Affine",),
     base=("LieGroup",),
     cotangent=("Cotangent",),
     gl=("GL",),
@@ -62,7 +95,12 @@ lazy(
     s3=("S3",),
     se2=("SE2",),
     sl2=("SL2",),
+    sl=("SL",),
     so3=("SO3",),
+    so=("SO",),
+    sp=("Sp",),
+    unitary=("SU", "Unitary"),
+    unitriangular=("Heisenberg", "Unitriangular"),
 )
 
 GROUPS: Registry[LieGroup] = Registry("group", __name__, LISTED)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import combinations
 from typing import Protocol, Self, TypeVar
 
 from codegen.ir.domain import Domain
@@ -78,12 +79,45 @@ def matvec(a: Vector[S], v: Vector[S]) -> Vector[S]:
     return tuple(dot(a[i : i + n], v) for i in range(0, len(a), n))
 
 
-def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
-    """Return the inverse of an n x n matrix by the Faddeev-LeVerrier recursion.
+def transposed(a: Vector[S], n: int) -> Vector[S]:
+    """Return the transpose of an n x n matrix."""
+    return tuple(x for j in range(n) for x in a[j::n])
 
-    The recursion needs no pivots: over power series or expressions, it is not known which pivots are
-    non-zero.
+
+def determinant(a: Vector[S], n: int) -> S:
+    """Return the determinant of an n x n matrix without divisions, by expansion along the rows.
+
+    The number of products is n 2^(n-1).
+
+    >>> determinant((1, 2, 3, 4), 2)
+    -2
     """
+    # The key is the set of columns of a minor of the last rows.
+    minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
+    for i in reversed(range(n - 1)):
+        larger: dict[tuple[int, ...], S] = {}
+        for columns in combinations(range(n), n - i):
+            terms = [a[n * i + j] * minors[(*columns[:k], *columns[k + 1 :])] for k, j in enumerate(columns)]
+            total = terms[0]
+            for k, x in enumerate(terms[1:], 1):
+                total = total - x if k % 2 else total + x
+            larger[columns] = total
+        minors = larger
+    return minors[tuple(range(n))]
+
+
+WITHOUT_PIVOTS = 3
+"""Inverses of matrices with at most this number of rows are formed without pivots."""
+
+
+def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
+    """Return the inverse of an n x n matrix.
+
+    Small matrices are inverted by the Faddeev-LeVerrier recursion, which needs no pivots, and large matrices
+    by elimination with row exchanges.
+    """
+    if n > WITHOUT_PIVOTS:
+        return d.vector(f"inverse{n}", g)
     identity: Vector[S] = tuple(d.rational(int(i == j)) for i in range(n) for j in range(n))
     ones: Vector[S] = (d.rational(1),) * n
     m, c = identity, ones[0]

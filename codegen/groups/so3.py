@@ -43,7 +43,8 @@ class SO3(
     other columns are rotated, and this column is their cross product.
     """
 
-    name, layout = "SO(3)", ", row by row"
+    name = "SO(3)"
+    layout = ", row by row"
     dim, size = 3, 9
     covering_formula = "g x = q (0, x) q^c / |q|^2 for a quaternion q, real part first, and its conjugate q^c"
 

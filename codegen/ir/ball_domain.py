@@ -17,10 +17,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from flint import arb
+from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
 from codegen.ir.number import Number
+from codegen.ir.selection import selected, selects, sign_of_number
+from codegen.ir.vector_function import MatrixExponential, MatrixInverse, vector_function
 from orderconds.ring.precision import precision
 
 if TYPE_CHECKING:
@@ -97,6 +99,10 @@ class BallDomain:
             raise NotConverged(f"the argument of {function} is not a finite number")
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
+        if selects(function):
+            centres = tuple(x.mid() for x in args)
+            value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
+            return value.mid()
         if any(_exponent(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
@@ -107,6 +113,29 @@ class BallDomain:
         if not value.is_finite():
             raise ValueError(f"{function} of {z.str(10, radius=False)} is not a finite real number")
         return value
+
+    def vector(self, function: str, args: Sequence[arb]) -> tuple[arb, ...]:
+        """Return the results of a vector function.
+
+        The exponential of A + e E, with e^2 = 0, is computed from the block matrix with the rows (A, E) and
+        (0, A). ZeroDivisionError is raised for the inverse of a singular matrix, OverflowError for the
+        exponential of a matrix with entries above 2^40.
+        """
+        called, numbers = vector_function(function), [x.mid() for x in args]
+        if isinstance(called, MatrixExponential):
+            first = numbers[: called.n**2]
+            if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
+                raise OverflowError("the exponential of a matrix of this norm")
+            # The exponential may be smaller than the terms of its series by a factor exp(-2 norm).
+            norm = float(called.n * max(abs(x) for x in first))
+            with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
+                result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
+            return tuple(x.mid() for x in _first_row(result, called.level))
+        if isinstance(called, MatrixInverse):
+            with precision(2 * self.bits):
+                inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
+            return tuple(x.mid() for row in inverse for x in row)
+        raise ValueError(f"unknown vector function {function}")
 
     def _stumpff(self, k: int, z: arb) -> arb:
         """Return c_k(z) = sum_j (-z)^j/(2j + k)!."""
@@ -157,6 +186,25 @@ class BallDomain:
     def increment(self, x: arb) -> arb:
         """Return the step of a difference quotient at x."""
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
+
+
+def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
+    """Return the rows of the block matrix of a jet (:mod:`codegen.ir.matrix_exponential`)."""
+    if level == 0:
+        return [list(numbers[n * i : n * i + n]) for i in range(n)]
+    half = len(numbers) // 2
+    a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
+    zeros = [arb(0)] * len(a)
+    return [*(x + y for x, y in zip(a, e, strict=True)), *([*zeros, *x] for x in a)]
+
+
+def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
+    """Return the jet of a block matrix: the inverse of :func:`_block`."""
+    if level == 0:
+        return [x for row in rows for x in row]
+    half = len(rows) // 2
+    a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
+    return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
 
 
 def _exponent(x: arb) -> int:

@@ -3,11 +3,14 @@ function."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
-from codegen.ir.elementary import ELEMENTARY
+from codegen.ir.elementary import ANGLE, ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
+from codegen.ir.vector_function import component, partial
 
 
 class NotDifferentiable(ValueError):
@@ -38,9 +41,11 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     return [bars.get(space.sym(name).id, space.zero) for name in symbols]
 
 
-def partials(node: Expr) -> list[Expr]:
+def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
+    If the ids of the nodes that are not constant are given as ``moving``, the derivatives of a vector
+    function with respect to other arguments may be zero.
     The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
     raised for the functions slope1, slope2 and slope3, which are derivatives of Stumpff functions themselves.
     """
@@ -62,7 +67,11 @@ def partials(node: Expr) -> list[Expr]:
             n = node.payload
             return [space.const(Number.rational(n)) * space.pow(args[0], n - 1)]
         case "call":
-            return _derivatives(node)
+            result = component(node.payload)
+            if result is None:
+                return _derivatives(node)
+            wanted = [moving is None or a.id in moving for a in node.args]
+            return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
             return []
 
@@ -73,6 +82,13 @@ def _derivatives(node: Expr) -> list[Expr]:
     space, x = node.space, node.args[0]
     half = space.const(Number.rational(1, 2))
     match node.payload:
+        case PiecewisePolynomial() as table:
+            return [space.call(table.derivative(), x) if table.degree else space.zero]
+        case name if name in (ABSOLUTE, CHOOSE):
+            return _selection(node)
+        case name if name == ANGLE:
+            size = x * x + node.args[1] * node.args[1]
+            return [node.args[1] / size, -(x / size)]
         case "sqrt":
             # The derivative 1/(2 sqrt x) contains the root, which is already computed.
             return [half * (space.one / node)]
@@ -106,3 +122,20 @@ def _derivatives(node: Expr) -> list[Expr]:
         case _:
             message = f"the function {node.payload} has no rule for its derivative"
             raise NotDifferentiable(message)
+
+
+def sign(x: Expr) -> Expr:
+    """Return the sign of an expression, which is 0 at 0."""
+    space = x.space
+    return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
+
+
+def _selection(node: Expr) -> list[Expr]:
+    """Return the derivatives of an absolute value, which is 0 at 0, or of the selected formula."""
+    space, (x, *formulas) = node.space, node.args
+    if not formulas:
+        return [sign(x)]
+    # An adjoint that is added to a number is never read, so it is not formed.
+    one, zero = space.one, space.zero
+    factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
+    return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

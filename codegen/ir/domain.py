@@ -13,8 +13,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, Protocol, TypeAlias
 
+from codegen.ir.elementary import ANGLE
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
+from codegen.ir.selection import Kink, selected, selects, sign_of_number
+from codegen.ir.vector_function import VectorFunction, vector_function
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Ring
 
@@ -51,6 +54,9 @@ class Domain(Protocol):
 
     def call(self, function: str, *args: Scalar) -> Scalar:
         """Return the value of a function of :data:`codegen.ir.expr.FUNCTIONS`."""
+
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function (:mod:`codegen.ir.vector_function`)."""
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Return whether an iteration has converged, and the size of its last change. The caller passes this
@@ -117,6 +123,14 @@ def slope(k: int, z: float) -> float:
     return total
 
 
+def _vector(name: str) -> VectorFunction:
+    """Return a vector function; ValueError for an unknown name."""
+    function = vector_function(name)
+    if function is None:
+        raise ValueError(f"unknown vector function {name}")
+    return function
+
+
 class FloatDomain:
     """IEEE double precision.
 
@@ -144,8 +158,14 @@ class FloatDomain:
             return slope(int(function[-1]), args[0])
         if function == "quotient":
             return args[0] / args[1] if args[1] else 0.0
+        if selects(function):
+            return float(selected(self, function, args, sign_of_number))
         result: float = getattr(math, function)(*args)
         return result
+
+    def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
+        """Return the results of a vector function, with the operations of emitted code."""
+        return _vector(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last change."""
@@ -216,6 +236,8 @@ class PreciseDomain:
         """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
+        if selects(function):
+            return selected(self, function, args, sign_of_number)
         if any(self.context.mag(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
@@ -239,6 +261,10 @@ class PreciseDomain:
             j += 1
             term = -term * z / ((2 * j + k) * (2 * j + k - 1))
         return total
+
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function."""
+        return _vector(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
         """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
@@ -298,6 +324,10 @@ class SeriesDomain:
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
+        if selects(function):
+            return selected(self, function, args, self._sign)
+        if function == ANGLE:
+            return self._angle(z, args[1])
         one = self.ring.one
         starts = {
             "sin": (1, 2, z),
@@ -331,6 +361,23 @@ class SeriesDomain:
         # of the argument removes the alternation.
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
+
+    def _sign(self, z: Scalar) -> int:
+        """Return the sign of a series for small h; :class:`Kink` if it vanishes at h = 0."""
+        start = z.coefficients[0]
+        if self.base.is_zero(start) is not False:
+            raise Kink("the field is not smooth at the initial state")
+        return -1 if self.base.approximate(start).startswith("-") else 1
+
+    def _angle(self, y: Scalar, x: Scalar) -> Scalar:
+        """Return atan2(y, x) near the positive x-axis; all other angles are transcendental."""
+        if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
+            raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
+        return self._arc("atan", y / x)
+
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Return the results of a vector function, exactly."""
+        return _vector(function).over_series(self.ring, args)
 
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
@@ -397,6 +444,11 @@ class ExprDomain:
     def call(self, function: str, *args: Expr) -> Expr:
         """Return a call node."""
         return self.space.call(function, *args)
+
+    def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return a call node for each result, or the results themselves if they are short."""
+        expanded = _vector(function).expanded(args)
+        return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:
         """Return symbols for run-time inputs at a time; the symbols are the same for equal times."""

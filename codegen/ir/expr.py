@@ -6,17 +6,20 @@ text depend only on the input. Nodes simplify only locally (constants, zeros, on
 never flattened, because flattening would destroy sharing.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
-exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
+exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`, or a result of a vector function).
 """
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE, SELECTING
+from codegen.ir.table import PiecewisePolynomial
+from codegen.ir.vector_function import component
 
 if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
@@ -27,6 +30,8 @@ exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
     *MATHEMATICAL,
+    ANGLE,
+    *SELECTING,
     # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
     "stumpff0",
     "stumpff1",
@@ -106,6 +111,8 @@ class Space:
     def __init__(self) -> None:
         # The table refers to every node, so no node is freed and node numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
+        self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
+        """The derivatives of vector functions that are known."""
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 
@@ -257,12 +264,39 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return function(args) for a function of :data:`FUNCTIONS`."""
-        if function not in FUNCTIONS:
+        """Return function(args) for a function of :data:`FUNCTIONS`, a table, or a result of a vector
+        function."""
+        known = _folded(function, args)
+        if known is not None:
+            return known
+        table = isinstance(function, PiecewisePolynomial)
+        if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test an unknown name would cause an error only later, in a printer.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
+
+    def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
+        given = tuple(args)
+        return tuple(self._make("call", given, f"{function}.{k}") for k in range(len(given)))
+
+
+def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
+    """Return the value of a selection that is known; None if it is not known."""
+    if function == CHOOSE and args[1] is args[2]:
+        return args[1]
+    if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
+        test, *values = args[0].args
+        # A comparison with 1 and -1 as results is the comparison itself.
+        if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
+            return test.space.call(CHOOSE, test, *args[1:])
+    if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
+        return None
+    value = args[0].payload.fraction()
+    if function == ABSOLUTE:
+        return -args[0] if value < 0 else args[0]
+    return args[1] if value > 0 else args[2]
 
 
 def _joinable(a: Expr, b: Expr) -> bool:
@@ -324,6 +358,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     # second time.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
+    # The results of a vector function are computed together, by its name and the ids of its arguments.
+    vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # walk yields the arguments of a node before the node, so the values of the arguments are already
         # known.
@@ -338,6 +374,12 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = -result[args[0]]
         elif node.op == "pow":
             value = power(result[args[0]], node.payload)
+        elif (result_of := component(node.payload)) is not None:
+            function, index = result_of
+            key = function.name, tuple(a.id for a in args)
+            if key not in vectors:
+                vectors[key] = domain.vector(function.name, [result[a] for a in args])
+            value = vectors[key][index]
         else:
             value = domain.call(node.payload, *(result[a] for a in args))
         result[node] = value

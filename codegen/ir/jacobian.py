@@ -63,7 +63,7 @@ class _Graph:
             if any(a.id in self.after for a in node.args):
                 self.inner.append(node.id)
                 self.before[node.id], self.after[node.id] = {}, {}
-                for arg, factor in zip(node.args, partials(node), strict=True):
+                for arg, factor in zip(node.args, partials(node, self.after), strict=True):
                     self._add(arg.id, node.id, factor)
         for i, root in enumerate(roots):
             self.before[-1 - i] = {}

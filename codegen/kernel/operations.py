@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import Kernel
+from codegen.ir.vector_function import vector_function
 from codegen.kernel.schedule import (
     Arrangement,
     Beginning,
@@ -134,7 +135,9 @@ def _counted(
     roots = list(more)
     for statement in statements:
         if isinstance(statement, Invocation):
-            total = _plus(total, functions[statement.function])
+            vector = vector_function(statement.function)
+            inner = functions[statement.function] if vector is None else vector.operations
+            total = _plus(total, inner)
             roots += statement.arguments
         elif isinstance(statement, SharedCall):
             total = _plus(total, {statement.function: 1})

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, walk
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON, Function, Kernel, Let, Loop, Start
+from codegen.ir.vector_function import component, vector_function
 
 METHODS = {
     FIXED_POINT: "fixed point",
@@ -48,7 +49,9 @@ class SharedCall:
 
 @dataclass(frozen=True)
 class Invocation:
-    """The statement name = function(arguments): one call returns all results of an outlined function."""
+    """The statement name = function(arguments): one call returns all results of an outlined function, or of a
+    vector function, whose arguments are in one array.
+    """
 
     name: str
     results: int
@@ -59,6 +62,11 @@ class Invocation:
     def names(self) -> tuple[str, ...]:
         """The names of the results in expressions."""
         return tuple(f"{self.name}.{k}" for k in range(self.results))
+
+    @property
+    def in_array(self) -> bool:
+        """Whether the arguments are passed in one array."""
+        return vector_function(self.function) is not None
 
 
 Simple = Assignment | SharedCall | Invocation
@@ -315,7 +323,7 @@ class _Scope:
                     self.known[node.id] = self._power(args[0], node.payload)
                 case "call" if node.payload in STUMPFF:
                     self._shared_call(node, args[0])
-                case "call" if node.payload.partition(".")[0] in self.outlined:
+                case "call" if self._results(node) is not None:
                     self._invoke(node, args)
                 case "call":
                     self.known[node.id] = space.call(node.payload, *args)
@@ -336,9 +344,17 @@ class _Scope:
             call = node.space.call(f"stumpff{k}", node.args[0])
             self.known[call.id] = node.space.sym(name)
 
+    def _results(self, node: Expr) -> int | None:
+        """Return the number of results of a call of an outlined function or of a vector function, otherwise
+        None."""
+        vector = component(node.payload)
+        return self.outlined.get(node.payload.partition(".")[0]) if vector is None else vector[0].size
+
     def _invoke(self, node: Expr, args: list[Expr]) -> None:
         function = node.payload.partition(".")[0]
-        call = Invocation(self._fresh("v"), self.outlined[function], function, tuple(args))
+        results = self._results(node)
+        assert results is not None
+        call = Invocation(self._fresh("v"), results, function, tuple(args))
         self.pending.append(call)
         for k, name in enumerate(call.names):
             self.results[name] = k

@@ -7,6 +7,7 @@ from codegen.run.arithmetic import outlined
 from codegen.run.cause import cause, is_searched, step_arguments
 from codegen.run.continuation import continued
 from codegen.run.language import Function, Record, Table, Unit
+from codegen.run.matrix_functions import matrix_functions, matrix_tables, used
 from codegen.run.momentum import turning
 from codegen.run.plan import Plan
 from codegen.run.statistics import counters, statistics_record
@@ -26,7 +27,10 @@ def unit_of(plan: Plan) -> Unit:
     functions += (*step_control.functions(plan), *taylor_control.functions(plan), *jacobian.functions(plan))
     # t and h are always included, so that no other name gets the identifiers t and h.
     scalars = ("t", "h", *(p.text for p in plan.parameters))
-    return Unit(scalars, _records(plan), _tables(plan), tuple(functions))
+    vectors = used(functions)
+    functions = [*matrix_functions(vectors, plan.format), *functions]
+    tables = (*_tables(plan), *matrix_tables(vectors, plan.format))
+    return Unit(scalars, _records(plan), tables, tuple(functions))
 
 
 def _steps(plan: Plan) -> list[Function]:

@@ -13,12 +13,13 @@ from typing import Any
 
 import networkx as nx
 
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.precision import DOUBLE, Precision
+from codegen.ir.table import PiecewisePolynomial
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
-LIBRARY = ("fabs", "isfinite", *sorted(MATHEMATICAL))
+LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
 """Functions that are in the mathematical libraries of both C and Python."""
 
 
@@ -39,6 +40,7 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     already short.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
+    listed.append(Snippet("choose", "choose"))
     listed.append(Snippet("largest", "largest", ("fabs",)))
     listed.append(Snippet("power", "power"))
     listed.append(Snippet("all_finite", "all_finite", ("isfinite",)))
@@ -89,6 +91,15 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     return tuple(listed)
 
 
+def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) -> Snippet:
+    """Return the helper that evaluates a table: a binary search and Horner's rule."""
+    knots = tuple(map(precision.round, table.knots))
+    pairs = zip(table.bases, table.rows, strict=True)
+    rows = [tuple(map(precision.round, (base, *row))) for base, row in pairs]
+    values = {"name": str(table), "knots": knots, "rows": rows}
+    return Snippet(str(table), "table", (), values)
+
+
 @cache
 def graph(precision: Precision = DOUBLE) -> nx.DiGraph:
     """Return the graph: an edge from each helper to each function that it calls."""
@@ -137,6 +148,11 @@ def needed(
     """
     wanted = sorted(set(functions))
     whole = graph(precision)
+    tables = [snippet_of_table(f, precision) for f in wanted if isinstance(f, PiecewisePolynomial)]
+    if tables:
+        whole = whole.copy()
+        for table in tables:
+            whole.add_node(table.name, snippet=table)
     nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
     order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
     ordered = [whole.nodes[name]["snippet"] for name in order]
@@ -168,6 +184,8 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
             values[name] = number(value)
         elif isinstance(value, list | tuple) and value and isinstance(value[0], float):
             values[name] = [number(x) for x in value]
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], tuple):
+            values[name] = [[number(x) for x in row] for row in value]
         else:
             values[name] = value
     return templates.get_template(f"snippets/{snippet.template}.j2").render(values).strip()

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 import click
 
+from orderconds.argument import CONDITION_ORDER, EXPANDED_STAGES
 from orderconds.commands import screen
 from orderconds.commands.names import completing, family_names
 from orderconds.commands.place import FILE, put
+from orderconds.exit_status import json_text
 
 if TYPE_CHECKING:
     from orderconds.derivation import Derivation
@@ -20,8 +22,12 @@ FORMATS = ("text", "latex", "sympy", "json")
 
 @click.command(name="derive", short_help="Print the independent order conditions of a family.")
 @click.argument("family", shell_complete=completing(family_names))
-@click.option("--order", "-p", type=click.IntRange(1, 20), required=True, help="The highest order.")
-@click.option("--stages", "-s", type=click.IntRange(1, 12), help="Expand the sums for this number of stages.")
+@click.option(
+    "--order", "-p", type=click.IntRange(*CONDITION_ORDER), required=True, help="The highest order."
+)
+@click.option(
+    "--stages", "-s", type=click.IntRange(*EXPANDED_STAGES), help="Expand the sums for this number of stages."
+)
 @click.option(
     "--explicit",
     is_flag=True,
@@ -36,7 +42,12 @@ FORMATS = ("text", "latex", "sympy", "json")
 )
 @click.option("--explain", is_flag=True, help="Draw each tree and name its elementary differential.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
-@click.option("--json", "as_json", is_flag=True, help="The same as --format json.")
+@click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="The same as --format json; stdout has the JSON also if --output names a file.",
+)
 def command(
     family: str,
     order: int,
@@ -59,32 +70,36 @@ def command(
         orderconds derive rk --order 4 --stages 4 --explicit
         orderconds derive cf --order 4 --format latex -o conditions.tex
     """
-    from orderconds import families
     from orderconds.derivation import derive
-    from orderconds.explain.kinds import refuse_too_many_trees
 
     if explicit and stages is None:
         raise click.UsageError("--explicit has no effect without --stages; give --stages S too")
     if as_json and form not in (None, "json"):
         raise click.UsageError(f"--json and --format {form} select two output formats; leave one out")
-    refuse_too_many_trees(families.get(family), order)
     with screen.working(f"deriving {family} to order {order}"):
         derivation = derive(family, order, stages, explicit=explicit, every=every)
     chosen = "json" if as_json else form or "text"
-    if output is None:
+    if output is not None:
+        put(output, _text(derivation, chosen, explain).encode())
+    if output is None or as_json:
         _print(derivation, chosen, explain)
-        return 0
-    with redirect_stdout(io.StringIO()) as printed:
-        _print(derivation, chosen, explain)
-    put(output, printed.getvalue().encode())
     return 0
+
+
+def _text(derivation: Derivation, form: str, explain: bool) -> str:
+    """Return a derivation in one of the :data:`FORMATS`."""
+    if form == "json":
+        return json_text(_record(derivation, explain)) + "\n"
+    with redirect_stdout(io.StringIO()) as printed:
+        _print(derivation, form, explain)
+    return printed.getvalue()
 
 
 def _print(derivation: Derivation, form: str, explain: bool) -> None:
     """Print a derivation in one of the :data:`FORMATS`."""
     match form:
         case "json":
-            _print_json(derivation, explain)
+            screen.print_json(_record(derivation, explain))
         case "latex":
             from orderconds.typeset.article import article
 
@@ -128,11 +143,11 @@ def _print_entries(derivation: Derivation, order: int) -> None:
         click.echo("\n".join(f"  {line}" for line in lines))
 
 
-def _print_json(derivation: Derivation, explain: bool) -> None:
-    """Print the JSON; with ``explain`` each condition has its elementary differential."""
-    record = derivation.as_json()
+def _record(derivation: Derivation, explain: bool) -> dict[str, object]:
+    """Return the JSON object; with ``explain`` each condition has its elementary differential."""
+    record: dict[str, object] = derivation.as_json()
     if explain:
         from orderconds.explain.kinds import named_by
 
         record["conditions"] = [{**c.as_json(), "names": named_by(c)} for c in derivation.conditions]
-    screen.print_json(record)
+    return record

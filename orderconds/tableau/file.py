@@ -210,6 +210,18 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
     return TableauError(summary[:1].lower() + summary[1:], where=place)
 
 
+def verify_name(name: str, where: str) -> None:
+    """Raise :class:`TableauError` if ``name`` cannot be the name of a tableau."""
+    if len(name) > MAX_NAME:
+        raise TableauError(
+            f"a name of {len(name)} characters, {name[:20]!r} ...",
+            where=where,
+            expected=f"at most {MAX_NAME}",
+        )
+    if not _NAME.fullmatch(name):
+        raise TableauError(f"name = {name!r}", where=where, expected="letters, digits, _ . + -")
+
+
 def _verify_names(entry: Format, where: str) -> None:
     inside = (name for key in ("parts", "elements") for name in getattr(entry, key, ()))
     for name in (entry.name, entry.bibtex, *entry.numbers, *entry.claims, *inside):
@@ -226,10 +238,7 @@ def _verify_names(entry: Format, where: str) -> None:
                 where=f"{where}: {key}",
                 expected="text without control characters",
             )
-    if not _NAME.fullmatch(entry.name):
-        raise TableauError(
-            f"name = {entry.name!r}", where=f"{where}: name", expected="letters, digits, _ . + -"
-        )
+    verify_name(entry.name, f"{where}: name")
     for name in entry.numbers:
         if not _NUMBER.fullmatch(name) or name == "sqrt":
             raise TableauError(

@@ -119,9 +119,9 @@ def _needed(method: RungeKutta, ring: Ring) -> list[int]:
     needed = _used([method.b], ring)
     waiting = sorted(needed)
     while waiting:
-        found = _used([method.A[waiting.pop()]], ring) - needed
-        needed |= found
-        waiting += sorted(found)
+        further = _used([method.A[waiting.pop()]], ring) - needed
+        needed |= further
+        waiting += sorted(further)
     return sorted(needed)
 
 
@@ -134,9 +134,9 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
         stage = waiting.pop()
         rows += stage.exponentials
         # A stage may begin at the point of another stage.
-        found = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
-        waiting += [method.stages[j] for j in sorted(found - reached)]
-        reached |= found
+        further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
+        waiting += [method.stages[j] for j in sorted(further - reached)]
+        reached |= further
     return rows
 
 

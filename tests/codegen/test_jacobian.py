@@ -243,7 +243,7 @@ def test_without_a_request_there_is_none():
     for target in ("c", "python"):
         emission = emitted("free_rigid_body", "cf:cf4", target, jacobian=False)
         assert "jacobian" not in "".join(emission.files.values())
-    with pytest.raises(TypeError, match="emit it with --jacobian"):
+    with pytest.raises(TypeError, match="emit it with jacobian=True"):
         load(emission).jacobian([1, 0, 0], 0.1)
     assert "--jacobian" in emitted("free_rigid_body", "cf:cf4").manifest["command"]
 

@@ -71,7 +71,7 @@ def test_groups_are_listed_with_what_they_are():
 
 
 def test_an_unknown_group_lists_the_known_ones():
-    with pytest.raises(UnknownName, match="unknown group 'SO4'; expected one of Cotangent"):
+    with pytest.raises(UnknownName, match="unknown group 'SO4'; expected one of Affine, Cotangent"):
         get("SO4")
     assert get("SO3").name == "SO(3)"
 
