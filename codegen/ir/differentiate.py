@@ -44,10 +44,10 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    If the ids of the nodes that are not constant are given as ``moving``, the derivatives of a vector
-    function with respect to other arguments may be zero.
-    The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
-    raised for the functions slope1, slope2 and slope3, which are derivatives of Stumpff functions themselves.
+    ``moving`` may contain the ids of the nodes that are not constant. Derivatives of a vector function with
+    respect to constant arguments are then not computed, but set to zero. The derivatives of ``quotient`` are
+    valid where its divisor is not zero. :class:`NotDifferentiable` is raised for the functions slope1, slope2
+    and slope3, which are derivatives of Stumpff functions themselves.
     """
     space, args = node.space, node.args
     match node.op:
@@ -125,17 +125,18 @@ def _derivatives(node: Expr) -> list[Expr]:
 
 
 def sign(x: Expr) -> Expr:
-    """Return the sign of an expression, which is 0 at 0."""
+    """Return the sign of an expression; the sign of 0 is 0."""
     space = x.space
     return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
 
 
 def _selection(node: Expr) -> list[Expr]:
-    """Return the derivatives of an absolute value, which is 0 at 0, or of the selected formula."""
+    """Return the derivatives of an absolute value or of the selected formula; the derivative of the absolute
+    value at 0 is set to 0."""
     space, (x, *formulas) = node.space, node.args
     if not formulas:
         return [sign(x)]
-    # An adjoint that is added to a number is never read, so it is not formed.
+    # A number needs no adjoint, so the adjoint of a branch that is a number is not formed.
     one, zero = space.one, space.zero
     factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
     return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -363,7 +363,8 @@ class SeriesDomain:
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
     def _sign(self, z: Scalar) -> int:
-        """Return the sign of a series for small h; :class:`Kink` if it vanishes at h = 0."""
+        """Return the sign of a series for small h; :class:`Kink` is raised if the series vanishes at h =
+        0."""
         start = z.coefficients[0]
         if self.base.is_zero(start) is not False:
             raise Kink("the field is not smooth at the initial state")

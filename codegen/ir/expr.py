@@ -283,12 +283,13 @@ class Space:
 
 
 def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
-    """Return the value of a selection that is known; None if it is not known."""
+    """Return the value of a selection if it is known which formula is selected, otherwise None."""
     if function == CHOOSE and args[1] is args[2]:
         return args[1]
     if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
         test, *values = args[0].args
-        # A comparison with 1 and -1 as results is the comparison itself.
+        # The sign of a selection between 1 and -1 is the selected number, so choosing by this sign is
+        # choosing by its argument.
         if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
             return test.space.call(CHOOSE, test, *args[1:])
     if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:

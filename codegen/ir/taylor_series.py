@@ -280,7 +280,7 @@ class Angle(Series):
 
 
 class Chosen(Series):
-    """The series of a or b, chosen by the sign of another series at the beginning of the step."""
+    """The series of a or of b: the sign of another series at the beginning of the step decides which."""
 
     def __init__(self, domain: Domain, test: Series, a: Series, b: Series) -> None:
         super().__init__(domain)
@@ -296,7 +296,7 @@ class Chosen(Series):
 
 
 class Start(Series):
-    """The constant f(a_0), for a function f of the value of a at the beginning of the step."""
+    """The constant series f(a_0), where a_0 is the value of a at the beginning of the step."""
 
     def __init__(self, domain: Domain, a: Series, function: Callable[[Scalar], Scalar]) -> None:
         super().__init__(domain)

@@ -65,7 +65,7 @@ class Invocation:
 
     @property
     def in_array(self) -> bool:
-        """Whether the arguments are passed in one array."""
+        """True if the arguments are passed in one array."""
         return vector_function(self.function) is not None
 
 

@@ -458,7 +458,7 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-        # A domain has the same operations as the function of the unit, and is faster.
+        # The domain computes the function with the same operations as the function of the unit, but faster.
         return lambda x, results: operator.setitem(results, slice(None), domain.vector(function, x)) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]

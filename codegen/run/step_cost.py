@@ -72,7 +72,7 @@ WEIGHTS = Amounts(
 
 
 CHEAP = ("add", "mul", "choose", "fabs")
-"""Operations that take about one cycle."""
+"""Operations that take about one cycle of a processor."""
 
 
 def of_operations(counts: Mapping[str, int]) -> Amounts:
