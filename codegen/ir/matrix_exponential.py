@@ -53,7 +53,7 @@ def largest_norms(bits: int) -> tuple[float, ...]:
     quarter of the unit roundoff.
 
     >>> largest_norms(53)
-    (0.000161, 0.0319, 0.221, 0.628)
+    (0.000161, 0.0321, 0.221, 0.628)
     """
     return tuple(
         float(f"{math.exp((math.lgamma(m + 1) - (bits + 2) * math.log(2)) / m):.3g}") for m in DEGREES

@@ -327,7 +327,7 @@ class InverseDexp(Operation):
 
     @property
     def word(self) -> Word:
-        """The operation as a function of ad."""
+        """The operation, written as a function of ad_x."""
         # A pass joins this function and neighbouring functions of the same ad_x in one word.
         return (Factor("dexpinv", UNIT, self.order),)
 
@@ -381,7 +381,7 @@ class DualDexp(OfGroup):
 
     @property
     def word(self) -> Word:
-        """The operation as a function of ad."""
+        """The operation, written as a function of ad_x."""
         return (Factor("dexp", UNIT),)
 
 

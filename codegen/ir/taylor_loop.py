@@ -38,8 +38,8 @@ ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
 """The symbols of n, 1/n, 1/(n + 1), and of coefficient n of the time, in the code of order n."""
 
 PROBED = 3
-"""The number of coefficients that are computed first. A series is treated as constant in time if these
-coefficients, except coefficient 0, are all None."""
+"""The number of Taylor coefficients that are computed before the loop. A series is treated as constant in
+time if these coefficients, except coefficient 0, are all None."""
 
 
 @dataclass(frozen=True)

@@ -82,7 +82,7 @@ def unregister(family: str) -> None:
     if any(lowering.family == family for lowering in _built_in()):
         raise MethodError(
             f"the built-in family {family} cannot be removed",
-            expected="a family that a call of register added",
+            expected="a family that was added by register()",
         )
     _registered.pop(family, None)
 

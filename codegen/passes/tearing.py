@@ -80,7 +80,8 @@ def ordered(body: tuple[Assign, ...]) -> tuple[Assign, ...] | None:
         if k in state:
             return state[k]
         state[k] = False
-        # The search is depth first in the given order, so that a sorted body does not change.
+        # The depth-first search visits the assignments in the given order, so a body that is already sorted
+        # does not change.
         if not all(place(maker[a]) for a in body[k].args if a in maker):
             return False
         state[k] = True

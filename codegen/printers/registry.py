@@ -33,7 +33,7 @@ def register(new: Target) -> Target:
     """
     known = {each.name: each for each in targets()}
     if known.get(new.name, new) != new:
-        raise InputError(f"there is a target {new.name!r} already", expected="a new name")
+        raise InputError(f"a target {new.name!r} already exists", expected="a new name")
     _registered[new.name] = new
     return new
 

@@ -45,7 +45,7 @@ def cause(plan: Plan, core: str, more: tuple[Term, ...]) -> Function:
         Call(core, (same, *plan.moment(h=0.0 * STEP), *more), (STATUS,)),
         Return(select(STATUS.equals(code(OK)), code(TOO_FAR), code(NOT_FINITE))),
     )
-    about = "Return the cause of a step without a finite result: does a step of size zero have one?"
+    about = "Find the cause of a failed step: it was too long if a step of size zero has a finite result."
     return Function(CAUSE, about, parameters, body, Kind.STATUS)
 
 

@@ -145,7 +145,7 @@ class _Controlled:
         self.own = Plan(expansion.coefficients, plan.format)
         self.size = self.own.size
         self.state, self.trial = plan.state(), plan.state("trial")
-        # If the polynomial is in the coordinates of the state, no arrays are copied.
+        # If the coordinates of the polynomial are the coordinates of the state, no arrays are copied.
         self.start = self.state if expansion.enter is None else real("start", self.size)
         self.moved = self.trial if expansion.leave is None else real("moved", self.size)
         self.series = real("series", self.degree * self.size)

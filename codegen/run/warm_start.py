@@ -96,7 +96,7 @@ def memory_record(plan: Plan) -> Record:
         if loop.newton is not None and not loop.newton.leading:
             n = len(loop.unknowns)
             fields += [
-                (count(f"age_{k}"), "age of the inverse in steps, 0: no inverse"),
+                (count(f"age_{k}"), "age of the inverse in steps; 0 without an inverse"),
                 (real(f"inverse_{k}", n * n), ""),
             ]
     if plan.newton:

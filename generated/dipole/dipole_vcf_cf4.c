@@ -333,7 +333,7 @@ struct dipole_vcf_cf4_memory {
     double guess[12]; /* extrapolation to the next step */
     double values[32][12]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[144];
 };
 

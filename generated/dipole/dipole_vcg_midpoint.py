@@ -100,7 +100,7 @@ class _Memory:
         self.guess = [0.0] * 3  # extrapolation to the next step
         self.values = [[0.0] * 3 for _ in range(32)]  # ring buffer; each solution is stored twice, so the last ones are contiguous
         self.rate_1 = 0.0
-        self.age_1 = 0  # age of the inverse in steps, 0: no inverse
+        self.age_1 = 0  # age of the inverse in steps; 0 without an inverse
         self.inverse_1 = [0.0] * 9
 
 

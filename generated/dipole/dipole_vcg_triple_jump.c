@@ -238,7 +238,7 @@ struct dipole_vcg_triple_jump_memory {
     double guess[3]; /* extrapolation to the next step */
     double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[9];
 };
 

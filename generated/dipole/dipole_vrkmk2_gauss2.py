@@ -103,7 +103,7 @@ class _Memory:
         self.guess = [0.0] * 6  # extrapolation to the next step
         self.values = [[0.0] * 6 for _ in range(32)]
         self.rate_1 = 0.0
-        self.age_1 = 0  # age of the inverse in steps, 0: no inverse
+        self.age_1 = 0  # age of the inverse in steps; 0 without an inverse
         self.inverse_1 = [0.0] * 36
 
 

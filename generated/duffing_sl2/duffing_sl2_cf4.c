@@ -241,7 +241,7 @@ static int duffing_sl2_cf4_loop(double state[static 2], double h, size_t steps,
     return status;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int duffing_sl2_cf4_cause(const double state[static 2], double h)
 {
     double same[2];

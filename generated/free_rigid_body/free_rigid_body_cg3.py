@@ -227,8 +227,8 @@ def _loop(state, h, steps, trajectory, stride, completed):
 
 
 def _cause(state, h):
-    """Return the cause of a step without a finite result: does a step of size zero
-    have one?
+    """Find the cause of a failed step: it was too long if a step of size zero has a
+    finite result.
     """
     same = [0.0] * 3
     same[:] = state

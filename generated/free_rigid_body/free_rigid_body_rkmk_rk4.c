@@ -247,7 +247,7 @@ static int free_rigid_body_rkmk_rk4_loop(double state[static 3], double h, size_
     return status;
 }
 
-/* Return the cause of a step without a finite result: does a step of size zero have one? */
+/* Find the cause of a failed step: it was too long if a step of size zero has a finite result. */
 static int free_rigid_body_rkmk_rk4_cause(const double state[static 3], double h)
 {
     double same[3];

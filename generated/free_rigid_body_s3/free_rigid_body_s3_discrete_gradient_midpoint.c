@@ -275,7 +275,7 @@ struct free_rigid_body_s3_discrete_gradient_midpoint_memory {
     double guess[3]; /* extrapolation to the next step */
     double values[32][3]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[9];
 };
 

@@ -377,7 +377,7 @@ struct heavy_top_slgi_midpoint_memory {
     double guess[6]; /* extrapolation to the next step */
     double values[32][6]; /* ring buffer; each solution is stored twice, so the last ones are contiguous */
     double rate_1;
-    size_t age_1; /* age of the inverse in steps, 0: no inverse */
+    size_t age_1; /* age of the inverse in steps; 0 without an inverse */
     double inverse_1[36];
 };
 

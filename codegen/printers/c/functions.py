@@ -303,8 +303,8 @@ class _Body:
             yield f"memcpy({', '.join(copied)});"
             return
         kind, name = self.kind(statement, target), self.terms.line(target)
-        # Compound assignments are printed only where the target is the first operand: for x = x + y, but not
-        # for x = y + x, because x += y would exchange the operands.
+        # x += y is printed only for x = x + y and not for x = y + x, so that the order of the operands is
+        # kept.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed and not kind:
             more = self.terms.text(value.args[1])

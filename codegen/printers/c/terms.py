@@ -180,7 +180,8 @@ class Terms(Infix):
     def finite(self, values: Sequence[Term]) -> Text:
         """Return the test that all values are finite."""
         first = values[0]
-        # An array has a helper with a loop, because its test would be as long as the array.
+        # For an array a helper with a loop is called, because an expression with all its entries would be
+        # long.
         if first.shape:
             return Text((f"{self.prefix}all_finite({self.line(first)}, {first.shape[0]})",))
         if len(values) == 1:

@@ -271,7 +271,8 @@ class _Body:
             yield f"{'    ' * depth}{name} = {self.terms.line(value)}"
             return
         text = self.terms.text(value)
-        # Compound assignments are printed only where the target is the first operand, as in C.
+        # x += y is printed only for x = x + y and not for x = y + x, so that the order of the operands is
+        # kept.
         changed = value.op in "+-*" and value.args and self.terms.line(value.args[0]) == name
         if changed:
             yield from indented(f"{name} {value.op}= ", self.terms.text(value.args[1]).segments, depth)

@@ -197,7 +197,7 @@ class _Module:
 
 
 def keywords(arguments: list[str]) -> list[str]:
-    """Return arguments as keyword-only arguments."""
+    """Return the text that declares arguments as keyword-only."""
     return ["*", *arguments] if arguments else []
 
 
