@@ -196,7 +196,9 @@ def _without_tableau(text: str, families: Sequence[str]) -> Method | None:
         return None
     if match["family"] not in families:
         raise MethodError(
-            f"family {match['family']} on this scene", where=text, expected=f"one of {', '.join(families)}"
+            f"family {match['family']} cannot be used on this scene",
+            where=text,
+            expected=f"one of {', '.join(families)}",
         )
     number = None if match["number"] is None else int(match["number"])
     # The family raises an InputError for a number that is missing or out of range.
@@ -321,7 +323,9 @@ def _method(match: re.Match[str] | None, tableau: Tableau, text: str, families: 
     family, cutoff = match["family"], match["cutoff"]
     if family is not None and family not in families:
         raise MethodError(
-            f"family {family} on this scene", where=text, expected=f"one of {', '.join(families)}"
+            f"family {family} cannot be used on this scene",
+            where=text,
+            expected=f"one of {', '.join(families)}",
         )
     if family is not None and not family_class(family).has_tableau:
         raise MethodError(

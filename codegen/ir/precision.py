@@ -97,7 +97,7 @@ def _nearest(value: Number | Fraction | float, bits: int) -> float:
         return 0.0
     # The value is not rounded to a double first, because after two roundings a tie may be decided wrongly.
     exponent = exact.numerator.bit_length() - exact.denominator.bit_length() - bits
-    # The bit lengths give two candidates for the exponent; this comparison decides.
+    # The bit lengths give two candidates for the exponent; this comparison decides between these two.
     exponent += abs(exact) >= Fraction(2) ** (exponent + bits)
     # Subnormal numbers have fewer bits, because the exponent of their last bit is fixed.
     exponent = max(exponent, SUBNORMAL[bits])

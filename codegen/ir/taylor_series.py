@@ -262,7 +262,7 @@ class Circular(Series):
 
 
 class Angle(Series):
-    """The angle of the point (x, y), from r = x^2 + y^2 and angle' = (x/r) y' - (y/r) x'."""
+    """The angle of the point (x, y), computed by angle' = (x/r) y' - (y/r) x' with r = x^2 + y^2."""
 
     def __init__(self, domain: Domain, y: Series, x: Series) -> None:
         super().__init__(domain)

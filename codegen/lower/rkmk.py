@@ -84,7 +84,8 @@ def with_cutoff(problem: Problem, method: Method, cutoff: int) -> Program:
         return build.act("y1", build.exp("g", u), y)
 
     def update() -> dict[str, Var]:
-        # The embedded weights combine the same v_i, so they cost one exponential and no evaluation.
+        # The embedded solution combines the v_i of the method with other weights, so it costs one exponential
+        # and no evaluation of the field.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

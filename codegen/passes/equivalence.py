@@ -233,8 +233,8 @@ class Reference:
         """Compare results after the longest step for which both programs have a finite result."""
         failure = ""
         for step in point.results():
-            # The equations of the compared program may converge, and its sums may stay finite, only for
-            # shorter steps. The next shorter step is then tried.
+            # The iterations of the compared program may converge only for shorter steps, and its sums may
+            # overflow in longer steps. In both cases the next shorter step is tried.
             try:
                 after = self._run(program, step.domain, step.inputs, 2 * SWEEPS, step.solutions)
             except FAILURES as error:

@@ -155,8 +155,8 @@ class _Continuation:
         # continuation in h.
         arguments += (absent(plan.error),) if plan.kernel.estimate is not None else ()
         return [
-            # Each attempt starts at the original state, because h is the parameter of the
-            # continuation and not time.
+            # Each attempt starts at the original state, because continuation varies the step size h and does
+            # not advance the time.
             Assign(self.trial, plan.state()),
             # The memory is cleared: its solutions and matrices belong to another step size. The first attempt
             # is then independent of earlier steps, whose solutions may be bad initial guesses.

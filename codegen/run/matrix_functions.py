@@ -181,7 +181,7 @@ class _Exponential:
         what = f"the exponential of the {self.n} x {self.n} matrix a"
         if self.level:
             what += f" + E e, where e^2 = 0{' for each of several e' if self.level > 1 else ''}"
-            what += "; a holds a and E"
+            what += "; the array a contains the matrices a and E"
         return (
             f"result = {what}: Taylor polynomial, squared. All results are NaN if the bound of the relative "
             f"error exceeds 2^-{LEAST_DIGITS}."
