@@ -107,6 +107,8 @@ class BallDomain:
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), z)
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), z)
         if "stumpff" in function:
             return self._stumpff(int(function[-1]), z)
         value = getattr(arb, function)(*(x.mid() for x in args)).mid()
@@ -167,6 +169,19 @@ class BallDomain:
             total += term
             j += 1
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
+        return total
+
+    def _curvature(self, k: int, z: arb) -> arb:
+        """Return c_k''(z): by its series for abs(z) up to 1, else by c_{k-2}, c_{k-1} and c_k."""
+        if abs(z) > 1:
+            a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
+            return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
+        total, j, term = arb(0), 2, 2 * arb(1) / math.factorial(k + 4)
+        limit = arb((1, -self.bits - 10))
+        while abs(term.mid()) > limit:
+            total += term
+            j += 1
+            term = -term * z * j / ((j - 2) * (2 * j + k) * (2 * j + k - 1))
         return total
 
     def computed(self, name: str, value: Value) -> Value:

@@ -44,10 +44,17 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
 def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
+<<<<<<< HEAD
     ``moving`` may contain the ids of the nodes that are not constant. Derivatives of a vector function with
     respect to constant arguments are then not computed, but set to zero. The derivatives of ``quotient`` are
     valid where its divisor is not zero. :class:`NotDifferentiable` is raised for the functions slope1, slope2
     and slope3, which are derivatives of Stumpff functions themselves.
+=======
+    If the ids of the nodes that are not constant are given as ``moving``, the derivatives of a vector
+    function with respect to other arguments may be zero.
+    The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
+    raised for second derivatives of Stumpff functions.
+>>>>>>> main
     """
     space, args = node.space, node.args
     match node.op:
@@ -110,10 +117,12 @@ def _derivatives(node: Expr) -> list[Expr]:
         # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
+        case "slope2" | "slope3" as name:
+            return [space.call(f"curvature{name[-1]}", x)]
         case name if name in ELEMENTARY:
             return [ELEMENTARY[name].slope(x, node)]
-        case "signed_stumpff1":
-            return [space.call("signed_slope1", x)]
+        case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
+            return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
             # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
             # infinite there.

@@ -71,7 +71,7 @@ class Differenced(Domain, Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z of either sign.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. For z > 2^52 the
     result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so half of its digits are the number of
@@ -81,9 +81,15 @@ def stumpff(k: int, z: float) -> float:
     """
     if z > 2.0**52:
         return math.nan
-    if z < 0:
+    if z < 0 and (k < 3 or z < -4):
         root = math.sqrt(-z)
-        return math.cosh(root) if k == 0 else math.sinh(root) / root
+        if k == 0:
+            return math.cosh(root)
+        if k == 2:
+            ratio = math.sinh(root / 2) / (root / 2)
+            return ratio * ratio / 2
+        ratio = math.sinh(root) / root
+        return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
     # The closed form of c_3 contains sqrt z - sin sqrt z, which loses digits for angles below about 2. The
@@ -107,7 +113,7 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 1, 2, 3 and z >= 0; for k = 1 also for z < 0.
+    """Return c_k'(z) for k = 1, 2, 3 and z of either sign.
 
     The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
@@ -120,6 +126,23 @@ def slope(k: int, z: float) -> float:
     total = 0.0
     for j in range(12, 0, -1):
         total = -j / math.factorial(2 * j + k) - z * total
+    return total
+
+
+def curvature(k: int, z: float) -> float:
+    """Return c_k''(z) for k = 2, 3 and z >= 0.
+
+    The series is used for z up to 1, else (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
+
+    >>> curvature(2, 0.0) == 2 / 720
+    True
+    """
+    if abs(z) > 1:
+        last = k * (k + 2) * stumpff(k, z)
+        return (stumpff(k - 2, z) - (2 * k + 1) * stumpff(k - 1, z) + last) / (4 * z * z)
+    total = 0.0
+    for j in range(12, 1, -1):
+        total = j * (j - 1) / math.factorial(2 * j + k) - z * total
     return total
 
 
@@ -156,6 +179,8 @@ class FloatDomain:
             return stumpff(int(function[-1]), args[0])
         if "slope" in function:
             return slope(int(function[-1]), args[0])
+        if "curvature" in function:
+            return curvature(int(function[-1]), args[0])
         if function == "quotient":
             return args[0] / args[1] if args[1] else 0.0
         if selects(function):
@@ -242,6 +267,8 @@ class PreciseDomain:
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), args[0])
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), args[0])
         if "stumpff" not in function:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
@@ -276,6 +303,19 @@ class PreciseDomain:
             total += term
             j += 1
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
+        return total
+
+    def _curvature(self, k: int, z: Scalar) -> Scalar:
+        """Return c_k''(z): by its series for abs(z) up to 1, else by c_{k-2}, c_{k-1} and c_k."""
+        if abs(z) > 1:
+            a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
+            return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
+        total, j = self.context.mpf(0), 2
+        term = 2 * self.context.mpf(1) / math.factorial(k + 4)
+        while abs(term) > self.context.eps / 1024:
+            total += term
+            j += 1
+            term = -term * z * j / ((j - 2) * (2 * j + k) * (2 * j + k - 1))
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
@@ -346,6 +386,11 @@ class SeriesDomain:
             # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
+        if "curvature" in function:
+            k = int(function[-1])
+            # The rule for c_k', applied twice.
+            c, d, e = (self.call(f"stumpff{k + i}", z) for i in (4, 3, 2))
+            return (k * (k + 2) * c - (2 * k + 1) * d + e) * self.ring.rational(1, 4)
         if "stumpff" in function:
             k = int(function[-1])
             return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)

@@ -48,14 +48,16 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     for k in (2, 3):
         variables = {"k": k, "terms": stumpff.slopes(k, precision)}
         listed.append(Snippet(f"slope{k}", "slope", (f"stumpff_{k - 1}{k}",), variables))
-    for k, hyperbolic in enumerate(("cosh", "sinh")):
-        needs = (f"stumpff_{k}", "sqrt", hyperbolic)
-        listed.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
-    values_of_both = ("signed_stumpff0", "signed_stumpff1")
-    listed.append(
-        Snippet("signed_slope1", "signed_slope", values_of_both, {"terms": stumpff.slopes(1, precision)})
-    )
+        variables = {"k": k, "terms": stumpff.curvatures(k, precision)}
+        listed.append(Snippet(f"curvature{k}", "curvature", (f"stumpff_{k - 2}{k - 1}{k}",), variables))
     switch = [float(z) for z in stumpff.SWITCH]
+    for k, hyperbolic in enumerate(("cosh", "sinh", "sinh", "sinh")):
+        needs = (f"stumpff_{k}", "sqrt", hyperbolic, *(("stumpff_series_3",) if k == 3 else ()))
+        listed.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k, "last": -switch[k]}))
+    for k in (1, 2, 3):
+        variables = {"k": k, "terms": stumpff.slopes(k, precision)}
+        needs = (f"signed_stumpff{k - 1}", f"signed_stumpff{k}")
+        listed.append(Snippet(f"signed_slope{k}", "signed_slope", needs, variables))
     for k in range(4):
         first, *rest = stumpff.constants(k, None, precision)
         values: dict[str, Any] = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}

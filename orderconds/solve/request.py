@@ -102,7 +102,7 @@ def solve(
     name: str = "found",
     report: Callable[[str], object] = str,
 ) -> SearchResult:
-    """Find a method of ``family`` with this number of stages and this order, and prove its order.
+    """Find a method of ``family`` with this number of stages and order, and prove its order.
 
     The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
     ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` receives lines on the progress.
@@ -112,8 +112,7 @@ def solve(
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
     order = integer(order, "order", SOLVED_ORDER)
-    # Symmetric methods of even order need no conditions of that order.
-    refuse_too_many_trees(families.get(family), order - 1)
+    refuse_too_many_trees(families.get(family), order - 1)  # symmetric methods need no even orders
     spec = Spec(
         stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
