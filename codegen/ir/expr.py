@@ -37,11 +37,7 @@ FUNCTIONS = (
     "stumpff1",
     "stumpff2",
     "stumpff3",
-<<<<<<< HEAD
-    # c_0 and c_1 for positive and negative z: for z < 0 they contain cosh and sinh
-=======
-    # c_k for z of either sign: cosh and sinh where z < 0
->>>>>>> main
+    # c_k for positive and negative z: for z < 0 they contain cosh and sinh
     "signed_stumpff0",
     "signed_stumpff1",
     "signed_stumpff2",
@@ -49,11 +45,6 @@ FUNCTIONS = (
     # derivatives of stumpff2 and stumpff3: c_2' = (2 c_4 - c_3)/2 and c_3' = (3 c_5 - c_4)/2
     "slope2",
     "slope3",
-<<<<<<< HEAD
-    # derivative of signed_stumpff1: c_1' = (c_3 - c_2)/2, for positive and negative z
-    "signed_slope1",
-    # a/b, and 0 where b = 0: used for quotients whose limit is 0 where the divisor vanishes
-=======
     # second derivatives of stumpff2 and stumpff3
     "curvature2",
     "curvature3",
@@ -61,8 +52,7 @@ FUNCTIONS = (
     "signed_slope1",
     "signed_slope2",
     "signed_slope3",
-    # a/b, and 0 where b = 0, for removable singularities with the limit 0
->>>>>>> main
+    # a/b, and 0 where b = 0: used for quotients whose limit is 0 where the divisor vanishes
     "quotient",
 )
 
