@@ -71,7 +71,7 @@ class Differenced(Domain, Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z of either sign.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative z.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. For z > 2^52 the
     result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so half of its digits are the number of
@@ -113,7 +113,7 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 1, 2, 3 and z of either sign.
+    """Return c_k'(z) for k = 1, 2, 3, and positive or negative z.
 
     The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
