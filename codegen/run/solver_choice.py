@@ -175,7 +175,7 @@ def is_linear(loop: Loop) -> bool:
 
 
 def _degree(root: Expr, degrees: Mapping[str, int]) -> int:
-    """Return the degree of an expression as a polynomial in the symbols of the table; NONLINEAR stands for
+    """Return the degree of an expression as a polynomial in the symbols of the table; NONLINEAR represents
     all degrees above one."""
     degree_of: dict[int, int] = {}
     for e in walk((root,)):
