@@ -437,7 +437,7 @@ class SeriesDomain:
 
     def _quotient(self, a: Scalar, b: Scalar) -> Scalar:
         """Return a/b, or 0 if b is zero; the valuation of a must be at least the valuation of b."""
-        # The quotient of two series that both vanish at h = 0 has a limit at h = 0.
+        # If both series vanish at h = 0, their quotient may have a limit at h = 0.
         power = self.ring.valuation(b)
         if power > self.order:
             return self.ring.zero

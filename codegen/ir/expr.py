@@ -119,7 +119,7 @@ class Space:
         # The table refers to every node, so no node is freed and node numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
         self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
-        """The derivatives of vector functions that are known."""
+        """The derivatives of vector functions that have already been computed."""
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 

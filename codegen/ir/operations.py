@@ -313,7 +313,7 @@ class Bracket(OfGroup):
 
 @dataclass(frozen=True)
 class InverseDexp(Operation):
-    """sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu: the truncated dexp^{-1}."""
+    """The truncated dexp^{-1}: the sum over k <= order of B_k/k! ad_x^k y, or of B_k/k! (ad*_x)^k mu."""
 
     order: int
     dual: bool = False

@@ -158,7 +158,8 @@ class Assignments:
 
     def _place(self, root: Expr, outer: list[Any], inner: list[Let], loop: int) -> Expr:
         """Return ``root`` with every named subexpression replaced by its symbol; append new assignments."""
-        # The traversal is iterative, because expressions are deeper than Python's recursion limit.
+        # The traversal uses no recursion, because expressions may be nested more deeply than Python's
+        # recursion limit allows.
         for node in walk([root], stop=lambda n: n.id in self.done):
             if node.id in self.done:
                 continue

@@ -100,7 +100,8 @@ def _resolved(image: dict[Var, Var], start: dict[Var, Var]) -> dict[Var, Var]:
 
 def _rename(assign: Assign, names: dict[Var, Var], image: dict[Var, Var], kept: set[Var]) -> Assign:
     def now(var: Var) -> Var:
-        # Unknowns of the component itself are not replaced by their images: that would close a cycle.
+        # Unknowns of the component itself are not replaced by their images, because this would create a
+        # cycle.
         if var in kept:
             return var
         return image.get(var, names.get(var, var))

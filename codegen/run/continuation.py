@@ -180,8 +180,9 @@ class _Continuation:
         )
         shorter = (
             Assign(factor, select(factor < LARGEST_FACTOR, factor, LARGEST_FACTOR)),
-            # Halve the step until its equations converge. They converge for a short enough step, because the
-            # iteration is then a contraction. Afterwards increase the last successful length by the factor.
+            # The step is halved until its equations converge. For a sufficiently short step they converge,
+            # because the iteration is a contraction. After that, the last successful length is multiplied by
+            # the factor.
             Assign(part, select(solved > 0.0, solved * factor, 0.5 * part)),
             Assign(part, select(part < 1.0, part, 1.0)),
         )

@@ -163,7 +163,8 @@ class WarmStart:
             body = [
                 For(i, whole(self.n), (Assign(result[i], number(0.0)),)),
                 For(
-                    # The outer loop is over the solutions, so that the inner loop reads contiguous memory.
+                    # The outer loop runs over the solutions and the inner loop over the unknowns, so that the
+                    # inner loop reads contiguous memory.
                     count("back"),
                     order + 1 - first,
                     (Assign(j, first + count("back")), inner),
