@@ -23,8 +23,7 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """The error for an iteration of the interpreter that exceeded its limit of sweeps, or computed a number
-    that is not finite."""
+    """The error for an iteration that exceeded its limit of sweeps or computed a number that is not finite."""
 
 
 # The type is Any, because scalars are float, mpf, series or Expr, which have the same operators but no common
@@ -74,8 +73,7 @@ def stumpff(k: int, z: float) -> float:
     """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0, ..., 3, and positive or negative z.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. For z > 2^52 the
-    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so half of its digits are the number of
-    full turns.
+    result is NaN, as in emitted code: the angle sqrt z exceeds 2^26, so half of its digits count turns.
     >>> stumpff(1, 0.0), stumpff(2, 0.0)
     (1.0, 0.5)
     """
@@ -92,11 +90,9 @@ def stumpff(k: int, z: float) -> float:
         return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
-    # The closed form of c_3 contains sqrt z - sin sqrt z, which loses digits for angles below about 2. The
-    # series is therefore used on a longer interval than for the other functions.
+    # sqrt z - sin sqrt z in c_3 loses digits for angles below about 2: the series is used for these angles.
     if z < (0.5 if k < 3 else 4.0):
-        # Horner's rule begins with the term of the highest power. For z < 4 the first omitted term is below
-        # 1e-27.
+        # Horner's rule begins with the highest power. For z < 4 the first omitted term is below 1e-27.
         total, j = 0.0, 14
         while j >= 0:
             total = 1.0 / math.factorial(2 * j + k) - z * total
@@ -241,8 +237,7 @@ class PreciseDomain:
         self.h = (
             self.context.mpf(h) if not isinstance(h, Fraction) else self.rational(h.numerator, h.denominator)
         )
-        # The number of sweeps after which Newton's method replaces a fixed-point iteration: three sweeps for
-        # each digit.
+        # Newton's method replaces a fixed-point iteration after three sweeps for each digit.
         self.patience = 3 * digits
 
     def number(self, value: Number) -> Scalar:
@@ -273,8 +268,7 @@ class PreciseDomain:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
         if z > 1:
-            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3, which
-            # contains sqrt z - sin sqrt z: 1 - sin 1 = 0.16.
+            # For z > 1 the closed forms lose at most three bits, in the term 1 - sin 1 = 0.16 of c_3(1).
             root = self.context.sqrt(z)
             sine = self.context.sin(root)
             closed = (self.context.cos(root), sine / root, 2 * (self.context.sin(root / 2) / root) ** 2)
@@ -338,8 +332,7 @@ class SeriesDomain:
 
     def __init__(self, base: Ring, order: int) -> None:
         self.base, self.order = base, order
-        # The coefficients are exact: if the local error has no terms up to h^p, the method is proved to have
-        # order p.
+        # The coefficients are exact: a local error without terms up to h^p proves the order p.
         self.ring = PowerSeries(base, order)
         self.h = self.ring.h
 
@@ -378,9 +371,7 @@ class SeriesDomain:
         }
         # sin, cos and exp of a non-zero algebraic number are transcendental, so no base field contains them.
         if self.base.is_zero(z.coefficients[0]) is not True:
-            raise ArithmeticError(
-                f"{function} of a power series with a constant term cannot be computed exactly"
-            )
+            raise ArithmeticError(f"{function} of a series with a constant term cannot be computed exactly")
         if "slope" in function:
             k = int(function[-1])
             # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
@@ -408,8 +399,7 @@ class SeriesDomain:
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
     def _sign(self, z: Scalar) -> int:
-        """Return the sign of a series for small h; :class:`Kink` is raised if the series vanishes at h =
-        0."""
+        """Return the sign of a series for small h; raise :class:`Kink` if the series is zero at h = 0."""
         start = z.coefficients[0]
         if self.base.is_zero(start) is not False:
             raise Kink("the field is not smooth at the initial state")
@@ -469,8 +459,7 @@ class SeriesDomain:
 
 
 class ExprDomain:
-    """Expressions of one space; ``h`` is a symbol. Implicit blocks are not iterated, but become loops of the
-    emitted code."""
+    """Expressions of one space; ``h`` is a symbol. Implicit blocks become loops of the emitted code."""
 
     def __init__(self, space: Space | None = None) -> None:
         self.space = space if space is not None else Space()
