@@ -23,7 +23,7 @@ from orderconds.ring.protocol import Ring
 
 
 class NotConverged(ArithmeticError):
-    """The error for an iteration that exceeded its limit of sweeps or computed a number that is not finite."""
+    """The error for an iteration that reached its limit of sweeps or computed a number that is not finite."""
 
 
 # The type is Any, because scalars are float, mpf, series or Expr, which have the same operators but no common
