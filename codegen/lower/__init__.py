@@ -76,13 +76,12 @@ def lower(scene: Problem, method: Method) -> Program:
 
 def lower_composed(scene: Problem, method: Method) -> Program | None:
     """Return the verified program of a step that repeats a shorter step; None for any other step."""
-    # Only in some families is the step of a composed tableau the composition of the shorter steps. VRKMK
-    # expands dexp^{-1} over the whole step, and the product of exponentials of the substeps is a different
-    # method.
+    # In some families the step of a composed tableau is not the composition of shorter steps. For example,
+    # VRKMK uses one exponential for the whole step, and a composition has one for each substep.
     if not lowering(method.family).repeats_substeps:
         return None
-    # Compositions are recognised by their coefficients, because a tableau that is a composition need not be
-    # declared as a composition.
+    # Compositions are recognised by their coefficients, because the file of a tableau need not state that it
+    # is a composition.
     repetition = substeps(method)
     if repetition is None:
         return None

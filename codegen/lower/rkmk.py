@@ -41,15 +41,18 @@ class MuntheKaas(FieldLowering):
         """Return the program; without a cut-off see :mod:`codegen.lower.minimal_brackets`."""
         if problem.coordinates is not None:
             return in_coordinates(problem, method)
-        # Without a cut-off the series of dexp^{-1} is infinite, so a search determines a finite set of
-        # brackets.
+        # Without a cut-off, a search determines which brackets of the infinite series of dexp^{-1} are
+        # needed.
         if method.cutoff is None:
             return minimal_brackets.lower(problem, method)
         return with_cutoff(problem, method, method.cutoff)
 
     def conditions(self, method: Method, scene: Problem | None = None) -> Family:
-        """Return the conditions; without a cut-off they come from the series of the compiled program
-        itself. With an exact inverse differential they are the conditions of RKMK without truncation."""
+        """Return the order conditions; without a cut-off they are computed from the series of the compiled
+        program.
+
+        With an exact inverse differential they are the conditions of RKMK without truncation.
+        """
         if scene is not None and scene.coordinates is not None:
             from orderconds import families
 
@@ -58,12 +61,12 @@ class MuntheKaas(FieldLowering):
             return super().conditions(method, scene)
         from orderconds.families.minimal_brackets import MinimalBrackets
 
-        # The certificate reads the compiled program, so certificate and program cannot differ.
+        # The conditions are computed from the program that is compiled, so both have the same brackets.
         return MinimalBrackets(minimal_brackets.bracket_program(method))
 
     def order(self, method: Method, scene: Problem | None = None) -> FamilyOrder:
-        """Return the order. Without a cut-off no failing conditions are listed, because they have no
-        names."""
+        """Return the order. For a method without a cut-off, failing conditions are not listed, because these
+        conditions have no names."""
         if method.cutoff is not None or (scene is not None and scene.coordinates is not None):
             return super().order(method, scene)
         from orderconds.checking import family_order
@@ -108,8 +111,8 @@ def _program(
     def images() -> list[Var]:
         result = []
         for i, row in enumerate(tableau.A):
-            # u is in the algebra, which is a vector space: the stages are a Runge-Kutta step for u' =
-            # dexp^{-1}_u f(exp(u).y0).
+            # The stages are a Runge-Kutta step for u' = dexp^{-1}_u f(exp(u).y0), an equation in the Lie
+            # algebra, which is a vector space.
             u = stages.combination(f"u{i + 1}", Kind.ALG, row, v)
             point = build.act(f"Y{i + 1}", build.add(element, f"g{i + 1}", u), y)
             k = stages.f(f"k{i + 1}", point, tableau.c[i])
@@ -121,7 +124,8 @@ def _program(
         return build.act("y1", build.add(element, "g", u), y)
 
     def update() -> dict[str, Var]:
-        # The embedded weights combine the same v_i, so they cost one exponential and no evaluation.
+        # The embedded solution combines the v_i of the method with other weights, so it costs one exponential
+        # and no evaluation of the field.
         lower = method.embedded()
         more = {} if lower is None else {EMBEDDED: updated(lower.runge_kutta().b)}
         return {"y": updated(tableau.b)} | more

@@ -62,8 +62,13 @@ def test_a_file_is_a_tableau(tmp_path):
     ("spelling", "families", "error", "message"),
     [
         ("", FIELD, MethodError, "the method ''"),
-        ("vcg:midpoint", FIELD, MethodError, "family vcg on this scene; expected one of rkmk, cg, cf"),
-        ("nosuch:midpoint", FIELD, MethodError, "family nosuch on this scene"),
+        (
+            "vcg:midpoint",
+            FIELD,
+            MethodError,
+            "family vcg cannot be used on this scene; expected one of rkmk, cg, cf",
+        ),
+        ("nosuch:midpoint", FIELD, MethodError, "family nosuch cannot be used on this scene"),
         ("cg(2):rk4", FIELD, MethodError, "a cut-off for family cg"),
         ("vcg(1):midpoint", ALL, MethodError, "a cut-off for family vcg"),
         ("rkmk(1):nosuch", FIELD, UnknownName, "no tableau 'nosuch'"),
