@@ -24,7 +24,7 @@ def check_group(name: str, group: object) -> None:
         _refuse(name, "group", group, "SO3()")
 
 
-def check_action(reader: Reader, group: LieGroup, action: object) -> None:
+def check_points(reader: Reader, group: LieGroup, action: object) -> None:
     """Raise :class:`SceneError` if the argument is not an action, or if the group cannot act on the
     points.
     """
@@ -33,13 +33,19 @@ def check_action(reader: Reader, group: LieGroup, action: object) -> None:
     domain = ExprDomain(reader.space)
     y = tuple(domain.space.sym(s) for s in reader.coordinates)
     zero: Vector[Expr] = (domain.rational(0),) * group.dim
-    width = -1
-    if group.offers(action.needs) is not None:
-        try:
-            width = len(action.velocity(domain, group, zero, y))
-        # The formula of an action may combine tuples of different lengths and then fail.
-        except (ValueError, IndexError):
-            width = -1
+    action.check(group, reader.name)
+    size = action.point_size(group)
+    if size is not None and size != len(y):
+        raise SceneError(
+            f"a point with {len(y)} coordinates",
+            where=reader.name,
+            expected=f"a point on which {group.name} acts by {action.name}: {size} coordinates",
+        )
+    try:
+        width = len(action.velocity(domain, group, zero, y))
+    # The formula of an action may combine tuples of different lengths and then fail.
+    except (ValueError, IndexError):
+        width = -1
     if width != len(y):
         raise SceneError(
             f"a point with {len(y)} coordinates",
