@@ -59,7 +59,7 @@ if TYPE_CHECKING:
 @click.option(
     "--solver",
     default="auto",
-    help="Solver of implicit stages: newton, simplified-newton, fixed-point, auto (the default): the cheapest.",
+    help="Solver of implicit stages: newton, simplified-newton, fixed-point or auto (default: cheapest).",
 )
 @click.option(
     "--explain",

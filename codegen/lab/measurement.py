@@ -64,7 +64,7 @@ class Measurement(ABC, Generic[R]):
         return True
 
     def lines(self, result: R, subject: Subject) -> Iterable[str]:
-        """Return lines for the terminal."""
+        """Return the lines that ``orderconds report`` prints on the terminal."""
         return ()
 
     def overview(self, result: R, subject: Subject) -> Section | None:

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 Scalar: TypeAlias = Any
-"""A number of some domain: float, mpmath number, ball, power series or expression."""
+"""A number of one of these types: float, mpmath number, ball, power series, expression."""
 
 Vector: TypeAlias = tuple[Scalar, ...]
 """Coordinates of a state, or of an element of a Lie algebra, in order."""

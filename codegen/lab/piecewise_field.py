@@ -103,7 +103,8 @@ class PiecewiseField:
                 f"from t = {float(t):.6g} the solution stays at a jump of the field",
                 where=self.scene.name,
                 expected="a solution that crosses the jump",
-                hint="replace sign(x) by tanh(x/w) for a small width w, or end the span before that time",
+                hint="replace sign(x) by tanh(x/w) for a small width w, "
+                "or choose a span that ends before this time",
             )
         slopes = field_after(y, t)
         gaps = []

@@ -53,7 +53,7 @@ class Measured:
         return {} if self.failure else self.measurement.files(self.result, self.subject)
 
     def lines(self) -> Iterable[str]:
-        """Return lines for the terminal."""
+        """Return the lines that ``orderconds report`` prints on the terminal."""
         if self.failure:
             return [f"{self.subject.scene.name}: the measurement {self.name} failed: {self.failure}"]
         return self.measurement.lines(self.result, self.subject)

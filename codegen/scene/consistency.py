@@ -179,7 +179,7 @@ def check_invariants(orbit: Orbit, invariants: Mapping[str, Expr]) -> None:
                 raise SceneError(
                     f"the invariant {name} changes at the rate {orbit.text(total)}, {_place(orbit, point)}",
                     where=orbit.name,
-                    expected="a function that is constant along the field",
+                    expected="a function that is constant along the solutions",
                     hint="correct its formula, or remove it from invariants",
                 )
 

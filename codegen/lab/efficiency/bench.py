@@ -237,7 +237,7 @@ def table(rows: Sequence[Row]) -> str:
 
 
 def curves(result: Result, styles: Styles) -> list[Curve]:
-    """Return error against CPU time of every candidate with at least one successful run.
+    """Return one curve of error against CPU time for every candidate with at least one successful run.
 
     If a candidate was measured on several forms of the equations, its curve contains the fastest runs of all
     forms.

@@ -176,7 +176,8 @@ class Predictor:
         """Return the prediction for a method of the given order; raise InputError if the scene does not
         accept the method.
 
-        If the method cannot reach any bar, no step is interpreted and the error is infinite.
+        A bar is an error and a time. If the method cannot reach any bar, no step is interpreted and the error
+        is infinite.
         """
         scene = self.equations.problem
         problem = problem_for(scene, method)

@@ -66,10 +66,12 @@ times.
 """
 
 Kind = tuple[str, bool, bool]
-"""Family, explicit or not, adaptive or not: predictions of one kind have similar errors."""
+"""A kind of recipe: its family, True if it is explicit, True if it has step-size control. Predictions of one
+kind have similar errors.
+"""
 
 Key = tuple[str, str]
-"""Method and form: recipes with and without step-size control share a prediction."""
+"""Method and form of a recipe. Recipes with and without step-size control share a prediction."""
 
 
 @dataclass

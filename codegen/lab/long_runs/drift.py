@@ -176,7 +176,7 @@ def fit(
     deviation in the interval that ends at a sample, and a low is the smallest absolute deviation. ``peaks``
     and ``lows`` are by default the absolute values of the samples. If a value is not finite, the slope is
     fitted to the values before it, and the largest deviation is infinite. If the deviation saturates after at
-    least :data:`FEWEST` samples, the slope is fitted to the samples before.
+    least :data:`FEWEST` samples, the slope is fitted to the samples before the saturation.
 
     >>> found = fit([float(k) for k in range(1, 401)], [1e-9 * k for k in range(1, 401)])
     >>> f"{found.slope:.1e}", found.law, found.is_drift

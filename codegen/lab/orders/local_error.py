@@ -93,7 +93,7 @@ def predicted(scene: Problem, method: Method, power: int) -> Vector:
     the order conditions are those of trees with directed edges.
     """
     if not scene.autonomous:
-        raise SceneError("a scene that depends on time", where=scene.name, expected="an autonomous one")
+        raise SceneError("the scene depends on time", where=scene.name, expected="an autonomous scene")
     if scene.coordinates is not None:
         raise SceneError(
             f"a scene in the coordinates {scene.coordinates.name}",

@@ -92,7 +92,7 @@ class _Drawing:
 
 
 def convergence_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return error against step size, log-log, with a dashed line for each stated order."""
+    """Return a log-log diagram of error against step size, with a dashed line for each stated order."""
     drawing = _canvas()
     for order in sorted({c.order for c in curves if c.order is not None}):
         _reference_line(drawing.axes, order, next(c for c in curves if c.order == order))
@@ -108,7 +108,8 @@ SLOPES = (2, 4, 8)
 
 
 def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_label: str) -> Markup:
-    """Return error against CPU time of the whole run, log-log, with the slopes of the orders :data:`SLOPES`.
+    """Return a log-log diagram of error against CPU time of the whole run, with the slopes of the orders
+    :data:`SLOPES`.
 
     With a method of order p and equal steps, the error is proportional to the time to the power -p.
     """
@@ -128,7 +129,9 @@ def efficiency_figure(name: str, title: str, curves: Sequence[Curve], error_labe
 
 
 def growth_figure(name: str, title: str, curves: Sequence[Curve], label: str) -> Markup:
-    """Return the largest deviation up to each time, log-log, with dotted lines for t^1/2 and t."""
+    """Return a log-log diagram of the largest deviation up to each time, with dotted lines for t^1/2 and
+    t.
+    """
     drawing = _canvas()
     axes = drawing.axes
     for number, curve in enumerate(curves):
@@ -165,10 +168,10 @@ SHADE = 0.09
 
 
 def region_figure(name: str, title: str, functions: Sequence[Function]) -> Markup:
-    """Return the stable regions |R(z)| <= 1, shaded, with their boundaries.
+    """Return a diagram of the stable regions |R(z)| <= 1: the regions are shaded and their boundaries drawn.
 
-    ``functions`` are triples of label, style and stability function R. The markers of different methods are
-    at different points, so that two methods with the same boundary are both visible.
+    ``functions`` contains triples: label, style and stability function R of a method. The markers of
+    different methods are at different points, so that two methods with the same boundary are both visible.
     """
     drawing, plane = _canvas(log=False), _Plane.containing([f for _, _, f in functions])
     axes = drawing.axes

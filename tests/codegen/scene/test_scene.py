@@ -323,5 +323,5 @@ def test_a_rounded_initial_state_gets_a_hint():
         [0.09983341664682815, 0.9950041652780258, 0],
         [0, 0, 1],
     ]
-    with pytest.raises(SceneError, match="write exact ones"):
+    with pytest.raises(SceneError, match="write exact numbers"):
         HamiltonianScene(group=group, q=q, mu=mu, H=mu.dot(mu), q0=turn, mu0=[1, 0, 0], span=(0, 1))
