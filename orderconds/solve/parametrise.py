@@ -21,7 +21,6 @@ from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
 from orderconds.solve.spec import Spec, refuse
 
-
 Nodes = Mapping[str, Sequence[str]]
 """The coefficients of a stage by the name of its node, which is their sum."""
 
@@ -29,8 +28,7 @@ Nodes = Mapping[str, Sequence[str]]
 def _eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of the given constraints and of the constraints from
-    ``--fix``, which may contain ``nodes``."""
+    """Return the coefficients after elimination of all constraints; those of ``--fix`` may have nodes."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:
