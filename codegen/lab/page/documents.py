@@ -80,7 +80,7 @@ def render_overview(every: Sequence[SceneResults], command: str) -> str:
 
 def _formatted(paragraph: str) -> Markup:
     """Return a paragraph of a docstring as HTML; text between double or single backquotes is code."""
-    # re.split with one group returns the texts between the matches at even places, and the groups at odd places.
+    # re.split with one group returns the texts between the matches at even indices, the groups at odd ones.
     parts = re.split(r"`{1,2}([^`]+)`{1,2}", paragraph)
     return Markup("").join(
         Markup("<code>{}</code>").format(part) if k % 2 else escape(part) for k, part in enumerate(parts)
