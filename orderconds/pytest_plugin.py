@@ -77,13 +77,15 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
 
 
 def _asked(path: Path, config: pytest.Config) -> bool:
-    """Whether the command line names a file or a folder above it; pytest also visits files next to these."""
+    """Return True if the command line of pytest names this file or a folder that contains it. Pytest also
+    visits files that the command line does not name."""
     places = (config.invocation_params.dir / argument.partition("::")[0] for argument in config.args)
     return any(path.is_relative_to(place) or path.is_relative_to(place.resolve()) for place in places)
 
 
 def _is_test_module(path: Path, config: pytest.Config) -> bool:
-    """Whether pytest collects a module of this name as tests."""
+    """Return True if the settings of pytest (``python_files``) select a module of this name as a test
+    module."""
     return path.suffix == ".py" and any(fnmatch(path.name, x) for x in config.getini("python_files"))
 
 

@@ -48,7 +48,7 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Whether evaluating this number of further conditions would exceed a limit."""
+        """Return True if evaluating this number of further conditions would exceed a limit."""
         limits = self.limits
         if self.of_order + more > limits.conditions:
             return True

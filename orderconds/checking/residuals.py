@@ -169,7 +169,8 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Whether the family evaluates the method with rational numbers, which is faster than with balls."""
+    """Return True if the family evaluates the method with rational numbers, which is faster than with
+    balls."""
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
     return nodal_algebra(ring, (method.A,), method.b) is not None

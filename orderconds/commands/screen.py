@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def is_terminal() -> bool:
-    """Whether stdout is a terminal; only then is there colour and a progress line.
+    """Return True if standard output is a terminal. Colours and the progress line appear only on a terminal.
 
     >>> isinstance(is_terminal(), bool)
     True

@@ -1,5 +1,5 @@
-"""Partitioned Runge-Kutta methods with b = bhat: conditions do not depend on the colour of the root (HLW
-III.2.2)."""
+"""Partitioned Runge-Kutta methods with b = bhat. The condition of a tree does not depend on the colour of the
+root (HLW III.2.2)."""
 
 from __future__ import annotations
 

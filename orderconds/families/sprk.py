@@ -95,7 +95,8 @@ class SymplecticPartitionedFamily(Family):
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the tableau is proved to be symmetric. The conjugate (ahat, b) is then also symmetric."""
+        """Return True if the tableau is proved to be symmetric. The conjugate (ahat, b) is then also
+        symmetric."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:

@@ -195,7 +195,7 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
 
 
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
-    """Whether the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
+    """Return True if the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)

@@ -82,7 +82,7 @@ class ExactMember:
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Whether a condition holds at this member.
+        """Return True if a condition holds at this member of the parametrised methods.
 
         Because the member is random, the condition then holds at every member, except with negligible
         probability (:mod:`orderconds.tableau.random_member`).
@@ -90,8 +90,8 @@ class ExactMember:
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Whether a combination equals the left-hand side at this member, and the right-hand side at the
-        exact flow.
+        """Return True if a combination equals the left-hand side at this member, and the right-hand side at
+        the exact flow.
 
         In this case ``condition`` follows from the conditions in the combination, at every member.
         """

@@ -18,7 +18,7 @@ Fact = tuple[str, int]
 
 
 def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
-    """Whether ``facts`` about a tableau imply that it has at least this order in ``family``.
+    """Return True if ``facts`` about a tableau imply that it has at least this order in ``family``.
 
     >>> facts = [("cg", 4)]
     >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)

@@ -274,8 +274,8 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Whether two balls are equal as enclosures. Whether the enclosed numbers are equal is decided by
-        :meth:`Balls.is_zero`."""
+        """Return True if two balls have the same end points. :meth:`Balls.is_zero` decides whether the
+        enclosed numbers are equal."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:

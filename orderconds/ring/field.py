@@ -110,7 +110,7 @@ class NumberField:
         return Algebraic(self, fmpq_poly([fmpq(p, q)]))
 
     def is_zero(self, x: Algebraic) -> bool:
-        """Whether x = 0, decided exactly."""
+        """Return True if x = 0. The decision is exact."""
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
@@ -244,7 +244,7 @@ class Algebraic:
 
     @property
     def is_rational(self) -> bool:
-        """Whether this number lies in Q."""
+        """True if this number lies in Q."""
         return bool(self.polynomial.degree() <= 0)
 
     @property

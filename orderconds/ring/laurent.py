@@ -46,7 +46,7 @@ class LaurentPolynomials:
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
-        """Whether x = 0."""
+        """Return True if x = 0."""
         return bool(x.numerator.is_zero())
 
     def terms(self, x: Laurent) -> tuple[tuple[Exponents, fmpq], ...]:

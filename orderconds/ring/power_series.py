@@ -50,7 +50,7 @@ class PowerSeries:
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
     def is_zero(self, x: Series) -> bool | None:
-        """Whether all coefficients up to the order vanish; None if the base ring cannot decide."""
+        """Return True if all coefficients up to the order are zero; None if the base ring cannot decide."""
         verdicts = [self.base.is_zero(c) for c in x.coefficients]
         return False if False in verdicts else None if None in verdicts else True
 

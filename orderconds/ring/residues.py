@@ -59,7 +59,7 @@ class Residues:
         return Residue(self, generator.integers(0, self.prime, self.samples, dtype=np.int64))
 
     def is_zero(self, x: Residue) -> bool:
-        """Whether all samples are zero."""
+        """Return True if all samples are zero."""
         return not x.values.any()
 
     def text(self, x: Residue) -> str:

@@ -57,7 +57,7 @@ class Samples:
         )
 
     def is_zero(self, x: Sample) -> bool:
-        """Whether all samples are zero."""
+        """Return True if all samples are zero."""
         return bool(x.polynomial.is_zero())
 
     def constant(self, x: Sample) -> int | None:

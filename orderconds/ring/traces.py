@@ -65,7 +65,8 @@ class Traces:
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
-        """Whether x is the constant zero, for all values of the inputs."""
+        """Return True if x is the constant zero. The result of an operation on inputs is never the constant
+        zero."""
         return x.constant == 0
 
     def text(self, x: Trace) -> str:

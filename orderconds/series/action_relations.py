@@ -87,7 +87,7 @@ def hold_over_rationals(
     series: Callable[[RandomRing, np.random.Generator], ActionSeries],
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
-    """Whether relations hold exactly at a random method over Q, and for the exact flow.
+    """Return True if the relations hold exactly for a random method over Q and for the exact flow.
 
     ``series`` returns the series of a random method with coefficients in a ring. The random method should
     have more stages than the methods from which the relations were computed. If a relation of degree d is not

@@ -150,7 +150,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Whether the equations determine the unknowns well: no singular value is tiny."""
+    """Return True if the smallest singular value of the Jacobian is not close to zero. Then the equations
+    determine the unknowns well."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])

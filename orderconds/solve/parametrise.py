@@ -164,7 +164,7 @@ def _symplectic(
 
 
 def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: tuple[str, str]) -> bool:
-    """Whether b_i a_ij + b_j a_ji = b_i b_j is an identity in the free coefficients."""
+    """Return True if b_i a_ij + b_j a_ji = b_i b_j is an identity in the free coefficients."""
     (a, mirrored), (b, c) = map(elimination.cell, entries), map(elimination.cell, weights)
     total: dict[tuple[str, ...], Fraction] = {}
     for sign, left, right in ((1, b, a), (1, c, mirrored), (-1, b, c)):

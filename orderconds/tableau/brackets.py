@@ -93,7 +93,7 @@ def leaves(term: Term) -> Iterator[int | str]:
 
 
 def has_product(term: Term) -> bool:
-    """Whether a term contains a product.
+    """Return True if a term of a linear combination contains a product.
 
     >>> has_product(parse("[1,2]", "")), has_product(parse("[1,2*3]", ""))
     (False, True)

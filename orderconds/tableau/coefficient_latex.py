@@ -52,8 +52,8 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Whether x is printed as a product and not as one fraction. The factors are not regrouped into one
-    fraction, because this would change the value if it is a ball."""
+    """Return True if x is printed as a product and not as one fraction. The factors are not regrouped into
+    one fraction, because this would change the value if it is a ball."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 

@@ -67,7 +67,7 @@ def double_text(x: float, where: str = "") -> str:
 
 
 def is_double(text: str | int) -> bool:
-    """Whether a coefficient is the text of a double.
+    """Return True if a coefficient is the text of a double.
 
     >>> is_double("-0.1d"), is_double("1/3"), is_double(1)
     (True, False, False)
@@ -87,7 +87,7 @@ def decimal_text(text: str) -> str:
 
 
 def is_short(x: float) -> bool:
-    """Whether a double needs so few bits that it counts as an exact number.
+    """Return True if a double needs so few bits that it counts as an exact number.
 
     >>> is_short(0.375), is_short(0.1)
     (True, False)
@@ -115,8 +115,9 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Whether a decimal without exponent is the text of a double. A decimal of 16 or 17 digits is. A decimal
-    of more digits is, if the nearest double, rounded to the same number of digits, gives the same decimal.
+    """Return True if a decimal without exponent is the text of a double. This is assumed of every decimal of
+    16 or 17 digits. A decimal with more digits is the text of a double if the nearest double, rounded to the
+    same number of digits, equals the decimal.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

@@ -65,7 +65,7 @@ class File(Struct, frozen=True):
     symbolic: SymbolicCoefficients
     proof: Proof | None
     doubles: bool = False
-    """Whether a coefficient was given as a binary floating-point number."""
+    """True if a coefficient was given as a binary floating-point number."""
 
 
 def text_of(path: str | Path) -> str:
@@ -96,8 +96,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Whether a TOML file is to be treated as a tableau file: it has a key of a tableau, or it cannot be
-    read.
+    """Return True if a TOML file is to be treated as a tableau file, because it has a key of a tableau file
+    or cannot be read.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")

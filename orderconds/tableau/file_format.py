@@ -72,12 +72,12 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     proof: ProofEntry | None = None
 
     in_arrays: ClassVar[bool] = False
-    """Whether named arrays can hold a tableau of this format (:mod:`orderconds.exchange.arrays`)."""
+    """True if named arrays can hold a tableau of this format (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
     """The name of the array that identifies this format. The empty name belongs to the format that is assumed
     if no identifying array is present."""
     as_products: ClassVar[bool] = False
-    """Whether arrays hold the format as a list of exponentials."""
+    """True if a file of arrays stores a tableau of this format as a list of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:

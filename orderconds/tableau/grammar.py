@@ -48,7 +48,7 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """Whether the number was given as a double. The unit of a rounded decimal is a power of ten; the unit
+        """True if the number was given as a double. The unit of a rounded decimal is a power of ten; the unit
         of a double is not."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))

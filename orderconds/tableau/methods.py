@@ -128,7 +128,7 @@ class CommutatorFree:
         return before + stage.exponentials
 
     def same_update(self, other: Stage, ring: Ring) -> bool:
-        """Whether ``other`` and the update are proved to be equal for all fields.
+        """Return True if ``other`` and the update are proved to be equal for all fields.
 
         Zero exponents are removed, and neighbours with proportional exponents, which commute, are combined.
         Reduced products are equal for all fields only if their exponents are equal (Chen 1958, on piecewise

@@ -152,12 +152,12 @@ class Magnus:
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Whether the exponents contain few enough products for :meth:`words` to expand them."""
+        """Return True if the exponents contain few enough products for :meth:`words` to expand them."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Whether every exponent is a combination of the A_i, without brackets."""
+        """Return True if every exponent is a linear combination of the A_i, without brackets."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

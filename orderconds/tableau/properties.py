@@ -67,7 +67,7 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Whether a product is symmetric for all values of its decimals; None if this is not certain."""
+    """Return True if a product is symmetric for all values of its decimals; None if this is not certain."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
@@ -103,8 +103,8 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """Whether a method is first-same-as-last: the first stage is the start value, and the last stage is equal
-    to the update."""
+    """Return True if a method is first-same-as-last: the first stage is the start value, and the last stage
+    is equal to the update."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

@@ -60,7 +60,7 @@ class Tableau:
     """The file from which the tableau was read; None if the coefficients differ from the coefficients of the
     file."""
     doubles: bool = False
-    """Whether coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
+    """True if coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
 
     @staticmethod
     def rk(

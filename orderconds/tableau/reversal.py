@@ -1,4 +1,4 @@
-"""Whether a Magnus method is symmetric: a step of length -h undoes a step of length h.
+"""Symmetry of Magnus methods: a method is symmetric if a step of length -h undoes a step of length h.
 
 The reverse step has -A_{s+1-i} at node i. If the nodes are symmetric about 1/2, the reverse step undoes the
 step under this condition: substituting -A_{s+1-i} for A_i in the k-th exponent gives the negative of the k-th
@@ -18,8 +18,8 @@ from orderconds.tableau.products import Magnus
 
 
 def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
-    """Whether a method is symmetric; None if balls are too wide to decide, or if there are too many brackets
-    to expand.
+    """Return True if a method is symmetric; None if balls are too wide to decide, or if there are too many
+    brackets to expand.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -215,7 +215,7 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Whether every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
+    """Return True if every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -233,7 +233,7 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
-    """Whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
+    """Return True if |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))

@@ -40,7 +40,7 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Whether some edge divides a tree into two equal rooted trees; the condition of the tree is then
+    r"""Return True if some edge divides a tree into two equal rooted trees; the condition of the tree is then
     superfluous.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")

@@ -42,5 +42,5 @@ def _range(indices: set[str]) -> str:
 
 
 def _occurs(name: str, definition: str) -> bool:
-    """Whether a coefficient occurs in a definition."""
+    """Return True if a coefficient occurs in the definition of another coefficient."""
     return f"{LATEX.names.get(name, name)}_" in definition.replace(r"\bar", "")

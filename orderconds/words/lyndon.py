@@ -77,7 +77,7 @@ def lyndon_factors(
 
 
 def is_lyndon(word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None) -> bool:
-    """Whether a word is a Lyndon word. The empty word is not a Lyndon word.
+    """Return True if a word is a Lyndon word. The empty word is not a Lyndon word.
 
     >>> is_lyndon("AAB"), is_lyndon("ABAB")
     (True, False)
