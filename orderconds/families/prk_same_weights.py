@@ -47,7 +47,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because it equals the order in
+        """Return None: a file need not claim an order in this family, because the order equals the order in
         ``prk``."""
         return None
 

@@ -1,8 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
-Suppose that the root of a tree moves across an edge. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
-weights of both trees add up to a product of weights of smaller trees. The conditions are therefore indexed by
-free trees with directed edges (Abia and Sanz-Serna 1993; HLW VI.7).
+Compare two rooted trees that differ only in the choice of the root: the roots are the two ends of one edge.
+By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the weights of both trees is a product of weights
+of smaller trees. Therefore the conditions are indexed by free trees with directed edges (Abia and Sanz-Serna
+1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -69,7 +70,7 @@ class SymplecticPartitionedFamily(Family):
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all rooted trees with directed edges. A dependent condition contains its
-        relation."""
+        relation to independent conditions."""
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
     def evaluate(

@@ -1,9 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
 Conditions contain only trees in which neighbouring vertices differ in colour. The relation b_i ahat_ij +
-bhat_j a_ji = b_i bhat_j allows the root of a tree to move across an edge. The conditions are therefore
-indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b and bhat may differ; for example,
-they differ in pairs that are equivalent to splittings.
+bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice of the
+root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b
+and bhat may differ; for example, they differ in pairs that are equivalent to splittings.
 """
 
 from __future__ import annotations

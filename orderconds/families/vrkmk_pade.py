@@ -71,7 +71,7 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return this family as the only variant."""
+        """Return a tuple that contains only this family, because only one variant claims an order."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

@@ -19,8 +19,8 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
     """Return True if two tableaux have equally many coefficients with equal values, also in the embedded
     rows.
 
-    Two balls agree if they intersect and neither is much wider than the other. They need not be equal,
-    because a ball may be rounded when it is written to a file.
+    Two balls agree if they intersect and neither is much wider than the other. Equal balls are not required,
+    because the centre and the radius of a ball may be rounded when the ball is written to a file.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -32,7 +32,7 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
 
 
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
-    """Return enclosures of all coefficients; the embedded row comes last."""
+    """Return enclosures of all coefficients. The coefficients of the embedded row come last."""
     enclosures: list[tuple[fmpq, fmpq]] = []
     ring = cast("Rationals | NumberField | Balls", tableau.ring)
 

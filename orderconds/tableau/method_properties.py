@@ -16,7 +16,8 @@ Verdict = bool | None
 
 
 def _all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return the conjunction: False if any verdict is False, else None if any is None, else True."""
+    """Return the conjunction of verdicts: False if a verdict is False; otherwise None if a verdict is None;
+    otherwise True."""
     unknown = False
     for verdict in verdicts:
         if verdict is False:
@@ -89,7 +90,7 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
     """Return True if the method is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
 
-    The stages are compared in the given order.
+    The test does not permute the stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -113,8 +114,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """Return True if the method is first-same-as-last: stiffly accurate, more than one stage, and the first
-    stage is the start value.
+    """Return True if the method is first-same-as-last. Such a method is stiffly accurate, has more than one
+    stage, and its first stage is the start value.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -139,7 +140,7 @@ PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
 
 
 def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
-    """Return True if a row of numbers reads the same backwards.
+    """Return True if a row of numbers is equal to the reversed row.
 
     >>> from orderconds.ring import QQ
     >>> [reads_backwards([QQ.rational(n) for n in row], QQ) for row in ((1, 2, 1), (1, 2, 2))]
@@ -152,8 +153,9 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
     """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. A splitting must read the same backwards. The
-    condition for a Magnus method is in :mod:`orderconds.tableau.reversal`.
+    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. The condition for a splitting is that its
+    flows in reverse order are the same flows. The condition for a Magnus method is in
+    :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -2,9 +2,9 @@
 backwards.
 
 Exchange stages j and s + 1 - j. A step of length -h from y1 undoes a step of length h from y0 under two
-conditions: the update reads the same backwards, and the exponentials from y1 to stage s + 1 - i are the
-exponentials from y0 to stage i with opposite signs. Neighbouring exponentials whose exponents are multiples
-of each other count as one exponential.
+conditions. First, the sequence of exponentials in the update is equal to the reversed sequence. Second, the
+exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
+Neighbouring exponentials whose exponents are multiples of each other count as one exponential.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return an equal product of exponentials. In it, neighbouring exponentials with proportional exponents
-    are replaced by one exponential, whose exponent is the sum."""
+    """Return an equal product of exponentials. Neighbouring exponentials with proportional exponents are
+    replaced by one exponential, whose exponent is the sum of the exponents."""
     reduced: list[Row] = []
     for row in rows:
         total = row

@@ -67,7 +67,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Return True if a product is symmetric for all values of its decimals; None if this is not certain."""
+    """Return True if a product of exponentials is symmetric for all values of its rounded decimals; None if
+    this is undecided."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
@@ -90,8 +91,8 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     """Return the properties of a composition of midpoint rules.
 
-    It is symplectic and diagonally implicit for all steps. It is symmetric if the steps read the same
-    backwards.
+    A composition of midpoint rules is symplectic and diagonally implicit. It is symmetric if the list of its
+    steps is equal to the reversed list.
     """
     gamma = method.gamma
     verdicts = {

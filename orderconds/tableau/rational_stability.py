@@ -1,7 +1,7 @@
 """A- and L-stability for rational coefficients, with flint's polynomials and certified roots.
 
-The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation here is fast enough for
-methods with a hundred stages.
+The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation with rational numbers is
+fast enough for methods with a hundred stages.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Return True if P/Q is A-stable and L-stable; None if a pole is on the imaginary axis or too near it to
-    decide.
+    """Return two truth values: P/Q is A-stable, P/Q is L-stable. Return None if a pole is on the imaginary
+    axis, or too near it to decide.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))
