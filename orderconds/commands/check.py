@@ -65,7 +65,7 @@ WIDTH = 200
 @click.option(
     "--require-claims", is_flag=True, help="Exit with 1 if a tableau claims no order that is checked."
 )
-@click.option("--skip-others", is_flag=True, help="Skip named files that hold no tableau, as in a directory.")
+@click.option("--skip-others", is_flag=True, help="Skip named files that contain no tableau. Such files below a directory are always skipped.")
 @click.option(
     "--tolerance",
     type=click.FloatRange(0, 2**40),
@@ -107,10 +107,10 @@ def command(
 ) -> int:
     """Find the exact order and the properties of each tableau: a file (TOML, JSON, CSV, NPZ, Python, LaTeX or
     C), every such file below a directory, or a name from the library. A claimed order must equal the computed
-    order. A file claims an order with `order = 4`, or with `rk = 4` among its claims. If a limit ends the
-    search, the computed order is a lower bound.
+    order. A file claims an order with `order = 4`, or with `rk = 4` in the table `claims`. If a limit ends
+    the computation, the computed order is a lower bound.
 
-    Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
+    Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
     \b
     Examples:
@@ -121,7 +121,7 @@ def command(
     from orderconds.families import get
 
     if family is not None:
-        get(family)  # report an unknown family once, not for each file
+        get(family)  # An unknown family is reported once, not for each file.
     job = _Job(
         path="",
         family=family,
@@ -152,7 +152,7 @@ def command(
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool) -> list[_Job]:
-    """Return a job for each tableau, with the options of ``job``."""
+    """Return one job for each tableau. All jobs have the options of ``job``."""
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others))
     return [
@@ -167,7 +167,7 @@ def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool) -> list[_Job]:
 
 
 def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
-    """Check tableaux in parallel; print and yield the outcomes in order."""
+    """Check tableaux in parallel. Print and yield the outcomes in the order of the jobs."""
     subject = jobs[0].path if len(jobs) == 1 else f"{len(jobs)} tableaux"
     with screen.counting(f"checking {subject}", len(jobs)) as done, _without_collection(jobs):
         for job, outcome in zip(jobs, in_processes(_checked, jobs), strict=True):
@@ -181,8 +181,8 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Switch garbage collection off for one file, because a check creates many small objects that are used
-    until the check ends."""
+    """Disable garbage collection during the check of one file. A check creates many small objects that are
+    used until the check ends, so garbage collection would free nothing."""
     collects = gc.isenabled()
     if len(jobs) == 1:
         gc.disable()
@@ -237,7 +237,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # only the main process writes to the terminal
+    if not job.one_of_many:  # Only the main process writes to the terminal.
         if screen.is_shown(report.verdict == "holds"):
             _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
@@ -261,7 +261,7 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool) -> Iterator[str]:
     """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
-    The skipped files are named on stderr, with the reason.
+    The names of skipped files are written to stderr, with the reason.
     """
     for argument in arguments:
         if not argument.strip():
@@ -325,7 +325,8 @@ def _print_report(report: Report, *, detailed: bool) -> None:
 
 
 def _embedded(embedded: EmbeddedOrder) -> str:
-    """Return the orders of an embedded row and their certificates, each certificate once."""
+    """Return the orders of an embedded row, followed by their certificates. Each certificate is named
+    once."""
     groups: dict[str, list[str]] = {}
     for label, order in embedded.orders.items():
         groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
@@ -333,7 +334,8 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _work(work: dict[str, Work]) -> str:
-    """Return the cost of a step in one line: evaluations, then exponentials and brackets by family."""
+    """Return one line that describes the cost of a step: the number of evaluations, then the numbers of
+    exponentials and brackets in each family."""
     evaluations = max(cost.evaluations for cost in work.values())
     counts = [_count(evaluations, "evaluation")]
     for label, cost in work.items():

@@ -1,4 +1,5 @@
-"""``orderconds modified``: the modified equation of a method, whose flow the steps follow exactly."""
+"""``orderconds modified``: the modified equation of a method. A step of the method is the exact flow of this
+equation."""
 
 from __future__ import annotations
 

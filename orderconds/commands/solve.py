@@ -95,16 +95,16 @@ if TYPE_CHECKING:
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
     """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
-    Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
-    options. The same seed gives the same file for any number of processes. An interrupted
-    search keeps its finished batches in the checkpoint, and the same command continues from there.
+    Exits with 0 if a method was found and proved, 1 if no method was found or no method exists, 2 for
+    contradictory options. The same seed gives the same file for any number of processes. The checkpoint file
+    contains the finished batches of an interrupted search. The same command then continues the search.
 
     \b
     Examples:
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
         orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
-    # One thread for each process: results then do not depend on the number of threads.
+    # Each process uses one thread, so that results do not depend on the number of threads.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -139,7 +139,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before it begins.
     verify_name(options["name"], "--name")
-    # The bound is that of order p - 1: symmetric methods of even order p need conditions up to p - 1 only.
+    # The limit is the same as for order p - 1, because symmetric methods of even order p need only the
+    # conditions up to order p - 1.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},
