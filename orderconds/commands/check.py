@@ -65,7 +65,11 @@ WIDTH = 200
 @click.option(
     "--require-claims", is_flag=True, help="Exit with 1 if a tableau claims no order that is checked."
 )
-@click.option("--skip-others", is_flag=True, help="Skip named files that contain no tableau. Such files below a directory are always skipped.")
+@click.option(
+    "--skip-others",
+    is_flag=True,
+    help="Skip named files that contain no tableau. Such files below a directory are always skipped.",
+)
 @click.option(
     "--tolerance",
     type=click.FloatRange(0, 2**40),

@@ -179,7 +179,8 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """Return s if the method is a Magnus method on the s Gauss nodes and its order is at most 2s; else None.
+    """Return s if the method is a Magnus method on the s Gauss nodes and the order in ``proof`` is at most
+    2s; else None.
 
     The nodes are evaluated exactly, and must not depend on rounded decimals of the file.
     """
