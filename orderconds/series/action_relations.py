@@ -71,14 +71,14 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
 
 SEED = 61
-"""The seed of the random method over Q; its value is arbitrary."""
+"""The seed for the random method over Q. Any other seed is equally suitable."""
 
 
 class _Drawn(Rationals):
     """The ring Q with random elements of 61 bits."""
 
     def random(self, generator: np.random.Generator) -> Element:
-        """Return a random fraction, not zero."""
+        """Return a random non-zero fraction."""
         numerator, denominator = (int(n) for n in generator.integers(1, 2**61, 2))
         return self.rational(numerator, denominator)
 
@@ -140,8 +140,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees with ``vertices`` vertices in total; multisets with the fewest factors
-    come last."""
+    """Yield the multisets of trees with ``vertices`` vertices in total. Multisets with the fewest trees come
+    last."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

@@ -20,8 +20,8 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search: ``tableau`` with its ``certificate``; or ``impossible``, a proof that there is
-    no such method; or neither.
+    """The result of a search. Either ``tableau`` is a method and ``certificate`` its certificate, or
+    ``impossible`` is a proof that there is no such method, or all three are empty.
 
     ``best_residual`` is the least norm of the residuals of all starts, ``tried`` has one line for each
     structure that was tried. The truth value of a result is True if a tableau was found.
@@ -98,7 +98,7 @@ def solve(
     >>> heun.tableau.b, heun.certificate
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
-    # a symmetric method of even order needs only conditions of lower order
+    # A symmetric method of even order needs only the conditions of lower order.
     refuse_too_many_trees(families.get(family), order - 1)
     spec = Spec(
         stages=stages,
