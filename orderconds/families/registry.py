@@ -162,8 +162,7 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        # The import of the module should register the family. If it does not, this error is clearer than "unknown
-        # family", because that message would list the same name among the known families.
+        # The import should register the family. If it does not, this error is clearer than "unknown family".
         import_module(BUILT_IN[name])
         assert name in _registered, (
             f"{BUILT_IN[name]} has no class with this name and the decorator @register"

@@ -137,7 +137,7 @@ class Laurent:
     __rmul__ = __mul__
 
     def __truediv__(self, other: object) -> Laurent:
-        """Return the quotient by a non-zero monomial; raise ZeroDivisionError for any other divisor."""
+        """Return the quotient by a non-zero monomial. Raises ZeroDivisionError for any other divisor."""
         y = self._other(other)
         if y is None:
             return NotImplemented

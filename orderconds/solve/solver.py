@@ -153,7 +153,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    checkpoint.remove()  # The search has ended, with or without a solution. Therefore its checkpoint is not needed.
+    checkpoint.remove()  # the search has ended, with or without a solution
 
 
 def _finished(
