@@ -43,9 +43,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
             with open(written[path], "xb", opener=_open_private) as stream:
                 stream.write(content)
                 stream.flush()
-                os.fsync(
-                    stream.fileno()
-                )  # Without this flush, the file could be empty after a power failure.
+                os.fsync(stream.fileno())  # otherwise the file could be empty after a power failure
             if not private:
                 os.chmod(written[path], _mode(path))
         for path, temporary in written.items():
