@@ -62,8 +62,8 @@ BUILT_IN = {
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""
 
 OUTPUT_OPTIONS = {
-    "quiet": "Show no progress, and no results that hold; the exit status is the answer.",
-    "verbose": "Write progress to stderr also without a terminal, with the elapsed and the remaining time.",
+    "quiet": "Show no progress and no successful results. The exit status states the outcome.",
+    "verbose": "Write progress, with the elapsed and the remaining time, to stderr, also without a terminal.",
 }
 """Options of every command: name -> help."""
 

@@ -53,6 +53,7 @@ def read_text(
     file is not in UTF-8.
 
     >>> read_text(__file__).partition(".")[0]
+    '\"\"\"Reading of files that a user names'
     """
     try:
         return read_bytes(path, expected, limit=limit, error=error).decode("utf-8")

@@ -261,7 +261,7 @@ def _method(tableau: Tableau, family: Family) -> Method:
     method = family.read(tableau)
     if method is None:
         raise InputError(
-            f"a tableau of format {tableau.family} cannot be read in family {family.label()}",
+            f"a tableau of format {tableau.family} is not a method of family {family.label()}",
             where=tableau.path or tableau.name,
             expected=f"format {' or '.join(family.formats)}",
         )

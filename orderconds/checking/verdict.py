@@ -351,9 +351,9 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 
         readers = ", ".join(member.label() for member in claimable_families(tableau))
         raise InputError(
-            f"a claim in family {label}, which does not read tableaux of format {tableau.family}",
+            f"a claim in family {label}, which does not accept tableaux of format {tableau.family}",
             where=where,
-            expected=f"a family that reads them, such as {readers}",
+            expected=f"a family that accepts them, such as {readers}",
         )
     return family
 

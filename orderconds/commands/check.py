@@ -47,7 +47,9 @@ WIDTH = 200
     metavar="FILE|DIR|NAME...",
     shell_complete=completing(tableau_names, files=True),
 )
-@click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), even without a claim.")
+@click.option(
+    "--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), also if the file claims no order in it."
+)
 @click.option(
     "--order", "-p", type=click.IntRange(1, 20), help="Ignore the claims; require at least this order."
 )
@@ -63,7 +65,9 @@ WIDTH = 200
     "file DIR/DECIMAL.",
 )
 @click.option(
-    "--require-claims", is_flag=True, help="Exit with 1 if a tableau claims no order that is checked."
+    "--require-claims",
+    is_flag=True,
+    help="Exit with status 1 if a tableau claims none of the orders that are checked.",
 )
 @click.option(
     "--skip-others",
@@ -78,18 +82,24 @@ WIDTH = 200
     "or of 1 if the number is smaller). Default: 8. With 0 the floats are exact numbers.",
 )
 @click.option(
-    "--execute", is_flag=True, help="Run Python files to obtain their arrays. Otherwise they are parsed."
+    "--execute",
+    is_flag=True,
+    help="Execute Python files to obtain their arrays. By default Python files are only parsed.",
 )
 @click.option(
     "--max-conditions",
     type=click.IntRange(1),
-    help="Evaluate at most this many conditions of one order. Default: 50000.",
+    help="The largest number of conditions of one order that are evaluated. Default: 50000.",
 )
 @click.option(
-    "--max-seconds", type=click.FloatRange(0, min_open=True), help="End each check after this many seconds."
+    "--max-seconds",
+    type=click.FloatRange(0, min_open=True),
+    help="Stop the check of a tableau after this number of seconds.",
 )
 @click.option(
-    "--max-memory", type=click.IntRange(1), help="End each check if it uses more than this many megabytes."
+    "--max-memory",
+    type=click.IntRange(1),
+    help="Stop the check of a tableau when it uses more than this number of megabytes of memory.",
 )
 @click.option(
     "--json", "as_json", is_flag=True, help="Print one JSON list of records on stdout and nothing else."
@@ -151,7 +161,9 @@ def command(
         _print_summary(verdicts)
     if require_claims and UNCLAIMED in verdicts:
         count = verdicts.count(UNCLAIMED)
-        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
+        click.echo(
+            f"--require-claims: {count} of {len(verdicts)} tableaux claim no order; {HOW_TO_CLAIM}", err=True
+        )
     return 2 if None in verdicts else 0 if held else 1
 
 

@@ -51,7 +51,10 @@ def command(
     lost = list(left_out(data, to))
     if not as_json:
         for key in lost:
-            click.echo(f"note: the key {key} is left out; json and toml keep it", err=True)
+            click.echo(
+                f"note: the output does not contain the key {key}; the formats json and toml can contain it",
+                err=True,
+            )
     elif to == "numpy" and output is None:
         raise click.UsageError(
             "the output of --json cannot contain a NumPy archive, because the archive is binary; give -o FILE"

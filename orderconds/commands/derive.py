@@ -41,7 +41,7 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--json",
     "as_json",
     is_flag=True,
-    help="The same as --format json; stdout has the JSON also if --output names a file.",
+    help="The same as --format json. The JSON is written to stdout, also if --output names a file.",
 )
 def command(
     family: str,

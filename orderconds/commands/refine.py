@@ -18,7 +18,12 @@ UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give 
     "--digits", type=click.IntRange(10, 1000), default=60, show_default=True, help="Decimal places to write."
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
-@click.option("--json", "as_json", is_flag=True, help="Print digits, fixed decimals and proof as JSON.")
+@click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="Print the new digits, the names of the fixed decimals and the proof as JSON.",
+)
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 

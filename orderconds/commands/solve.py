@@ -30,46 +30,55 @@ if TYPE_CHECKING:
     help="The number of stages. For compositions and splittings: the number of steps.",
 )
 @click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="The order of the method.")
-@click.option("--explicit", is_flag=True, help="Only explicit methods: a_ij = 0 for j >= i.")
-@click.option("--dirk", is_flag=True, help="Only diagonally implicit methods: a_ij = 0 for j > i.")
+@click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
+@click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
 @click.option(
-    "--symmetric", is_flag=True, help="Only symmetric methods: a step of length -h undoes a step of length h."
+    "--symmetric",
+    is_flag=True,
+    help="Search only for symmetric methods: a step of length -h undoes a step of length h.",
 )
 @click.option(
-    "--fsal", is_flag=True, help="Only methods whose last stage is the first stage of the next step."
+    "--fsal",
+    is_flag=True,
+    help="Search only for methods whose last stage is the first stage of the next step.",
 )
 @click.option(
-    "--fix", multiple=True, metavar="a21=1/2", help="A linear equation for coefficients; may be repeated."
+    "--fix",
+    multiple=True,
+    metavar="a21=1/2",
+    help="A linear equation that the coefficients must satisfy. The option may be repeated.",
 )
 @click.option(
     "--positive",
     multiple=True,
     metavar="NAME",
-    help="A coefficient that must be positive; b means all weights.",
+    help="The name of a coefficient that must be positive; the name b denotes all weights.",
 )
-@click.option("--size", metavar="X", help="Only methods with coefficients of absolute value at most X.")
+@click.option("--size", metavar="X", help="An upper bound for the absolute values of all coefficients.")
 @click.option(
     "--exponentials",
     type=click.IntRange(1, 12),
     default=2,
     show_default=True,
-    help="Families cf and vcf: the number of exponentials in the update.",
+    help="For the families cf and vcf: the number of exponentials in the update.",
 )
 @click.option(
     "--inner",
     type=click.IntRange(1, 12),
     default=2,
     show_default=True,
-    help="Families cf and vcf: the number of exponentials in each stage.",
+    help="For the families cf and vcf: the number of exponentials in each stage.",
 )
 @click.option(
-    "--rkn", is_flag=True, help="Family splitting: assume that the parts T and V satisfy [V,[V,[V,T]]] = 0."
+    "--rkn",
+    is_flag=True,
+    help="For the family splitting: assume that the parts T and V satisfy [V,[V,[V,T]]] = 0.",
 )
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
-    help="Search from all random starts. Of all methods found, write the method whose residuals of the next "
-    "order have the least norm.",
+    help="Search from all random starts. Write the method, among all methods that were found, for which the "
+    "norm of the residuals of the next order is least.",
 )
 @click.option(
     "--starts",
@@ -82,8 +91,12 @@ if TYPE_CHECKING:
     type=click.IntRange(1, 256),
     help="The number of local processes.  [default: one for each processor]",
 )
-@click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
-@click.option("--name", default="found", show_default=True, help="The name of the tableau.")
+@click.option(
+    "--dask",
+    metavar="ADDRESS",
+    help="Run the search on the dask cluster with the scheduler at tcp://host:port.",
+)
+@click.option("--name", default="found", show_default=True, help="The name of the new tableau.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option(
     "--checkpoint",

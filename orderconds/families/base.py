@@ -449,6 +449,6 @@ def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> Non
             raise ZeroWeight(
                 f"b_{i} = {ring.text(weight)}" + (", which may be zero" if vanishes is None else ""),
                 where=f"family {label}",
-                expected="all weights b_i to be non-zero, because formulas of the family divide by them",
+                expected="all weights b_i to be non-zero, because the formulas of the family divide by b_i",
                 hint="choose another family, or a tableau without zero weights",
             )

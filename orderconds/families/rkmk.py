@@ -125,7 +125,7 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return (
             f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ..., "
             f"which are sufficient for every method on a group. For {self.label()} methods the listed "
-            f"conditions imply all of these.{beyond}"
+            f"conditions imply all conditions of Lyndon words.{beyond}"
         )
 
     def highest_order(self, limit: int) -> int:

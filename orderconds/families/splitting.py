@@ -59,7 +59,7 @@ class SplittingFamily(WordFamily):
     }
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting in two parts"}
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting into two parts"}
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:

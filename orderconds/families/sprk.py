@@ -58,7 +58,7 @@ class SymplecticPartitionedFamily(Family):
     needs_nonzero_weights = True
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field"
+        "rk": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field"
     }
     low_order = "rk"
     bounds_others = True

@@ -37,7 +37,7 @@ class TaylorFamily(Family):
     """
 
     name = "taylor"
-    description = "Taylor polynomials of a degree, as taylor(12): no tableau, no conditions, order = degree."
+    description = "Taylor polynomials of a given degree, such as taylor(12); the order is the degree."
     has_tableau = False
     controls_steps = True
     keeps_manifold = True

@@ -49,7 +49,7 @@ class VariationalCommutatorFree(ActionFamily):
     formats = ("cf", "rk")
     symbols = EXPONENTIAL_SYMBOLS
     implies: ClassVar[Mapping[str, str]] = {
-        "cf": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field on G"
+        "cf": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field on G"
     }
     unknowns = "cf"
     equal_abscissae = True

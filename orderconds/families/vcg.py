@@ -46,7 +46,7 @@ class VariationalCrouchGrossman(ActionFamily):
     formats = ("rk",)
     illustrates = ("action",)
     implies: ClassVar[Mapping[str, str]] = {
-        "cg": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field on G",
+        "cg": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field on G",
         "sprk": "a vector space is a Lie group under addition",
         "vcf": "a commutator-free method with one velocity in each exponential",
     }

@@ -130,7 +130,7 @@ def _certify(key: _Key, least: int) -> Certificate:
 
 def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
-        f"pin {unknowns - conditions} of them"
+        f"pin {unknowns - conditions} of the unknowns"
         if unknowns > conditions
         else "name a reduction: a theorem by which some of the equations follow from the others"
     )

@@ -47,7 +47,7 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
                 raise InputError(
                     "workers of the cluster died" if killed else "the scheduler no longer answers",
                     where=f"--dask {address}",
-                    expected="a cluster that runs until the end",
+                    expected="a cluster that runs until the search ends",
                     hint="restart the cluster and repeat the command; a checkpoint file saves the finished "
                     "batches of random starts",
                 ) from None

@@ -154,8 +154,8 @@ def _symplectic(
                 raise InputError(
                     f"the constraints fix both {A[i][j]} and {A[j][i]}",
                     where="constraints",
-                    expected="constraints that fix at most one of the two, because in a symplectic method "
-                    "one determines the other",
+                    expected="constraints that fix at most one of these entries, because in a symplectic "
+                    "method each of them determines the other",
                 )
             row, column = chosen
             weight, other = cells.written(b[column]), cells.written(A[column][row])

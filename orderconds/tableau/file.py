@@ -205,7 +205,7 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
     if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", summary, re.DOTALL):
         hint = ""
         if wrong[2] == "float" and "str" in wrong[1]:
-            hint = 'quote it: "0.5" is exactly 1/2, "0.81772~" a rounded decimal'
+            hint = 'write it in quotation marks: "0.5" is exactly 1/2, "0.81772~" is a rounded decimal'
         problem = f"a value of type {wrong[2]}"
         if wrong[2] == "numpy.ndarray":
             problem = "NumPy arrays are not accepted here"
