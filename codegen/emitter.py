@@ -23,13 +23,14 @@ from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
+from codegen.ir.smoothness import features
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
 from codegen.kernel.translate import to_kernel
 from codegen.kernel.variations import Variations
-from codegen.lower import families_for, lower, lower_composed, lowering, problem_for
-from codegen.method import Method, method_of
+from codegen.lower import lower, lower_composed, lowering, method_for, problem_for
+from codegen.method import Method
 from codegen.passes import Optimiser, PassReport, optimise, summaries
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -42,22 +43,26 @@ from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
 from orderconds import __version__
+from orderconds.argument import named_as_arguments, text, texts
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
 
+NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
+"""A remark in the header of a scene whose field is not smooth."""
+
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
 SWEEPS = 5
-WEIGHTS = {"div": 4, "sqrt": 5}
-"""The cost of an operation in units of one addition, by which two forms of a step are compared. Additions and
-products cost 1, and functions that are not listed cost 12."""
+WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
+"""The cost of operations in units of an addition; two forms of a step are compared by these costs. Additions
+and products cost 1, and functions that are not listed cost 12."""
 
 HEADERS = frozenset({"math", "numpy", "stddef", "stdio", "string"})
-"""Headers and modules that emitted files or their examples include. No emitted file may have the name of one
-of them."""
+"""Names of the headers and modules that emitted files or their examples include. No emitted file may have
+such a name."""
 
 
 @dataclass(frozen=True)
@@ -120,15 +125,16 @@ def compile_method(
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
-    if isinstance(scene, str):
-        scene = scenes.load(scene)
+    scene = scenes.problem_of(scene)
+    parameters = texts(parameters, "parameters", "alpha=1/2")
+    inputs = texts(inputs, "inputs", "u")
     if parameters:
         scene = with_runtime(scene, tuple(parameters))
     if inputs:
         scene = with_inputs(scene, tuple(inputs))
     chosen = find_form(scene, form) if form != PRINTED else None
     scene = with_frame(scene if chosen is None else chosen.problem, frame)
-    method = method_of(method, families_for(scene), family)
+    method = method_for(scene, method, family)
     if adaptive:
         method = replace(method, adaptive=True)
     problem = problem_for(scene, method)
@@ -196,14 +202,26 @@ def emit(
     """
     known_target(target)
     known_precision(precision)
-    named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
-    options = {"solver": solver, "form": form, "family": family}
-    compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options
-    )
+    text(prefix, "prefix", "a text")
+    problem = scenes.problem_of(scene)
+    with named_as_arguments():
+        compiled = compile_method(
+            problem,
+            method,
+            parameters,
+            inputs,
+            frame,
+            adaptive,
+            jacobian=jacobian,
+            solver=solver,
+            form=form,
+            family=text(family, "family", "a family, such as rkmk(2)"),
+        )
+    named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
     named["method"] = bare(str(method)) if whole else compiled.method.label
-    return emit_compiled(compiled, target, prefix, named, precision=precision)
+    with named_as_arguments():
+        return emit_compiled(compiled, target, prefix, named, precision=precision)
 
 
 def emit_compiled(
@@ -260,7 +278,7 @@ def options_of(compiled: Compiled, precision: str) -> list[str]:
     options += [f"--precision {precision}"] if precision != DOUBLE.name else []
     options += [f"--solver {compiled.asked}"] if compiled.asked != AUTO else []
     options += [f"--parameter {p}" for p in scene.runtime]
-    # If a fixed parameter is also a run-time argument, the value is the default of the argument.
+    # If a parameter with a given value remains a run-time argument, the value is the argument's default.
     options += [f"--parameter {p}={value}" for p, value in scene.fixed]
     return [*options, *(f"--input {name}" for name in scene.inputs)]
 
@@ -270,7 +288,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
     scene, method = compiled.scene, compiled.method
     first, last = scene.span
     single = target is not DOUBLE
-    # Without a tableau there are no coefficients that could be rounded.
+    # A method without a tableau has no coefficients that could be rounded.
     tableau = method.coefficients is not None
     digits = (("digits", rounding_of_digits(method, order, target, scene)),) if tableau else ()
     return Recipe(
@@ -278,6 +296,7 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         facts=(
             ("method", f"family {method.family_label}" + f", tableau {method.name}" * bool(method.name)),
             ("source", method.source),
+            *coordinates_of(compiled),
             ("order", order.text()),
             *digits,
             *scene_facts(compiled),
@@ -295,6 +314,15 @@ def recipe_of(compiled: Compiled, order: CertifiedOrder, command: str, target: P
         command=command,
         version=__version__,
     )
+
+
+def coordinates_of(compiled: Compiled) -> Sequence[tuple[str, str]]:
+    """Return the sentence about the coordinate map of the scene, if the method uses the map."""
+    used = compiled.scene.coordinates if lowering(compiled.method.family).reads_coordinates else None
+    if used is None:
+        return ()
+    unread = f"; the cut-off {compiled.method.cutoff} is not read, because nothing is truncated"
+    return (("coordinates", used.text + unread * (compiled.method.cutoff is not None)),)
 
 
 def emit_kernel(
@@ -330,9 +358,12 @@ def emit_kernel(
 def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """Return the lines of the header about the scene, and about the form of its equations."""
     form = compiled.form
+    chosen = features(compiled.scene.roots)
+    smooth = (("smooth", f"no: {chosen}; {NOT_SMOOTH}"),) if chosen else ()
     if form is None:
-        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"),)
+        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"), *smooth)
     return (
+        *smooth,
         ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
         ("form", f"{form.name}; {form.state}"),
         *((("to scene", form.conversion),) if form.conversion else ()),
@@ -373,10 +404,10 @@ def left_out(compiled: Compiled) -> tuple[str, ...]:
     lines = [*summaries(compiled.trace)]
     folded = [f"{name} = {x.text()}" for name, x in scene.parameters.items() if name not in scene.runtime]
     if folded:
-        lines.append(f"parameters, folded: {', '.join(folded)}")
+        lines.append(f"arguments for parameters, which are constants: {', '.join(folded)}")
     closed = [name for name in scene.signals if name not in scene.inputs]
     if closed:
-        lines.append(f"run-time inputs: {', '.join(closed)} by formula")
+        lines.append(f"run-time inputs: {', '.join(closed)} computed by formula")
     if TIME not in kernel.used_scalars():
         lines.append("the time: the scene does not depend on it")
     if not any(isinstance(s, Loop) for s in kernel.body):
@@ -390,7 +421,7 @@ def flows_of(problem: Problem) -> str:
 
 
 def bare(name: str) -> str:
-    """Return a name without folders, so that no path reaches emitted text.
+    """Return a name without folders, because emitted text must not contain a path of the machine.
 
     >>> bare("vcg:some/where/mine.toml"), bare("scenes/top.py")
     ('vcg:mine.toml', 'top.py')

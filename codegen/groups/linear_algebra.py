@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import combinations
 from typing import Protocol, Self, TypeVar
 
 from codegen.ir.domain import Domain
@@ -78,12 +79,45 @@ def matvec(a: Vector[S], v: Vector[S]) -> Vector[S]:
     return tuple(dot(a[i : i + n], v) for i in range(0, len(a), n))
 
 
-def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
-    """Return the inverse of an n x n matrix by the Faddeev-LeVerrier recursion.
+def transposed(a: Vector[S], n: int) -> Vector[S]:
+    """Return the transpose of an n x n matrix."""
+    return tuple(x for j in range(n) for x in a[j::n])
 
-    The recursion needs no pivots: over power series or expressions, it is not known which pivots are
-    non-zero.
+
+def determinant(a: Vector[S], n: int) -> S:
+    """Return the determinant of an n x n matrix without divisions, by expansion along the rows.
+
+    The number of products is n 2^(n-1).
+
+    >>> determinant((1, 2, 3, 4), 2)
+    -2
     """
+    # The key is the set of columns of a minor of the last rows.
+    minors: dict[tuple[int, ...], S] = {(j,): a[n * (n - 1) + j] for j in range(n)}
+    for i in reversed(range(n - 1)):
+        larger: dict[tuple[int, ...], S] = {}
+        for columns in combinations(range(n), n - i):
+            terms = [a[n * i + j] * minors[(*columns[:k], *columns[k + 1 :])] for k, j in enumerate(columns)]
+            total = terms[0]
+            for k, x in enumerate(terms[1:], 1):
+                total = total - x if k % 2 else total + x
+            larger[columns] = total
+        minors = larger
+    return minors[tuple(range(n))]
+
+
+WITHOUT_PIVOTS = 3
+"""Inverses of matrices with at most this number of rows are formed without pivots."""
+
+
+def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
+    """Return the inverse of an n x n matrix.
+
+    Small matrices are inverted by the Faddeev-LeVerrier recursion, which needs no pivots, and large matrices
+    by elimination with row exchanges.
+    """
+    if n > WITHOUT_PIVOTS:
+        return d.vector(f"inverse{n}", g)
     identity: Vector[S] = tuple(d.rational(int(i == j)) for i in range(n) for j in range(n))
     ones: Vector[S] = (d.rational(1),) * n
     m, c = identity, ones[0]
@@ -94,6 +128,26 @@ def invert(d: Domain, g: Vector[S], n: int) -> Vector[S]:
         if k < n:
             m = tuple(p + c * u for p, u in zip(product, identity, strict=True))
     return tuple(-(x / c) for x in m)
+
+
+def solved_near_identity(a: Vector[S], b: Vector[S], n: int) -> Vector[S]:
+    """Return x with a x = b for an n x n matrix a and a matrix b of n rows, by elimination without pivots.
+
+    The pivots are close to 1 if a is close to the unit matrix. They are positive if the symmetric part of a
+    is positive definite, for example if a is the sum of the unit matrix and a skew matrix.
+    """
+    width = len(b) // n
+    rows = [[*a[n * i : n * i + n], *b[width * i : width * i + width]] for i in range(n)]
+    for k in range(n):
+        for i in range(k + 1, n):
+            factor = rows[i][k] / rows[k][k]
+            rows[i][k:] = [x - factor * y for x, y in zip(rows[i][k:], rows[k][k:], strict=True)]
+    for k in reversed(range(n)):
+        rows[k][n:] = [x / rows[k][k] for x in rows[k][n:]]
+        for i in range(k):
+            factor = rows[i][k]
+            rows[i][n:] = [x - factor * y for x, y in zip(rows[i][n:], rows[k][n:], strict=True)]
+    return tuple(x for row in rows for x in row[n:])
 
 
 def rational_inverse(a: Sequence[Sequence[Fraction]]) -> list[list[Fraction]] | None:

@@ -1,10 +1,10 @@
-"""Numbers of many digits as Arb balls: the fast counterpart of :class:`codegen.ir.domain.PreciseDomain`.
+"""Numbers of many digits as Arb balls: a faster replacement for :class:`codegen.ir.domain.PreciseDomain`.
 
 An operation on two Arb balls is about six times faster than the same operation on two mpmath numbers.
 Therefore steps with 60 digits, of which a report needs thousands, are evaluated in this domain. A ball
-has an error radius. The radii are not error bounds of the result: after each operation of a step program,
-a number is replaced by the midpoint of its ball, because the radii of an iteration would grow without
-bound.
+has an error radius. In an iteration the radii would grow without bound. Therefore each result of an operation
+of a step program is replaced by the midpoint of its ball, and the radii of the final result are not error
+bounds.
 
 The working precision of balls is a global variable of python-flint. Code that uses this domain therefore runs
 inside ``with domain.precision():``.
@@ -17,10 +17,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from flint import arb
+from flint import arb, arb_mat
 
 from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
 from codegen.ir.number import Number
+from codegen.ir.selection import selected, selects, sign_of_number
+from codegen.ir.vector_function import MatrixExponential, MatrixInverse, vector_function
 from orderconds.ring.precision import precision
 
 if TYPE_CHECKING:
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
 BITS_PER_DIGIT = math.log2(10)
 
 GUARD = 32
-"""Bits beyond the stated number of digits."""
+"""The number of bits of the working precision beyond the requested number of digits."""
 
 
 class BallDomain:
@@ -46,7 +48,7 @@ class BallDomain:
         with self.precision():
             self.eps = arb((1, GUARD - self.bits))
             self.h = self.scalar(h)
-        # The same limit as for mpmath numbers.
+        # Arguments have the same limit as in :class:`codegen.ir.domain.PreciseDomain`.
         self.patience = 3 * digits
 
     def precision(self) -> precision:
@@ -97,10 +99,16 @@ class BallDomain:
             raise NotConverged(f"the argument of {function} is not a finite number")
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
+        if selects(function):
+            centres = tuple(x.mid() for x in args)
+            value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
+            return value.mid()
         if any(_exponent(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), z)
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), z)
         if "stumpff" in function:
             return self._stumpff(int(function[-1]), z)
         value = getattr(arb, function)(*(x.mid() for x in args)).mid()
@@ -108,10 +116,34 @@ class BallDomain:
             raise ValueError(f"{function} of {z.str(10, radius=False)} is not a finite real number")
         return value
 
+    def vector(self, function: str, args: Sequence[arb]) -> tuple[arb, ...]:
+        """Return the results of a vector function.
+
+        The exponential of A + e E, with e^2 = 0, is computed from the block matrix with the rows (A, E) and
+        (0, A). ZeroDivisionError is raised for the inverse of a singular matrix, OverflowError for the
+        exponential of a matrix with entries above 2^40.
+        """
+        called, numbers = vector_function(function), [x.mid() for x in args]
+        if isinstance(called, MatrixExponential):
+            first = numbers[: called.n**2]
+            if not all(x.is_finite() for x in numbers) or any(_exponent(x) > 40 for x in first):
+                raise OverflowError("the exponential of a matrix of this norm")
+            # The exponential may be smaller than the terms of its series by a factor exp(-2 norm).
+            norm = float(called.n * max(abs(x) for x in first))
+            with precision(self.bits + 64 + min(2**13, 3 * int(norm))):
+                result = arb_mat(_block(called.n, called.level, numbers)).exp().tolist()
+            return tuple(x.mid() for x in _first_row(result, called.level))
+        if isinstance(called, MatrixInverse):
+            with precision(2 * self.bits):
+                inverse = arb_mat(_block(called.n, 0, numbers)).inv().tolist()
+            return tuple(x.mid() for row in inverse for x in row)
+        raise ValueError(f"unknown vector function {function}")
+
     def _stumpff(self, k: int, z: arb) -> arb:
         """Return c_k(z) = sum_j (-z)^j/(2j + k)!."""
         if z > 1:
-            # Above 1 the closed forms lose at most three bits. The worst case is c_3, since 1 - sin 1 = 0.16.
+            # For z > 1 the closed forms lose at most three bits by cancellation. The worst case is c_3, which
+            # contains sqrt z - sin sqrt z: 1 - sin 1 = 0.16.
             root = z.sqrt()
             if k == 0:
                 return root.cos()
@@ -139,13 +171,26 @@ class BallDomain:
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
         return total
 
+    def _curvature(self, k: int, z: arb) -> arb:
+        """Return c_k''(z): by its series for abs(z) up to 1, else by c_{k-2}, c_{k-1} and c_k."""
+        if abs(z) > 1:
+            a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
+            return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
+        total, j, term = arb(0), 2, 2 * arb(1) / math.factorial(k + 4)
+        limit = arb((1, -self.bits - 10))
+        while abs(term.mid()) > limit:
+            total += term
+            j += 1
+            term = -term * z * j / ((j - 2) * (2 * j + k) * (2 * j + k - 1))
+        return total
+
     def computed(self, name: str, value: Value) -> Value:
-        """Return the midpoints of the result ``name`` of an operation."""
+        """Return the result of an operation with each number replaced by the midpoint of its ball."""
         return tuple(x.mid() for x in value) if isinstance(value, tuple) else value.mid()
 
     def settled(self, old: Sequence[arb], new: Sequence[arb], previous: Scalar) -> tuple[bool, arb]:
-        """Return whether the changes are within 2^12 units of the precision and no longer decrease, and the
-        last change."""
+        """Return two values: True if the changes are within 2^12 rounding units and no longer decrease, and
+        the size of the last change."""
         change = max(abs((a - b).mid()) for a, b in zip(old, new, strict=True))
         # Comparisons with NaN are false, so without this test the iteration would continue up to its limit.
         if not all(x.is_finite() for x in new):
@@ -156,6 +201,25 @@ class BallDomain:
     def increment(self, x: arb) -> arb:
         """Return the step of a difference quotient at x."""
         return (self.eps.sqrt() * max(arb(1), abs(x.mid()))).mid()
+
+
+def _block(n: int, level: int, numbers: Sequence[arb]) -> list[list[arb]]:
+    """Return the rows of the block matrix of a jet (:mod:`codegen.ir.matrix_exponential`)."""
+    if level == 0:
+        return [list(numbers[n * i : n * i + n]) for i in range(n)]
+    half = len(numbers) // 2
+    a, e = (_block(n, level - 1, part) for part in (numbers[:half], numbers[half:]))
+    zeros = [arb(0)] * len(a)
+    return [*(x + y for x, y in zip(a, e, strict=True)), *([*zeros, *x] for x in a)]
+
+
+def _first_row(rows: Sequence[Sequence[arb]], level: int) -> list[arb]:
+    """Return the jet of a block matrix: the inverse of :func:`_block`."""
+    if level == 0:
+        return [x for row in rows for x in row]
+    half = len(rows) // 2
+    a, e = [row[:half] for row in rows[:half]], [row[half:] for row in rows[:half]]
+    return [*_first_row(a, level - 1), *_first_row(e, level - 1)]
 
 
 def _exponent(x: arb) -> int:

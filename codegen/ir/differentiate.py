@@ -3,11 +3,14 @@ function."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 
-from codegen.ir.elementary import ELEMENTARY
+from codegen.ir.elementary import ANGLE, ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
+from codegen.ir.vector_function import component, partial
 
 
 class NotDifferentiable(ValueError):
@@ -38,11 +41,13 @@ def gradient(root: Expr, symbols: Sequence[str]) -> list[Expr]:
     return [bars.get(space.sym(name).id, space.zero) for name in symbols]
 
 
-def partials(node: Expr) -> list[Expr]:
+def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     """Return the partial derivatives of a node with respect to its arguments, in order.
 
-    The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
-    raised for the slopes.
+    ``moving`` may contain the ids of the nodes that are not constant. Derivatives of a vector function with
+    respect to constant arguments are then not computed, but set to zero. The derivatives of ``quotient`` are
+    valid where its divisor is not zero. :class:`NotDifferentiable` is raised for second derivatives of
+    Stumpff functions.
     """
     space, args = node.space, node.args
     match node.op:
@@ -62,17 +67,28 @@ def partials(node: Expr) -> list[Expr]:
             n = node.payload
             return [space.const(Number.rational(n)) * space.pow(args[0], n - 1)]
         case "call":
-            return _derivatives(node)
+            result = component(node.payload)
+            if result is None:
+                return _derivatives(node)
+            wanted = [moving is None or a.id in moving for a in node.args]
+            return [partial(node, *result, j) if w else space.zero for j, w in enumerate(wanted)]
         case _:
             return []
 
 
-def _derivatives(node: Expr) -> list[Expr]:
+def _derivatives(node: Expr) -> list[Expr]:  # complexity: one case for each function
     """Return the partial derivatives of a function with respect to its arguments. For the Stumpff functions
     c_k' = (k c_{k+2} - c_{k+1})/2."""
     space, x = node.space, node.args[0]
     half = space.const(Number.rational(1, 2))
     match node.payload:
+        case PiecewisePolynomial() as table:
+            return [space.call(table.derivative(), x) if table.degree else space.zero]
+        case name if name in (ABSOLUTE, CHOOSE):
+            return _selection(node)
+        case name if name == ANGLE:
+            size = x * x + node.args[1] * node.args[1]
+            return [node.args[1] / size, -(x / size)]
         case "sqrt":
             # The derivative 1/(2 sqrt x) contains the root, which is already computed.
             return [half * (space.one / node)]
@@ -85,7 +101,7 @@ def _derivatives(node: Expr) -> list[Expr]:
             return [node]
         case "log":
             return [space.one / x]
-        # For k = 0 the term in c_2 is absent: c_0' = -c_1/2. The rule holds for z of either sign.
+        # For k = 0 the term k c_{k+2} is zero: c_0' = -c_1/2. The rule holds for positive and negative z.
         case "stumpff0" | "signed_stumpff0" as name:
             return [-(half * space.call(f"{name[:-1]}1", x))]
         case "stumpff1":
@@ -94,15 +110,35 @@ def _derivatives(node: Expr) -> list[Expr]:
         # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
+        case "slope2" | "slope3" as name:
+            return [space.call(f"curvature{name[-1]}", x)]
         case name if name in ELEMENTARY:
             return [ELEMENTARY[name].slope(x, node)]
-        case "signed_stumpff1":
-            return [space.call("signed_slope1", x)]
+        case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
+            return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
             # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
             # infinite there.
             inverse = space.call("quotient", space.one, node.args[1])
             return [inverse, -(node * inverse)]
         case _:
-            message = f"{node.payload} is not differentiated"
+            message = f"the function {node.payload} has no rule for its derivative"
             raise NotDifferentiable(message)
+
+
+def sign(x: Expr) -> Expr:
+    """Return the sign of an expression; the sign of 0 is 0."""
+    space = x.space
+    return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
+
+
+def _selection(node: Expr) -> list[Expr]:
+    """Return the derivatives of an absolute value or of the selected formula; the derivative of the absolute
+    value at 0 is set to 0."""
+    space, (x, *formulas) = node.space, node.args
+    if not formulas:
+        return [sign(x)]
+    # A number needs no adjoint, so the adjoint of a branch that is a number is not formed.
+    one, zero = space.one, space.zero
+    factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
+    return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

@@ -6,17 +6,20 @@ text depend only on the input. Nodes simplify only locally (constants, zeros, on
 never flattened, because flattening would destroy sharing.
 
 Operations: ``const`` (a :class:`Number`), ``sym`` (a name), ``add sub mul div neg``, ``pow`` (integer
-exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`).
+exponent >= 2), ``call`` (a function of :data:`FUNCTIONS`, or a result of a vector function).
 """
 
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE, SELECTING
+from codegen.ir.table import PiecewisePolynomial
+from codegen.ir.vector_function import component
 
 if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
@@ -27,20 +30,29 @@ exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
     *MATHEMATICAL,
+    ANGLE,
+    *SELECTING,
     # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
     "stumpff0",
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # c_0 and c_1 for z of either sign: cosh and sinh where z < 0
+    # c_k for positive and negative z: for z < 0 they contain cosh and sinh
     "signed_stumpff0",
     "signed_stumpff1",
+    "signed_stumpff2",
+    "signed_stumpff3",
     # derivatives of stumpff2 and stumpff3: c_2' = (2 c_4 - c_3)/2 and c_3' = (3 c_5 - c_4)/2
     "slope2",
     "slope3",
-    # derivative of signed_stumpff1: c_1' = (c_3 - c_2)/2 for z of either sign
+    # second derivatives of stumpff2 and stumpff3
+    "curvature2",
+    "curvature3",
+    # derivatives of signed_stumpff1, signed_stumpff2 and signed_stumpff3
     "signed_slope1",
-    # a/b, and 0 where b = 0, for removable singularities with the limit 0
+    "signed_slope2",
+    "signed_slope3",
+    # a/b, and 0 where b = 0: used for quotients whose limit is 0 where the divisor vanishes
     "quotient",
 )
 
@@ -104,8 +116,10 @@ class Space:
     """
 
     def __init__(self) -> None:
-        # The table keeps every node in memory, so node numbers are never reused.
+        # The table refers to every node, so no node is freed and node numbers are never reused.
         self._table: dict[tuple[object, ...], Expr] = {}
+        self.derivatives: dict[tuple[object, ...], tuple[Expr, ...]] = {}
+        """The derivatives of vector functions that have already been computed."""
         self.zero = self.const(Number.rational(0))
         self.one = self.const(Number.rational(1))
 
@@ -122,8 +136,8 @@ class Space:
         """Return value as a node of this space."""
         if isinstance(value, Expr):
             if value.space is not self:
-                # Node numbers of two spaces are unrelated: mixing
-                # them would intern different expressions as one.
+                # Two spaces use the same node numbers for different expressions, so a node of another space
+                # would be confused with a node of this space.
                 raise ValueError("expressions of two different spaces cannot be combined")
             return value
         return self.const(value if isinstance(value, Number) else Number.rational(value))
@@ -160,7 +174,7 @@ class Space:
             return self.sub(a, b.args[0])
         if a.op == "neg":
             return self.sub(b, a.args[0])
-        # x + x equals 2 x exactly, and the product 2 x is shared with other sums that contain it.
+        # In floating point x + x equals 2 x exactly, and the node 2 x may already exist.
         if a is b:
             return self.mul(self.const(Number.rational(2)), a)
         # Floating-point addition is commutative, so a + b and b + a are one node. It is not associative, so
@@ -180,8 +194,8 @@ class Space:
         if b.op == "neg":
             return self.add(a, b.args[0])
         if a.op == "neg":
-            # The sign is moved to the outside, because a sum that contains the result becomes a difference at
-            # no cost: -x - b = -(x + b), where x + b may be shared.
+            # By -x - b = -(x + b) the sign is moved outside. The sum x + b may occur elsewhere, and a sum
+            # that contains -(x + b) becomes a difference at no cost.
             return self.neg(self.add(a.args[0], b))
         return self._make("sub", (a, b))
 
@@ -224,7 +238,7 @@ class Space:
         if b.op == "const":
             # The reciprocal is exact, and a product is several times faster than a division.
             return self.mul(self.const(Number.rational(1) / b.payload), a)
-        # As in a field of rational functions, the divisor is assumed to be non-zero.
+        # Expressions are treated as rational functions, so a divisor is assumed to be non-zero.
         if a is b:
             return self.one
         if a.op == "neg":
@@ -257,25 +271,53 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return function(args) for a function of :data:`FUNCTIONS`."""
-        if function not in FUNCTIONS:
+        """Return function(args) for a function of :data:`FUNCTIONS`, a table, or a result of a vector
+        function."""
+        known = _folded(function, args)
+        if known is not None:
+            return known
+        table = isinstance(function, PiecewisePolynomial)
+        if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test an unknown name would cause an error only later, in a printer.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
         return self._make("call", args, function)
 
+    def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
+        """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
+        given = tuple(args)
+        return tuple(self._make("call", given, f"{function}.{k}") for k in range(len(given)))
+
+
+def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
+    """Return the value of a selection if it is known which formula is selected, otherwise None."""
+    if function == CHOOSE and args[1] is args[2]:
+        return args[1]
+    if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
+        test, *values = args[0].args
+        # The sign of a selection between 1 and -1 is the selected number, so choosing by this sign is
+        # choosing by its argument.
+        if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
+            return test.space.call(CHOOSE, test, *args[1:])
+    if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
+        return None
+    value = args[0].payload.fraction()
+    if function == ABSOLUTE:
+        return -args[0] if value < 0 else args[0]
+    return args[1] if value > 0 else args[2]
+
 
 def _joinable(a: Expr, b: Expr) -> bool:
     """Return True if two constants have a common ring, so that their sum and product are constants of it."""
-    # A rational number is an element of every ring. For elements of two different other rings, no common ring
-    # is known.
+    # Rational numbers are elements of every ring. Two different rings, neither of them QQ, have no known
+    # common ring.
     x, y = a.payload, b.payload
     return x.ring is y.ring or x.is_rational or y.is_rational
 
 
 def walk(roots: Iterable[Expr], stop: Callable[[Expr], bool] | None = None) -> Iterator[Expr]:
-    """Yield each node of the expressions once, arguments before users; skip the arguments of nodes for which
-    stop is true."""
+    """Yield each node of the expressions once, arguments before the nodes that use them. The arguments of a
+    node for which ``stop`` is true are not visited."""
     # An explicit stack is used, because the expressions of long steps are nested more deeply than Python's
     # recursion limit allows. The loop is written for speed, because a compilation visits millions of nodes.
     seen: set[Expr] = set()
@@ -324,6 +366,8 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
     # second time.
     roots = list(roots)
     result: dict[Expr, Scalar] = {}
+    # The results of a vector function are computed together, by its name and the ids of its arguments.
+    vectors: dict[tuple[str, tuple[int, ...]], tuple[Scalar, ...]] = {}
     for node in walk(roots):
         # walk yields the arguments of a node before the node, so the values of the arguments are already
         # known.
@@ -338,6 +382,12 @@ def evaluate(roots: Iterable[Expr], domain: Domain, values: Mapping[str, Scalar]
             value = -result[args[0]]
         elif node.op == "pow":
             value = power(result[args[0]], node.payload)
+        elif (result_of := component(node.payload)) is not None:
+            function, index = result_of
+            key = function.name, tuple(a.id for a in args)
+            if key not in vectors:
+                vectors[key] = domain.vector(function.name, [result[a] for a in args])
+            value = vectors[key][index]
         else:
             value = domain.call(node.payload, *(result[a] for a in args))
         result[node] = value

@@ -11,13 +11,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import factorial
 
+from codegen.ir.differentiate import sign
 from codegen.ir.elementary import ELEMENTARY, MATHEMATICAL
 from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
 
 STEP = "h"
 
-EXPANDED = frozenset({*MATHEMATICAL, *(f"stumpff{k}" for k in range(4))})
+EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
 """The functions with a rule for their expansion."""
 
 Pair = tuple[Expr, Expr]
@@ -55,15 +58,16 @@ class FirstOrder:
 
         :class:`NotLinearised` is raised for a root that the rules of this module cannot expand at h = 0.
         """
-        # Without roots there is no space that has the symbol h.
+        # The symbol h is taken from the space of the roots, so without roots the result is empty.
         if not roots:
             return []
         space, duals = roots[0].space, self.duals
-        # Expansions are kept between calls, because the roots of several calls may share expressions.
+        # Expansions are stored for later calls, because the roots of several calls may share expressions.
         for node in walk(roots, lambda n: n.id in duals):
             if node.id not in duals:
                 duals[node.id] = _visit(node, [duals[a.id] for a in node.args], self.place, space)
-        # The coefficients v_0 and v_1 remain separate until the end, when the result v_0 + v_1 h is formed.
+        # The coefficients v_0 and v_1 are computed separately; the expression v_0 + v_1 h is formed only for
+        # results.
         h, none = space.sym(STEP), (space.zero, space.zero)
         rows = []
         for root in roots:
@@ -100,13 +104,15 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
         case "pow":
             result = args[0]
             for _ in range(node.payload - 1):
-                # Products are truncated one by one, so no coefficient of h^2 is formed.
+                # Every product is truncated when it is formed, so no coefficient of h^2 is computed.
                 result = _product(space, result, args[0])
             return result
-        case _ if node.payload in EXPANDED:
+        case _ if node.payload == CHOOSE:
+            return _chosen(space, *args)
+        case _ if node.payload in EXPANDED or isinstance(node.payload, PiecewisePolynomial):
             return _called(space, node.payload, args[0])
         case _:
-            raise NotLinearised(f"{node.payload} is not expanded")
+            raise NotLinearised(f"the function {node.payload} has no rule for its expansion in h")
 
 
 def _times(a: Pair, b: Pair) -> Pair:
@@ -147,6 +153,19 @@ def _inverse(space: Space, a: _Dual) -> _Dual:
     return _Dual(value, _trimmed(slopes))
 
 
+def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
+    """Return the expansion of the formula that is selected at h = 0."""
+    none = (space.zero, space.zero)
+
+    def pair(x: Pair, y: Pair) -> Pair:
+        low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
+        return low, high
+
+    places = sorted({*a.slopes, *b.slopes})
+    slopes = {k: pair(a.slopes.get(k, none), b.slopes.get(k, none)) for k in places}
+    return _Dual(pair(a.value, b.value), _trimmed(slopes))
+
+
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
     """Return a function of v_0 + v_1 h with its derivatives."""
     low, high = a.value
@@ -154,14 +173,14 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
         k = int(function[7:])
         # c_k is expanded at 0 only: its derivatives are rational there, and the angles vanish with h.
         if not low.is_zero:
-            raise NotLinearised("a rotation angle does not vanish at h = 0")
+            raise NotLinearised("the argument of a Stumpff function does not vanish at h = 0")
         # c_k(z) = 1/k! - z/(k+2)! + z^2/(k+4)! - ..., so the second derivative is twice the last coefficient.
         at, first, second = (space.const(Number.rational((-1) ** j, factorial(k + 2 * j))) for j in range(3))
         second = second + second
     elif function == "sqrt":
         # The derivatives of sqrt(x) are infinite at x = 0.
         if low.is_zero:
-            raise NotLinearised("a root at its branch point")
+            raise NotLinearised("the argument of a square root vanishes at h = 0")
         at = space.call("sqrt", low)
         first = space.const(Number.rational(1, 2)) * (space.one / at)
         second = -(first * (space.const(Number.rational(1, 2)) / low))
@@ -170,6 +189,11 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     elif function == "log":
         at, first = space.call("log", low), space.one / low
         second = -(first * first)
+    elif isinstance(function, PiecewisePolynomial):
+        slope_of = function.derivative()
+        at, first, second = (space.call(f, low) for f in (function, slope_of, slope_of.derivative()))
+    elif function == ABSOLUTE:
+        at, first, second = space.call(ABSOLUTE, low), sign(low), space.zero
     elif function in ELEMENTARY:
         at, rule = space.call(function, low), ELEMENTARY[function]
         first, second = rule.slope(low, at), rule.curvature(low, at)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from codegen.ir.differentiate import partials
 from codegen.ir.expr import Expr, walk
+from codegen.ir.vector_function import component
 
 
 def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ...]:
@@ -20,6 +21,8 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
     ((y * dx), 0)
     """
     known: dict[int, Expr] = {}
+    # One call of a derivative gives the tangents of all results of a vector function.
+    together: dict[tuple[str, tuple[int, ...]], tuple[Expr, ...]] = {}
     for node in walk(roots):
         # A symbol without a seed is constant.
         if node.op == "sym":
@@ -31,12 +34,21 @@ def tangents(roots: Sequence[Expr], seeds: Mapping[str, Expr]) -> tuple[Expr, ..
         # for it.
         if not moving:
             continue
-        # Derivatives are formed only after this test, because a function without a derivative is allowed if
-        # all its arguments are constant.
+        result = component(node.payload) if node.op == "call" else None
+        if result is not None:
+            function, index = result
+            key = function.name, tuple(a.id for a in node.args)
+            if key not in together:
+                rates = [known.get(a.id, node.space.zero) for a in node.args]
+                together[key] = function.tangent(node.args, rates)
+            known[node.id] = together[key][index]
+            continue
+        # Derivatives are formed only after this test: a function without a derivative may occur in an
+        # expression that is constant.
         slopes = partials(node)
         total = node.space.zero
-        # All seeds belong to one direction. The chain rule therefore needs one product for each argument that
-        # is not constant, even if many symbols have a seed.
+        # All seeds together are one direction, so the chain rule takes only one product for each argument
+        # that is not constant.
         for k, rate in moving:
             total = total + slopes[k] * rate
         # Terms may cancel. A zero is not entered in the table, so that nodes that contain this node treat it

@@ -12,9 +12,12 @@ from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
+from codegen.ir.selection import CHOOSE
 from codegen.ir.taylor_recurrence import Recurrence
 from codegen.ir.taylor_series import (
+    Angle,
     Antiderivative,
+    Chosen,
     Circular,
     Convolution,
     Exponential,
@@ -27,6 +30,7 @@ from codegen.ir.taylor_series import (
     Series,
     Slope,
     Square,
+    Start,
     Sum,
 )
 
@@ -34,12 +38,13 @@ ORDER, INVERSE, NEXT, LINEAR = "order.n", "inverse.n", "next.n", "linear.n"
 """The symbols of n, 1/n, 1/(n + 1), and of coefficient n of the time, in the code of order n."""
 
 PROBED = 3
-"""The number of orders that are computed in order to find the series that are constant in time."""
+"""The number of Taylor coefficients that are computed before the loop. A series is treated as constant in
+time if these coefficients, except coefficient 0, are all None."""
 
 
 @dataclass(frozen=True)
 class OrderLoop:
-    """The code of order 0 and of every other order n.
+    """The code that computes order 0, and the code that computes every other order n.
 
     ``first`` are the values of ``names``, which later orders read. ``start`` are the coefficients 1 of the
     coordinates, ``following`` the coefficients n + 1; they read the coefficients n, called ``coordinates``,
@@ -67,8 +72,8 @@ def order_loop(recurrence: Recurrence, space: Space) -> OrderLoop:
         x = work.of(slope)
         following.append(space.zero if x is None else scale * (space.const(number) * x))
     left, right = [], []
-    # The list grows in the loop, because an operand that no derivative contains, such as the cosine for a
-    # sine, may need further sums.
+    # The list grows in the loop: a sine in a derivative needs the series of the cosine, which needs further
+    # sums.
     for a, b in work.pairs:
         left.append(_known(work.of(a)))
         right.append(_known(work.of(b)))
@@ -97,7 +102,8 @@ def _known(x: Expr | None) -> Expr:
 
 @dataclass
 class _Loop:
-    """Coefficient n of series; ``pairs`` are the operands of inner sums, ``first`` the values of order 0."""
+    """Computes coefficient n of each series; ``pairs`` are the operands of inner sums, ``first`` the values
+    of order 0."""
 
     recurrence: Recurrence
     space: Space
@@ -134,7 +140,8 @@ class _Loop:
         return all(series.term(n) is None for n in range(1, PROBED))
 
     def value(self, x: Expr) -> Expr:
-        """Return a value of order 0 as a symbol of the code of order n; a number is returned unchanged."""
+        """Return the symbol for a value of order 0, by which the code of order n reads it; a number is
+        returned unchanged."""
         if x.op == "const":
             return x
         if x.id not in self.positions:
@@ -205,6 +212,16 @@ class _Loop:
             case Circular(slope=slope, other=other, minus=minus):
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
+            case Chosen(test=test, a=a, b=b):
+                pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
+                return space.call(CHOOSE, self.value(test.term(0)), *pair)
+            case Angle(slopes=slopes, rates=rates):
+                pairs = zip(slopes, rates, strict=True)
+                means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
+                if len(means) == 2:
+                    return space.sym(INVERSE) * (means[0] - means[1])
+                (mean,) = means
+                return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
@@ -222,8 +239,12 @@ def _operands(series: Series) -> Sequence[Series]:
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
             return (slope,)
+        case Chosen(a=a, b=b):
+            return a, b
+        case Angle(slopes=slopes):
+            return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
             return (a,)
-        case Given():
+        case Given() | Start():
             return ()
     raise AssertionError(type(series))

@@ -1,7 +1,7 @@
 """Taylor coefficients of the solution of y' = F(y, t): the series of the expressions of F.
 
-Quotients, roots and products of one expression are joined to constant powers, and numeric factors are moved
-out of products, because each product of two series costs a convolution.
+Each product of two series costs a convolution. Therefore products, quotients and roots of one expression are
+written as a power of it, and numeric factors are moved out of products.
 """
 
 from __future__ import annotations
@@ -12,11 +12,15 @@ from fractions import Fraction
 
 from codegen.errors import SceneError
 from codegen.ir.domain import Domain, Scalar
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
 from codegen.ir.taylor_series import (
+    Angle,
     Antiderivative,
+    Chosen,
     Circular,
     Coefficient,
     Convolution,
@@ -31,6 +35,7 @@ from codegen.ir.taylor_series import (
     Slope,
     Square,
     Sum,
+    composed,
     multiplied,
 )
 
@@ -40,7 +45,8 @@ TIME = "t"
 
 @dataclass
 class _Builder:
-    """The series of expressions; ``values`` are the values of the symbols that are constant in time."""
+    """The series of all expressions of one recurrence; ``values`` are the values of the symbols that are
+    constant in time."""
 
     domain: Domain
     series: dict[str, Series]
@@ -75,8 +81,8 @@ class _Builder:
         return node.args
 
     def monomial(self, root: Expr) -> tuple[Number, Expr, Fraction]:
-        """Return (c, x, e) such that the node equals c x^e. Either e is not a positive integer, or x is the
-        node itself."""
+        """Return (c, x, e) such that the node equals c x^e, for a number c, an expression x and a rational
+        exponent e."""
         for node in walk([root], lambda n: n.id in self.monomials):
             if node.id not in self.monomials:
                 self.monomials[node.id] = self._monomial(node)
@@ -145,6 +151,14 @@ class _Builder:
                     return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
                 other = self.power(below, divisor, -e)
                 return self.multiple(Number.rational(1) / c, Convolution(domain, arg(0), other))
+            case "call" if node.payload == ANGLE:
+                return Angle(domain, arg(0), arg(1))
+            case "call" if node.payload == CHOOSE:
+                return Chosen(domain, arg(0), arg(1), arg(2))
+            case "call" if node.payload == ABSOLUTE:
+                return Chosen(domain, arg(0), arg(0), Multiple(domain, Number.rational(-1), arg(0)))
+            case "call" if isinstance(node.payload, PiecewisePolynomial):
+                return composed(domain, node.payload, arg(0))
             case _:
                 return self.function(node.payload, node.args[0], arg(0))
 

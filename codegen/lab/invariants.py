@@ -8,17 +8,16 @@ from __future__ import annotations
 
 import math
 
-from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
-from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.ir.values import Kind
+from codegen.lab.number_functions import of_scalars
 from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
-FUNCTIONS = {name: getattr(math, name) for name in MATHEMATICAL}
+FUNCTIONS = of_scalars(math)
 
 MANIFOLD = "manifold"
 """The key of the manifold equations in the dictionaries of conserved quantities."""
@@ -102,7 +101,8 @@ def _laws(scene: Problem, domain: ExprDomain, state: Vector) -> Vector:
     for block in scene.state:
         values = state[start : start + len(block.symbols)]
         start += len(values)
-        acting = block.kind is Kind.POINT and isinstance(scene.action, LeftMultiplication)
-        if block.kind is Kind.GROUP or acting:
+        if block.kind is Kind.GROUP:
             laws += [x for _, x in scene.group.laws(domain, values)]
+        elif block.kind is Kind.POINT:
+            laws += [x for _, x in scene.action.laws(domain, scene.group, values)]
     return tuple(laws)

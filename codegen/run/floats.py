@@ -1,8 +1,8 @@
 """Arithmetic in doubles as in emitted code: Stumpff functions by the same polynomials and closed forms.
 
 The Stumpff functions of the interpreter (:func:`codegen.ir.domain.stumpff`) round differently in the last
-place. Near the end of an iteration, this may cost or save a sweep. An executor that counts the sweeps of
-emitted code therefore needs the functions of this module.
+place. Near the end of an iteration, this may cost or save a sweep. To count the sweeps of emitted code
+exactly, the executor therefore uses the functions of this module.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from functools import cache
 
 from codegen.ir.domain import FloatDomain
 from codegen.ir.precision import DOUBLE
-from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised, limit, slopes
+from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures, economised, limit, slopes
 
 
 class EmittedFloats(FloatDomain):
@@ -40,7 +40,7 @@ class EmittedFloats(FloatDomain):
     def _far(self, orders: tuple[int, ...], z: float) -> list[float]:
         if z <= SWITCH[orders[0] if len(orders) == 1 else 0]:
             return [_series(k, z) for k in orders]
-        # Angles above the limit become NaN; the usual test for finiteness then rejects the step.
+        # For angles above the limit the result is NaN, so the test for finite results rejects the step.
         allowed = z if z <= self.limit else math.nan
         if 2 not in orders:
             return self._by_angle(orders, z, math.sqrt(allowed))
@@ -63,27 +63,35 @@ class EmittedFloats(FloatDomain):
             closed[3] = _series(3, z) if z <= SWITCH[3] else (1.0 - ratio) / z
         return [closed[k] for k in orders]
 
-    # Single calls go through ``together``, so that all branches are written once.
+    # A single c_k is computed by ``together``, too, so that the branches are written only once.
     def call(self, function: str, *args: float) -> float:
         """Call a function as emitted code does."""
         (z, *_) = args
         if function.startswith("signed_stumpff"):
             k = int(function[-1])
-            if z >= 0:
-                return self.together([k], z)[0]
-            r = math.sqrt(-z)
-            return math.cosh(r) if k == 0 else math.sinh(r) / r
+            return self.together([k], z)[0] if z >= 0 else _hyperbolic(k, z)
         if function.startswith("stumpff"):
             return self.together([int(function[-1])], z)[0]
         if "slope" in function:
-            return self._slope(int(function[-1]), z)
+            return self._slope(int(function[-1]), z, signed=function.startswith("signed"))
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), z)
         return super().call(function, *args)
 
-    def _slope(self, k: int, z: float) -> float:
+    def _curvature(self, k: int, z: float) -> float:
+        if z > 1.0:
+            a, b, c = self.together([k - 2, k - 1, k], z)
+            return 0.25 * ((a - float(2 * k + 1) * b) + float(k * (k + 2)) * c) / (z * z)
+        *rest, total = curvatures(k)
+        for term in reversed(rest):
+            total = term + z * total
+        return total
+
+    def _slope(self, k: int, z: float, *, signed: bool) -> float:
         # The quotient divides by z and cancels for small z; there the series is used.
         if abs(z) > 1.0:
-            if k == 1:
-                before, c = (self.call(f"signed_stumpff{i}", z) for i in range(2))
+            if signed:
+                before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))
             else:
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
@@ -92,6 +100,21 @@ class EmittedFloats(FloatDomain):
         for term in reversed(rest):
             total = term + z * total
         return total
+
+
+def _hyperbolic(k: int, z: float) -> float:
+    """Return c_k(z) for z < 0."""
+    r = math.sqrt(-z)
+    if k == 0:
+        return math.cosh(r)
+    if k == 2:
+        half = 0.5 * r
+        ratio = math.sinh(half) / half
+        return 0.5 * (ratio * ratio)
+    if k == 3 and z >= -SWITCH[3]:
+        return _series(3, z)
+    ratio = math.sinh(r) / r
+    return ratio if k == 1 else (1.0 - ratio) / z
 
 
 @cache
@@ -126,7 +149,7 @@ def _chain(terms: Sequence[float], w: float) -> float:
     w2, total = w * w, 0.0
     pairs = [terms[k : k + 2] for k in range(0, len(terms), 2)]
     for number, pair in enumerate(reversed(pairs)):
-        # An odd number of terms leaves the highest term without a partner.
+        # If the number of terms is odd, the highest term is added alone.
         value = pair[0] + w * pair[1] if len(pair) == 2 else pair[0]
         total = value if number == 0 else value + w2 * total
     return total

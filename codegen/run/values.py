@@ -13,7 +13,13 @@ def simple(statement: Simple) -> list[Statement]:
         return [Assign(own(statement.name), value(statement.value))]
     if isinstance(statement, Invocation):
         given = tuple(map(value, statement.arguments))
-        # A single result is returned by value; an array of one entry would cost a store and a load.
+        if statement.in_array:
+            # No name of the kernel contains a space, so the name of the array differs from all names of the
+            # kernel.
+            array = own(f"{statement.name} given", len(given))
+            outputs = own(statement.name, statement.results)
+            return [Array(array, given), Array(outputs), Call(statement.function, (array, outputs))]
+        # A single result is returned by value, because an array of one entry would cost a store and a load.
         if statement.results == 1:
             return [Call(statement.function, given, (own(statement.names[0]),))]
         results = own(statement.name, statement.results)

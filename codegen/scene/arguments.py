@@ -9,6 +9,7 @@ from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.linear_algebra import Vector
+from codegen.ir.decimals import exact
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.scene.formulas import Reader
@@ -23,7 +24,7 @@ def check_group(name: str, group: object) -> None:
         _refuse(name, "group", group, "SO3()")
 
 
-def check_action(reader: Reader, group: LieGroup, action: object) -> None:
+def check_points(reader: Reader, group: LieGroup, action: object) -> None:
     """Raise :class:`SceneError` for an object that is no action, or for points on which the group cannot
     act."""
     if not isinstance(action, Action):
@@ -31,12 +32,18 @@ def check_action(reader: Reader, group: LieGroup, action: object) -> None:
     domain = ExprDomain(reader.space)
     y = tuple(domain.space.sym(s) for s in reader.coordinates)
     zero: Vector[Expr] = (domain.rational(0),) * group.dim
-    width = -1
-    if group.offers(action.needs) is not None:
-        try:
-            width = len(action.velocity(domain, group, zero, y))
-        except (ValueError, IndexError):  # a formula may combine tuples of different lengths
-            width = -1
+    action.check(group, reader.name)
+    size = action.point_size(group)
+    if size is not None and size != len(y):
+        raise SceneError(
+            f"a point with {len(y)} coordinates",
+            where=reader.name,
+            expected=f"a point on which {group.name} acts by {action.name}: {size} coordinates",
+        )
+    try:
+        width = len(action.velocity(domain, group, zero, y))
+    except (ValueError, IndexError):  # a formula may combine tuples of different lengths
+        width = -1
     if width != len(y):
         raise SceneError(
             f"a point with {len(y)} coordinates",
@@ -55,12 +62,13 @@ def _refuse(name: str, what: str, value: object, example: str) -> NoReturn:
 def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction, Fraction]:
     """Return the time interval; raise :class:`SceneError` unless it consists of two rational times in
     order."""
-    import sympy
-
     try:
-        first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
-    except (TypeError, ValueError, AttributeError):  # AttributeError: sympy's infinities have no p and q
-        raise SceneError(f"the span {span}", where=name, expected="two rational times") from None
+        times = [exact(x) for x in span]
+    except TypeError:
+        times = []
+    if len(times) != 2 or times[0] is None or times[1] is None:
+        raise SceneError(f"the span {span}", where=name, expected="two rational times")
+    first, last = times[0], times[1]
     if not last > first:
         raise SceneError(
             f"the span ({first}, {last})", where=name, expected="an end later than the beginning"

@@ -21,19 +21,23 @@ from orderconds.solve.ansatz import Ansatz
 from orderconds.solve.linear import Constraint, Elimination, equal, equality, named, spell, sum_to_one, zero
 from orderconds.solve.spec import Spec, refuse
 
+Nodes = Mapping[str, Sequence[str]]
+"""The coefficients of a stage by the name of its node, which is their sum."""
 
-def _eliminated(names: Sequence[str], spec: Spec, constraints: Sequence[Constraint]) -> Elimination:
-    """Return the coefficients after elimination of the given constraints and of the constraints from
-    ``--fix``."""
+
+def _eliminated(
+    names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
+) -> Elimination:
+    """Return the coefficients after elimination of all constraints; those of ``--fix`` may have nodes."""
     elimination = Elimination(tuple(names))
-    fixed = [equality(text) for text in spec.fix]
+    fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:
         for name in constraint.form:
             if name and name not in names:
                 raise InputError(
                     f"unknown coefficient {name!r} in {constraint.text!r}",
                     where="--fix",
-                    expected=f"one of {', '.join(names)}",
+                    expected=f"one of {', '.join([*names, *(nodes or {})])}",
                 )
     elimination.impose([*constraints, *fixed])
     return elimination
@@ -110,7 +114,8 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
         constraints += [equal("symplecticity", (2, A[i][i]), (-1, b[i])) for i in range(s)]
     if structure == "abscissae":
         constraints.append(sum_to_one(b))
-    elimination = _eliminated(names, spec, constraints)
+    nodes = {named("c", i + 1): line for i, line in enumerate(A)}
+    elimination = _eliminated(names, spec, constraints, nodes)
     extra = {}
     if structure == "abscissae":
         weights = [_Cells(elimination).written(x) for x in b]

@@ -5,13 +5,16 @@ from __future__ import annotations
 import pytest
 
 from codegen import scenes
+from codegen.emitter import compile_method
 from codegen.errors import MethodError
+from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.domain import ExprDomain
 from codegen.kernel.translate import to_kernel
 from codegen.lower import families_for, lower, lowering, names
 from codegen.lower.flow_words import FlowLowering
 from codegen.lower.variational import VariationalLowering
 from codegen.method import Method, parse
+from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
 from orderconds.families import family_class
 from orderconds.tableau import Tableau
@@ -59,8 +62,13 @@ def test_a_file_is_a_tableau(tmp_path):
     ("spelling", "families", "error", "message"),
     [
         ("", FIELD, MethodError, "the method ''"),
-        ("vcg:midpoint", FIELD, MethodError, "family vcg on this scene; expected one of rkmk, cg, cf"),
-        ("nosuch:midpoint", FIELD, MethodError, "family nosuch on this scene"),
+        (
+            "vcg:midpoint",
+            FIELD,
+            MethodError,
+            "family vcg cannot be used on this scene; expected one of rkmk, cg, cf",
+        ),
+        ("nosuch:midpoint", FIELD, MethodError, "family nosuch cannot be used on this scene"),
         ("cg(2):rk4", FIELD, MethodError, "a cut-off for family cg"),
         ("vcg(1):midpoint", ALL, MethodError, "a cut-off for family vcg"),
         ("rkmk(1):nosuch", FIELD, UnknownName, "no tableau 'nosuch'"),
@@ -76,6 +84,22 @@ def test_what_cannot_be_read_is_named(spelling, families, error, message):
         parse(spelling, families)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_hints_for_scenes_of_users_name_methods_that_are_emitted():
+    group = Rn(1)
+    q, p = group.point("q"), group.dual("p")
+    oscillator = HamiltonianScene(
+        group=group, q=q, mu=p, H=(p[0] ** 2 + q[0] ** 2) / 2, q0=[1], mu0=[0], span=(0, 1)
+    )
+    y = group.point("y")
+    decay = FieldScene(group=group, action=LeftMultiplication(), y=y, f=[-y[0]], y0=[1], span=(0, 1))
+    for scene in (oscillator, decay):
+        families = families_for(scene)
+        for name in ("magnus4", "stormer_verlet"):
+            hint = hint_of(name, families)
+            assert hint
+            compile_method(scene, hint)
 
 
 PLACES = ("driven_spin", "duffing", "heavy_top", "linear_oscillator")
@@ -182,10 +206,10 @@ def test_every_lowering_serves_a_cotangent_bundle(family):
     assert [name for name, _ in program.outputs] == (["q", "mu"] if paired else ["y"])
 
 
-def test_a_group_without_closed_forms_cannot_be_compiled():
+def test_a_matrix_group_without_closed_forms_calls_the_matrix_exponential():
     scene = field_scene("GL(2)")
-    with pytest.raises(InputError, match=r"GL\(2\).*closed forms"):
-        to_kernel(lower(scene, Method("cg", shipped("euler"))), scene)
+    kernel = to_kernel(lower(scene, Method("cg", shipped("euler"))), scene)
+    assert any("expm" in name for name in kernel.functions())
 
 
 def test_a_nilpotent_matrix_group_can():

@@ -22,7 +22,7 @@ from codegen.lab.efficiency.features import Features, features
 from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
-from codegen.lab.timing import LEAST_STEPS, samples
+from codegen.lab.timing import samples, spans
 from codegen.loader import load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -142,11 +142,8 @@ class Racer:
         time.
         """
         steps = self.counts[control]
-        times = max(1, LEAST_STEPS // max(steps, 1))
-        try:
-            taken = self.run(control, times)[1]
-        except ArithmeticError:
-            times, taken = 1, steps
+        times = spans(lambda n: self.run(control, n), steps)
+        taken = self.run(control, times)[1]
         overhead = samples(lambda: self.run(control, 0), batch / 2, 3)[0]
         spent = samples(lambda: self.run(control, times), batch, batches)[0]
         return max(spent - overhead, 0.1 * spent) * steps / max(taken, 1)
@@ -167,6 +164,14 @@ class Racer:
             return Result(self.entry, control, self.counts[control], known[control], math.inf, False)
         control = self._coarsened(control, error)
         return Result(self.entry, control, self.counts[control], self.errors[control], self.seconds(control))
+
+    def halved(self, result: Result) -> Result | None:
+        """Return the run with steps of half the length; None with step-size control, or if the run fails."""
+        control = 2.0 * result.control
+        if self.entry.recipe.adaptive or control > MOST_STEPS or not math.isfinite(self.error(control)):
+            return None
+        steps, error = self.counts[control], self.errors[control]
+        return replace(result, control=control, steps=steps, error=error, seconds=self.seconds(control))
 
     def _refined(self, error: float, longest: float) -> tuple[float, bool]:
         """Return the first control from which two runs reach the error, and whether there is one."""

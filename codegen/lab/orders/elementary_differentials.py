@@ -47,6 +47,10 @@ class RingDomain(Domain):
         """Raise ArithmeticError, because a scene with function calls is not polynomial."""
         raise ArithmeticError(f"{function} is not polynomial")
 
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Raise ArithmeticError, because a scene with function calls is not polynomial."""
+        raise ArithmeticError(f"{function} is not polynomial")
+
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
         """Raise ArithmeticError, because elementary differentials need no iteration."""
         raise ArithmeticError("elementary differentials are not iterated")

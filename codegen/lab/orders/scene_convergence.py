@@ -14,13 +14,18 @@ from codegen.lab.orders.convergence import Convergence, NotEmitted
 from codegen.lab.progress import Progress
 from codegen.lab.reference import Reference, cached_reference
 from codegen.lab.runner import DOUBLE, check_target, runner
-from codegen.lower import families_for
-from codegen.method import Method, method_of
+from codegen.lower import method_for
+from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.problem import Problem
+from orderconds.argument import CONDITION_ORDER, described, integer
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
+
+STEPS = (1, 10**9)
+DIGITS = (DOUBLE, 60)
+"""The precision of the interpreter in decimal digits."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +57,7 @@ class ConvergenceTest:
         problem = scenes.load(scene) if isinstance(scene, str) else scene
         chosen = find_form(problem, form) if form not in (None, PRINTED) else None
         equations = problem if chosen is None else chosen.problem
-        known = tuple(method_of(method, families_for(equations)) for method in methods)
+        known = tuple(method_for(equations, method) for method in methods)
         check_target(target or DEFAULT, digits)
         return cls(problem, equations, known, target or DEFAULT, tuple(steps), digits, stated, chosen)
 
@@ -122,8 +127,17 @@ def converge(
     :class:`orderconds.Tableau`. A method that cannot be emitted for the scene has a result with the reason.
     Errors: SceneError, MethodError, UnknownName and TableauError for wrong arguments.
     """
+    if not methods:
+        raise InputError("no method", where="converge", expected="at least one method, such as cf4")
+    if isinstance(steps, int) or not isinstance(steps, Sequence):
+        raise InputError(
+            described(steps), where="steps", expected="a list of numbers of steps, such as [10, 20]"
+        )
+    steps = [integer(n, "steps", STEPS) for n in steps]
+    digits = integer(digits, "digits", DIGITS)
+    stated = None if stated is None else integer(stated, "stated", CONDITION_ORDER)
     test = ConvergenceTest.of(
-        scene, methods, target=target, form=form, steps=steps, digits=digits, stated=stated
+        scenes.problem_of(scene), methods, target=target, form=form, steps=steps, digits=digits, stated=stated
     )
     exact = test.reference()
     return Convergences(tuple(test.result(method, exact, progress) for method in test.methods))

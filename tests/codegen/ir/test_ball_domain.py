@@ -57,3 +57,17 @@ def test_an_iteration_has_converged_when_small_changes_no_longer_decrease() -> N
         assert not done
         assert BALLS.settled([one], [near], change)[0]
         assert not BALLS.settled([one], [BALLS.rational(2)], change)[0]
+
+
+@pytest.mark.parametrize("function", ["expm3", "expm3_d1", "expm2_d2", "inverse4"])
+@pytest.mark.parametrize("size", ["1e-9", "1", "30"])
+def test_a_vector_function_has_the_value_of_mpmath(function: str, size: str) -> None:
+    count = {"expm3": 9, "expm3_d1": 18}.get(function, 16)
+    numbers = [EXACT.context.mpf(size) * (k % 7 + k % 5 - 4) for k in range(1, count + 1)]
+    expected = EXACT.vector(function, numbers)
+    with BALLS.precision():
+        found = [BALLS.mpf(x, EXACT.context) for x in BALLS.vector(function, [*map(BALLS.scalar, numbers)])]
+    scale = max(map(abs, expected))
+    assert (
+        max(abs(x - y) for x, y in zip(found, expected, strict=True)) <= scale * EXACT.context.mpf(10) ** -49
+    )

@@ -1,0 +1,25 @@
+"""The affine group of R^n."""
+
+from __future__ import annotations
+
+from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.matrix import MatrixGroup
+from codegen.groups.unit_matrices import elementary
+from codegen.ir.domain import Domain
+
+
+class Affine(MatrixGroup):
+    """Invertible affine maps y -> A y + b of R^n, as (n + 1) x (n + 1) matrices with the rows (A, b) and
+    (0, 1).
+
+    The algebra has the elementary matrices of the first n rows as its basis, row by row.
+    """
+
+    def __init__(self, n: int) -> None:
+        basis = [elementary(n + 1, (i, j)) for i in range(n) for j in range(n + 1)]
+        super().__init__(f"Aff({n})", basis)
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the last row."""
+        *zeros, one = g[-self.n :]
+        return tuple(("the last row is (0, 1)", x) for x in (*zeros, one - d.rational(1)))

@@ -1,0 +1,176 @@
+"""Lie algebras of matrices with a rational basis: dual basis and structure constants by sparse arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache, cached_property
+
+from codegen.errors import SceneError
+from codegen.groups.linear_algebra import rational_inverse
+
+Sparse = tuple[tuple[int, Fraction], ...]
+"""The non-zero entries of a matrix or vector: pairs of an index and a value, in the order of the indices.
+Matrices are indexed row by row."""
+
+
+@dataclass(frozen=True)
+class MatrixAlgebra:
+    """The span of n x n matrices that is closed under [A, B] = AB - BA.
+
+    ``dual`` is the dual basis in the span: the coordinate i of a matrix A is the sum of the products of the
+    entries of ``dual[i]`` and A. ``constants`` are the non-zero structure constants: (i, j, k, c) for the
+    component c of [e_i, e_j] along e_k.
+    """
+
+    n: int
+    basis: tuple[Sparse, ...]
+    dual: tuple[Sparse, ...]
+    constants: tuple[tuple[int, int, int, Fraction], ...]
+
+    @cached_property
+    def places(self) -> tuple[Sparse, ...]:
+        """The entries of each place of a matrix: pairs of the index of a basis matrix and its entry."""
+        return _by_place(self.basis, self.n**2)
+
+    @cached_property
+    def dual_places(self) -> tuple[Sparse, ...]:
+        """The entries of each place of a matrix: pairs of the index of a matrix of the dual basis and its
+        entry."""
+        return _by_place(self.dual, self.n**2)
+
+    @cached_property
+    def nilpotency(self) -> int:
+        """The least k such that all products of k matrices with the zeros of the basis vanish; 0 if no such k
+        exists."""
+        n = self.n
+        follows = {(p // n, p % n) for matrix in self.basis for p, _ in matrix}
+        paths, k = {(i, i) for i in range(n)}, 0
+        while paths and k <= n:
+            paths, k = {(i, m) for i, j in paths for r, m in follows if j == r}, k + 1
+        return 0 if paths else k
+
+
+@cache
+def matrix_algebra(name: str, n: int, basis: tuple[Sparse, ...]) -> MatrixAlgebra:
+    """Return the algebra with a basis; ``name`` is printed in errors.
+
+    :class:`codegen.errors.SceneError` is raised for matrices that are no basis of a Lie algebra.
+    """
+    # The result is cached, because every command constructs the groups of its scene several times.
+    dual = _dual(name, basis)
+    finder = _Coordinates(name, basis, dual, n)
+    constants: list[tuple[int, int, int, Fraction]] = []
+    rows = [_rows(matrix, n) for matrix in basis]
+    for i, a in enumerate(rows):
+        for j, b in enumerate(rows[:i]):
+            for k, c in finder.of(_commutator(a, b, n)):
+                constants += [(i, j, k, c), (j, i, k, -c)]
+    return MatrixAlgebra(n, basis, dual, tuple(sorted(constants)))
+
+
+def sparse(entries: Iterable[Fraction | int]) -> Sparse:
+    """Return the non-zero entries.
+
+    >>> sparse([0, 2])
+    ((1, Fraction(2, 1)),)
+    """
+    return tuple((k, Fraction(x)) for k, x in enumerate(entries) if x)
+
+
+def _by_place(matrices: Sequence[Sparse], size: int) -> tuple[Sparse, ...]:
+    places: list[list[tuple[int, Fraction]]] = [[] for _ in range(size)]
+    for i, matrix in enumerate(matrices):
+        for place, x in matrix:
+            places[place].append((i, x))
+    return tuple(map(tuple, places))
+
+
+def _rows(matrix: Sparse, n: int) -> dict[int, list[tuple[int, Fraction]]]:
+    rows: dict[int, list[tuple[int, Fraction]]] = {}
+    for place, x in matrix:
+        rows.setdefault(place // n, []).append((place % n, x))
+    return rows
+
+
+def _commutator(
+    a: dict[int, list[tuple[int, Fraction]]], b: dict[int, list[tuple[int, Fraction]]], n: int
+) -> dict[int, Fraction]:
+    total: dict[int, Fraction] = {}
+    for left, right, sign in ((a, b, 1), (b, a, -1)):
+        for i, row in left.items():
+            for k, x in row:
+                for j, y in right.get(k, ()):
+                    total[n * i + j] = total.get(n * i + j, Fraction(0)) + sign * x * y
+    return {place: x for place, x in total.items() if x}
+
+
+def _dual(name: str, basis: Sequence[Sparse]) -> tuple[Sparse, ...]:
+    """Return the dual basis; raise SceneError for a linearly dependent basis."""
+    gram: list[dict[int, Fraction]] = [{} for _ in basis]
+    places: dict[int, list[tuple[int, Fraction]]] = {}
+    for i, matrix in enumerate(basis):
+        for place, x in matrix:
+            places.setdefault(place, []).append((i, x))
+    for entries in places.values():
+        for i, x in entries:
+            for j, y in entries:
+                gram[i][j] = gram[i].get(j, Fraction(0)) + x * y
+    dual: list[Sparse] = [()] * len(basis)
+    # Matrices of different components are orthogonal, so each component is inverted separately.
+    for component in _components(gram):
+        inverse = rational_inverse([[gram[i].get(j, Fraction(0)) for j in component] for i in component])
+        if inverse is None or not all(basis[i] for i in component):
+            raise SceneError("a linearly dependent basis", where=name, expected="independent matrices")
+        for i, row in zip(component, inverse, strict=True):
+            total: dict[int, Fraction] = {}
+            for j, weight in zip(component, row, strict=True):
+                for place, x in basis[j]:
+                    total[place] = total.get(place, Fraction(0)) + weight * x
+            dual[i] = tuple(sorted((place, x) for place, x in total.items() if x))
+    return tuple(dual)
+
+
+def _components(gram: Sequence[dict[int, Fraction]]) -> list[list[int]]:
+    """Return the connected components of the graph whose edges are the non-zero entries."""
+    components: list[list[int]] = []
+    seen: set[int] = set()
+    for start in range(len(gram)):
+        if start in seen:
+            continue
+        seen.add(start)
+        component, waiting = [start], [start]
+        while waiting:
+            fresh = [j for j, x in gram[waiting.pop()].items() if x and j not in seen]
+            seen.update(fresh)
+            component += fresh
+            waiting += fresh
+        components.append(sorted(component))
+    return components
+
+
+class _Coordinates:
+    """The coordinates of matrices in a span."""
+
+    def __init__(self, name: str, basis: Sequence[Sparse], dual: Sequence[Sparse], n: int) -> None:
+        self.name, self.basis = name, basis
+        self.places = _by_place(dual, n * n)
+
+    def of(self, matrix: dict[int, Fraction]) -> list[tuple[int, Fraction]]:
+        """Return the non-zero coordinates; raise SceneError for a matrix outside the span."""
+        x: dict[int, Fraction] = {}
+        for place, value in matrix.items():
+            for i, weight in self.places[place]:
+                x[i] = x.get(i, Fraction(0)) + weight * value
+        rest = dict(matrix)
+        for i, c in x.items():
+            for place, value in self.basis[i]:
+                rest[place] = rest.get(place, Fraction(0)) - c * value
+        if any(rest.values()):
+            raise SceneError(
+                "a basis that is not closed under [A, B] = AB - BA",
+                where=self.name,
+                expected="brackets of basis matrices that are combinations of basis matrices",
+            )
+        return [(i, c) for i, c in sorted(x.items()) if c]

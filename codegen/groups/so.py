@@ -1,0 +1,23 @@
+"""SO(n): rotations of R^n."""
+
+from __future__ import annotations
+
+from codegen.groups.linear_algebra import S, Vector, determinant
+from codegen.groups.matrix import IsometryGroup
+from codegen.groups.unit_matrices import difference
+from codegen.ir.domain import Domain
+
+
+class SO(IsometryGroup):
+    """Rotations of R^n, n >= 2; the algebra has the skew matrices E_ji - E_ij with i < j as its basis, row by
+    row.
+    """
+
+    def __init__(self, n: int) -> None:
+        pairs = [(i, j) for i in range(n) for j in range(i + 1, n)]
+        self.form = tuple((i, 1) for i in range(n))
+        super().__init__(f"SO({n})", [difference(n, (j, i), (i, j)) for i, j in pairs])
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return g^T g = 1 and det g = 1."""
+        return (*super().laws(d, g), ("det g = 1", determinant(g, self.n) - d.rational(1)))

@@ -1,0 +1,29 @@
+"""Sp(2n): linear canonical transformations."""
+
+from __future__ import annotations
+
+from codegen.errors import SceneError
+from codegen.groups.matrix import IsometryGroup
+from codegen.groups.unit_matrices import difference, elementary
+
+
+class Sp(IsometryGroup):
+    """Symplectic matrices of 2n rows: g^T J g = J with J = (0, 1; -1, 0); ``Sp(2 n)`` is the group of R^2n.
+
+    The basis of the algebra: E_ij - E_(n+j)(n+i) for all i and j; then, for i <= j, the symmetric matrices
+    E_i(n+j) + E_j(n+i); then E_(n+i)j + E_(n+j)i. For i = j the last two are single elementary matrices.
+    """
+
+    def __init__(self, rows: int) -> None:
+        n = rows // 2
+        if rows < 2 or rows % 2:
+            raise SceneError(f"Sp({rows})", expected="an even number of rows, as in Sp(4)")
+        self.form = tuple((i + n, 1) if i < n else (i - n, -1) for i in range(rows))
+        every = [(i, j) for i in range(n) for j in range(n)]
+        basis = [difference(rows, (i, j), (n + j, n + i)) for i, j in every]
+        for above in (True, False):
+            for i, j in every:
+                if i <= j:
+                    places = {(i, n + j), (j, n + i)} if above else {(n + i, j), (n + j, i)}
+                    basis.append(elementary(rows, *places))
+        super().__init__(f"Sp({rows})", basis)

@@ -1,0 +1,81 @@
+"""U(n) and SU(n): unitary matrices, as real matrices of twice the size."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.matrix import IsometryGroup
+from codegen.ir.domain import Domain
+
+
+class Unitary(IsometryGroup):
+    """Unitary n x n matrices A + i B as real 2n x 2n matrices with the rows (A, -B) and (B, A).
+
+    The basis of the algebra: for j < k, row by row, the matrices E_jk - E_kj and i (E_jk + E_kj); then the
+    diagonal matrices i E_jj.
+    """
+
+    def __init__(self, n: int) -> None:
+        self._generate(f"U({n})", n, [{(j, j): 1} for j in range(n)])
+
+    def _generate(self, name: str, n: int, diagonal: Sequence[dict[tuple[int, int], int]]) -> None:
+        """Construct the group; ``diagonal`` are the imaginary parts of the diagonal matrices."""
+        pairs = [(j, k) for j in range(n) for k in range(j + 1, n)]
+        basis = []
+        for j, k in pairs:
+            basis += [_real(n, {(j, k): 1, (k, j): -1}, {}), _real(n, {}, {(j, k): 1, (k, j): 1})]
+        self.rows = n
+        self.form = tuple((i, 1) for i in range(2 * n))
+        IsometryGroup.__init__(self, name, [*basis, *(_real(n, {}, imaginary) for imaginary in diagonal)])
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return g^T g = 1, and the equality of the blocks."""
+        n, width = self.rows, self.n
+        places = [(i, j) for i in range(n) for j in range(n)]
+        blocks = [g[width * i + j] - g[width * (n + i) + n + j] for i, j in places]
+        blocks += [g[width * (n + i) + j] + g[width * i + n + j] for i, j in places]
+        return (*super().laws(d, g), *(("g is complex", x) for x in blocks))
+
+
+class SU(Unitary):
+    """Unitary n x n matrices A + i B with determinant 1, n >= 2, as real 2n x 2n matrices with the rows
+    (A, -B) and (B, A).
+
+    The basis of the algebra: for j < k, row by row, the matrices E_jk - E_kj and i (E_jk + E_kj); then the
+    diagonal matrices i (E_jj - E_kk) with k = j + 1.
+    """
+
+    def __init__(self, n: int) -> None:
+        self._generate(f"SU({n})", n, [{(j, j): 1, (j + 1, j + 1): -1} for j in range(n - 1)])
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the unitary group, and det g = 1."""
+        n, width = self.rows, self.n
+        rows = [[(g[width * i + j], g[width * (n + i) + j]) for j in range(n)] for i in range(n)]
+        real, imaginary = _complex_determinant(rows)
+        return (*super().laws(d, g), ("det g = 1", real - d.rational(1)), ("det g = 1", imaginary))
+
+
+def _real(n: int, real: dict[tuple[int, int], int], imaginary: dict[tuple[int, int], int]) -> list[list[int]]:
+    """Return the real matrix of a complex matrix, given by its entries that are not zero."""
+    rows = range(n)
+    a, b = ([[part.get((i, j), 0) for j in rows] for i in rows] for part in (real, imaginary))
+    upper = [[*a[i], *(-x for x in b[i])] for i in rows]
+    return [*upper, *([*b[i], *a[i]] for i in rows)]
+
+
+def _complex_determinant(rows: Sequence[Sequence[tuple[S, S]]]) -> tuple[S, S]:
+    """Return the real and the imaginary part of a determinant, by expansion along the first row."""
+    if len(rows) == 1:
+        return rows[0][0]
+    (first, *rest), total = rows, None
+    for j, (a, b) in enumerate(first):
+        c, e = _complex_determinant([[*row[:j], *row[j + 1 :]] for row in rest])
+        x, y = a * c - b * e, a * e + b * c
+        if total is None:
+            total = x, y
+        else:
+            total = (total[0] - x, total[1] - y) if j % 2 else (total[0] + x, total[1] + y)
+    assert total is not None
+    return total

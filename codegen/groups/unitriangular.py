@@ -1,0 +1,41 @@
+"""Unitriangular matrices and the Heisenberg groups."""
+
+from __future__ import annotations
+
+from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.matrix import MatrixGroup
+from codegen.groups.unit_matrices import Place, elementary
+from codegen.ir.domain import Domain
+
+
+class Unitriangular(MatrixGroup):
+    """Upper triangular n x n matrices with ones on the diagonal, n >= 2.
+
+    The algebra has the elementary matrices E_ij with i < j as its basis, row by row.
+    """
+
+    def __init__(self, n: int) -> None:
+        self.places: list[Place] = [(i, j) for i in range(n) for j in range(i + 1, n)]
+        super().__init__(f"UT({n})", [elementary(n, place) for place in self.places])
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the constant entries."""
+        fixed = [(i, j) for i in range(self.n) for j in range(self.n) if (i, j) not in self.places]
+        unit: Vector[S] = self.identity(d)
+        places = [(i, j, self.n * i + j) for i, j in fixed]
+        return tuple((f"g_{i}{j} = {int(i == j)}", g[k] - unit[k]) for i, j, k in places)
+
+
+class Heisenberg(Unitriangular):
+    """The Heisenberg group of dimension 2 n + 1: unitriangular (n + 2) x (n + 2) matrices whose entries above
+    the diagonal are in the first row and in the last column.
+
+    The basis of the algebra: the elementary matrices of the first row without the corner, of the last column
+    without the corner, and of the corner.
+    """
+
+    def __init__(self, n: int) -> None:
+        last = n + 1
+        row, column = [(0, k) for k in range(1, last)], [(k, last) for k in range(1, last)]
+        self.places = [*row, *column, (0, last)]
+        MatrixGroup.__init__(self, f"H({2 * n + 1})", [elementary(n + 2, place) for place in self.places])

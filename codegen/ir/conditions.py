@@ -1,0 +1,81 @@
+"""Conditions of Piecewise formulas: comparisons of expressions, joined by And, Or and Not.
+
+A condition selects one of two expressions by :data:`codegen.ir.selection.CHOOSE`. Emitted code therefore has
+no branches for conditions. Every comparison of two expressions becomes a comparison of their difference with
+zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from codegen.errors import SceneError
+from codegen.ir.expr import Expr
+from codegen.ir.selection import CHOOSE
+
+if TYPE_CHECKING:
+    import sympy
+
+Condition = Callable[[Expr, Expr], Expr]
+"""A condition is a function of two expressions: the result equals the first expression where the condition is
+true, and the second expression elsewhere."""
+
+EXPECTED = "comparisons of formulas (<, <=, >, >=, Eq, Ne) joined by And, Or and Not"
+
+
+def positive(x: Expr) -> Condition:
+    """Return the condition x > 0."""
+    return lambda yes, no: x.space.call(CHOOSE, x, yes, no)
+
+
+def negation(condition: Condition) -> Condition:
+    """Return the negation of a condition."""
+    return lambda yes, no: condition(no, yes)
+
+
+def both(a: Condition, b: Condition) -> Condition:
+    """Return the conjunction of the conditions a and b."""
+    return lambda yes, no: a(b(yes, no), no)
+
+
+def always(yes: Expr, no: Expr) -> Expr:
+    """The condition that is always true: return the first expression."""
+    return yes
+
+
+def read_condition(condition: sympy.Basic, node: Callable[[sympy.Basic], Expr], where: str) -> Condition:
+    """Return a condition of sympy; ``node`` reads a formula. :class:`SceneError` for any other condition."""
+    import sympy
+
+    def inner(e: sympy.Basic) -> Condition:
+        return read_condition(e, node, where)
+
+    if condition in (sympy.true, sympy.false):
+        return always if condition == sympy.true else negation(always)
+    if isinstance(condition, sympy.Not):
+        return negation(inner(condition.args[0]))
+    if isinstance(condition, sympy.And | sympy.Or):
+        joins_all = isinstance(condition, sympy.And)
+        total: Condition = always
+        # The parts are sorted, because the order of ``args`` in sympy depends on hashes.
+        for part in sorted(condition.args, key=sympy.default_sort_key):
+            total = both(total, inner(part) if joins_all else negation(inner(part)))
+        return total if joins_all else negation(total)
+    if not isinstance(condition, sympy.core.relational.Relational):
+        raise SceneError(f"the condition {condition}", where=where, expected=EXPECTED)
+    a, b = (node(x) for x in condition.args)
+    above, below = positive(a - b), positive(b - a)
+    match condition:
+        case sympy.StrictGreaterThan():
+            return above
+        case sympy.StrictLessThan():
+            return below
+        case sympy.GreaterThan():
+            return negation(below)
+        case sympy.LessThan():
+            return negation(above)
+        case sympy.Ne():
+            return negation(both(negation(above), negation(below)))
+        case _:
+            return both(negation(above), negation(below))

@@ -1,0 +1,212 @@
+"""The exponential of an n x n matrix, and its derivatives, in doubles, in many digits, and over power series.
+
+Derivatives are computed with jets. Let e_1, ..., e_l be symbols whose squares are zero. A jet of level l is a
+sum of A_m e_m, where e_m is one of the 2^l products of different symbols and A_m is a matrix. With one symbol
+e, the exponential of the jet A + e E is exp(A) + e L, where L is the derivative of exp at A in the direction
+E. The matrices A_m of a jet are stored one after the other, each row by row. Bit k of the index m is set if
+e_m contains the symbol of this bit.
+
+In doubles the algorithm is scaling and squaring (N. J. Higham, *Functions of Matrices*, SIAM 2008, ch. 10).
+The matrix is halved s times, until its norm is small. Then a Taylor polynomial of degree 4, 8, 12 or 16 is
+evaluated by the method of Paterson and Stockmeyer, and the result is squared s times. Emitted code executes
+the same operations in the same order (:mod:`codegen.run.matrix_functions`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from functools import cache
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Scalar
+
+DEGREES = (4, 8, 12, 16)
+"""The degrees of the Taylor polynomials; degree 4 g takes g + 2 products of matrices."""
+
+LEAST_DIGITS = 10
+"""The exponential is NaN if the bound of its relative error exceeds 2^-LEAST_DIGITS: fewer than three decimal
+digits would be correct."""
+
+Pairs = tuple[tuple[tuple[int, int], ...], ...]
+
+
+@cache
+def pairs(level: int) -> Pairs:
+    """For each matrix of a product of two jets, return the pairs of matrices of the factors whose products
+    are added.
+
+    >>> pairs(1)
+    (((0, 0),), ((0, 1), (1, 0)))
+    """
+    masks = range(2**level)
+    return tuple(tuple((a, m ^ a) for a in masks if a & m == a) for m in masks)
+
+
+@cache
+def largest_norms(bits: int) -> tuple[float, ...]:
+    """Return the largest norm for each degree m: (m! 2^-(bits + 2))^(1/m), rounded to three digits.
+
+    For matrices of a smaller norm, the remainders of the Taylor polynomial and of its derivative are below a
+    quarter of the unit roundoff.
+
+    >>> largest_norms(53)
+    (0.000161, 0.0321, 0.221, 0.628)
+    """
+    return tuple(
+        float(f"{math.exp((math.lgamma(m + 1) - (bits + 2) * math.log(2)) / m):.3g}") for m in DEGREES
+    )
+
+
+def in_doubles(n: int, level: int, a: Sequence[float]) -> tuple[float, ...]:
+    """Return the exponential of a jet; all results are NaN if fewer than three digits would be correct."""
+    size = n * n
+    scale, squarings, norm = _halvings(_norm(a[:size]))
+    total = _polynomial(n, level, [x * scale for x in a], norm)
+    if squarings:
+        total = _squared(n, level, total, squarings, _growth(n, a, scale))
+    if norm > largest_norms(53)[-1]:
+        total = [math.nan] * len(total)
+    return tuple(total)
+
+
+def _halvings(norm: float) -> tuple[float, int, float]:
+    """Return the scale 2^-s, the number s of halvings, and the norm of the scaled matrix."""
+    scale, squarings = 1.0, 0
+    while norm * scale > largest_norms(53)[-1] and squarings < 53:
+        scale *= 0.5
+        squarings += 1
+    return scale, squarings, norm * scale
+
+
+def _norm(a: Sequence[float]) -> float:
+    """Return the Frobenius norm."""
+    total = 0.0
+    for x in a:
+        total += x * x
+    return math.sqrt(total)
+
+
+def product(n: int, level: int, a: Sequence[Scalar], b: Sequence[Scalar]) -> list[Scalar]:
+    """Return the product of two jets."""
+    size, rows = n * n, range(n)
+    result: list[Scalar] = []
+    for parts in pairs(level):
+        factors = [(a[size * p : size * p + size], b[size * q : size * q + size]) for p, q in parts]
+        left = [[x[n * i : n * i + n] for i in rows] for x, _ in factors]
+        right = [[y[j::n] for j in rows] for _, y in factors]
+        for i in rows:
+            for j in rows:
+                # The terms of all factors with the same inner index are neighbours in the sum.
+                pairs_of = [zip(x[i], y[j], strict=True) for x, y in zip(left, right, strict=True)]
+                merged = (
+                    pairs_of[0] if len(pairs_of) == 1 else chain.from_iterable(zip(*pairs_of, strict=True))
+                )
+                x, y = next(merged)
+                total = x * y
+                for x, y in merged:
+                    total = total + x * y
+                result.append(total)
+    return result
+
+
+def _polynomial(n: int, level: int, b1: list[float], norm: float) -> list[float]:
+    """Return the Taylor polynomial of the least degree that is accurate for matrices of this norm."""
+    groups = 1 + sum(norm > bound for bound in largest_norms(53)[:-1])
+    c = [1 / math.factorial(k) for k in range(DEGREES[-1] + 1)]
+    b2 = product(n, level, b1, b1)
+    b3, b4 = product(n, level, b2, b1), product(n, level, b2, b2)
+    total = [c[4 * groups] * x for x in b4]
+    for group in reversed(range(groups)):
+        k = 4 * group
+        if group < groups - 1:
+            total = product(n, level, total, b4)
+        # The largest terms are added last, because this order causes the smallest rounding errors.
+        terms = zip(total, b3, b2, b1, strict=True)
+        total = [((w + c[k + 3] * x) + c[k + 2] * y) + c[k + 1] * z for w, x, y, z in terms]
+        for i in range(n):
+            total[(n + 1) * i] += c[k]
+    return total
+
+
+def _growth(n: int, a: Sequence[float], scale: float) -> float:
+    """Return a bound of the spectral norm of exp(scale a): the exponential of a bound of the logarithmic
+    norm.
+
+    The logarithmic norm is the largest eigenvalue of the symmetric part, which Gershgorin's circles bound. It
+    is zero for a skew matrix.
+    """
+    largest = a[0]
+    for i in range(n):
+        total = a[(n + 1) * i]
+        for j in range(n):
+            if j != i:
+                total += 0.5 * abs(a[n * i + j] + a[n * j + i])
+        largest = max(largest, total)
+    *rest, result = (1 / math.factorial(k) for k in range(DEGREES[-1] + 1))
+    for c in reversed(rest):
+        result = c + (largest * scale) * result
+    return result
+
+
+def _squared(n: int, level: int, total: list[float], squarings: int, growth: float) -> list[float]:
+    """Return total^(2^squarings); NaN if the first matrix of this jet has fewer than three correct digits.
+
+    Let u be the unit roundoff. The computed square E^2 has the error 2 |E| error(E) + n^2 u |E|^2 in the
+    Frobenius norm. The spectral norm |E| is bounded by ``growth`` and by the Frobenius norm.
+    """
+    size, unit = n * n, 2.0**-53
+    error = (n + 8) * unit * n
+    for _ in range(squarings):
+        bound = min(growth, _norm(total[:size]))
+        error = 2.0 * bound * error + n * n * unit * (bound * bound)
+        growth *= growth
+        total = product(n, level, total, total)
+    if error > 2.0**-LEAST_DIGITS * _norm(total[:size]):
+        return [math.nan] * len(total)
+    return total
+
+
+def in_digits(context: Any, digits: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
+    """Return the exponential of a jet of mpmath numbers to ``digits`` decimal digits of its norm.
+
+    :class:`OverflowError` is raised for a norm above 2^40.
+    """
+    size = max((abs(x) for x in a[: n * n]), default=0) * n
+    if not size < 2**40:
+        raise OverflowError("the norm of the matrix is too large for its exponential")
+    halvings = max(0, int(context.mag(size)) + 8) if size else 0
+    # The working precision includes the digits that the squarings lose: at most the digits of the
+    # exponentials of A and -A, and one bit for each squaring.
+    work = context.clone()
+    work.dps = digits + 15 + halvings + min(2000, int(float(size)))
+    scale = work.mpf(2) ** -halvings
+    b = [work.mpf(x) * scale for x in a]
+    total = [work.mpf(int(k < n * n and k % (n + 1) == 0)) for k in range(len(a))]
+    term, k = total, 0
+    while any(abs(x) > work.eps for x in term):
+        k += 1
+        term = [x / k for x in product(n, level, term, b)]
+        total = [x + y for x, y in zip(total, term, strict=True)]
+    for _ in range(halvings):
+        total = product(n, level, total, total)
+    return tuple(context.mpf(x) for x in total)
+
+
+def over_series(ring: Any, longest: int, n: int, level: int, a: Sequence[Scalar]) -> tuple[Scalar, ...]:
+    """Return the exponential of a jet of power series, exactly.
+
+    ArithmeticError is raised if the sum has more than ``longest`` terms: the constant terms of the first
+    matrix are then not nilpotent.
+    """
+    total = [ring.one if k < n * n and k % (n + 1) == 0 else ring.zero for k in range(len(a))]
+    term = total
+    for k in range(1, longest + 1):
+        factor = ring.rational(1, k)
+        term = [factor * x for x in product(n, level, term, a)]
+        if all(ring.is_zero(x) is True for x in term):
+            return tuple(total)
+        total = [x + y for x, y in zip(total, term, strict=True)]
+    raise ArithmeticError(f"an exponential series does not end within {longest} terms")

@@ -1,0 +1,39 @@
+"""The inverse of an n x n matrix by Gauss-Jordan elimination with row exchanges."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Scalar
+
+
+def inverse(
+    n: int, a: Sequence[Scalar], one: Scalar, size: Callable[[Scalar], Any]
+) -> tuple[Scalar, ...] | None:
+    """Return the inverse of a matrix, row by row; None for a singular matrix.
+
+    The pivot of a column is the entry with the largest ``size``; an entry of size 0 cannot be a pivot.
+    Emitted code executes the same operations in the same order, so that doubles agree in every bit.
+    """
+    rows = [list(a[n * i : n * i + n]) for i in range(n)]
+    order: list[int] = []
+    for k in range(n):
+        pivot = max(range(k, n), key=lambda i: size(rows[i][k]))
+        if not size(rows[pivot][k]) > 0:
+            return None
+        order.append(pivot)
+        rows[k], rows[pivot] = rows[pivot], rows[k]
+        factor = one / rows[k][k]
+        rows[k] = [x * factor for x in rows[k]]
+        rows[k][k] = factor
+        for i in range(n):
+            if i != k:
+                multiple = rows[i][k]
+                rows[i] = [x - multiple * y for x, y in zip(rows[i], rows[k], strict=True)]
+                rows[i][k] = -(multiple * factor)
+    for k in reversed(range(n)):
+        for row in rows:
+            row[k], row[order[k]] = row[order[k]], row[k]
+    return tuple(x for row in rows for x in row)

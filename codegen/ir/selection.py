@@ -1,0 +1,51 @@
+"""Functions that select one of several formulas by a comparison, in every domain.
+
+``choose(x, a, b)`` is a for x > 0, b for x <= 0, and NaN if x is NaN. Every comparison and every
+condition of a formula is a combination of this function. ``fabs`` is the absolute value, and a
+:class:`codegen.ir.table.PiecewisePolynomial` selects a polynomial. At points where a selection changes, the
+formulas are not smooth, and a domain of power series raises an error.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from codegen.ir.table import PiecewisePolynomial, Sign
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Domain, Scalar
+
+CHOOSE, ABSOLUTE = "choose", "fabs"
+
+SELECTING = (CHOOSE, ABSOLUTE)
+"""The functions of this module, without the tables."""
+
+
+class Kink(ArithmeticError):
+    """The error of a power series at a point where the selected formula changes."""
+
+
+def selects(function: str) -> bool:
+    """Return True if a function selects one of several formulas."""
+    return function in SELECTING or isinstance(function, PiecewisePolynomial)
+
+
+def selected(domain: Domain, function: str, args: tuple[Scalar, ...], sign: Sign) -> Scalar:
+    """Return the value of a function for which :func:`selects` is true."""
+    x = args[0]
+    if isinstance(function, PiecewisePolynomial):
+        return function.value(domain, x, sign)
+    order = sign(x)
+    if order is None:
+        return x
+    if function == ABSOLUTE:
+        return -x if order < 0 else x
+    return args[1] if order > 0 else args[2]
+
+
+def sign_of_number(x: Scalar) -> int | None:
+    """Return the sign of a real number; None for a NaN or a complex number."""
+    try:
+        return 1 if x > 0 else -1 if x < 0 else 0 if x == 0 else None
+    except TypeError:  # in mpmath, the root of a negative number is complex
+        return None

@@ -1,0 +1,300 @@
+"""Vector functions as functions of a unit: the matrix exponential with its derivatives, and the inverse.
+
+The statements compute exactly what :mod:`codegen.ir.matrix_exponential` and
+:mod:`codegen.ir.matrix_inverse` compute in doubles. Matrices are stored in arrays row by row, and the
+matrices of a jet one after the other. The length of the emitted text does not depend on the number of rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from math import factorial
+
+from codegen.ir.matrix_exponential import DEGREES, LEAST_DIGITS, largest_norms, pairs
+from codegen.ir.precision import Precision
+from codegen.ir.vector_function import MatrixExponential, MatrixInverse, VectorFunction, vector_function
+from codegen.run.language import (
+    Array,
+    Assign,
+    Call,
+    For,
+    Function,
+    If,
+    Return,
+    Statement,
+    Table,
+    While,
+    statements,
+)
+from codegen.run.terms import (
+    INFINITY,
+    Kind,
+    Term,
+    both,
+    call,
+    count,
+    number,
+    real,
+    select,
+    size,
+    total,
+    whole,
+)
+
+UNROLLED = 4
+"""The largest number of rows for which an entry of a product of matrices is computed without a loop."""
+
+COEFFICIENTS = "inverse_factorial"
+"""The name of the table that contains the coefficients 1/k!."""
+
+_ROW, _COLUMN, _TERM, _PLACE = count("i"), count("j"), count("k"), count("place")
+
+
+def used(functions: Iterable[Function]) -> list[VectorFunction]:
+    """Return the vector functions that functions of a unit call, sorted by name."""
+    called = {s.function for f in functions for s in statements(f.body) if isinstance(s, Call)}
+    functions_called = map(vector_function, sorted(called))
+    return [function for function in functions_called if function is not None]
+
+
+def matrix_functions(functions: Iterable[VectorFunction], precision: Precision) -> list[Function]:
+    """Return the functions of a unit for these vector functions, callees first."""
+    listed: dict[str, Function] = {}
+    for function in functions:
+        if isinstance(function, MatrixExponential):
+            own = _Exponential(function, precision).functions()
+        else:
+            assert isinstance(function, MatrixInverse)
+            own = [_inverse(function)]
+        # Exponentials of matrices of one size use one function for the norm.
+        listed |= {f.name: f for f in own}
+    return list(listed.values())
+
+
+def matrix_tables(functions: Iterable[VectorFunction], precision: Precision) -> tuple[Table, ...]:
+    """Return the table of the coefficients of Taylor polynomials; none without an exponential."""
+    if not any(isinstance(f, MatrixExponential) for f in functions):
+        return ()
+    last = DEGREES[-1]
+    row = tuple(precision.round(Fraction(1, factorial(k))) for k in range(last + 1))
+    return (Table(real(COEFFICIENTS, last + 1), (row,), "1/k!"),)
+
+
+def _is_lost(array: Term) -> For:
+    """Return the statement that fills an array with NaNs."""
+    return For(_PLACE, whole(array.shape[0]), (Assign(array[_PLACE], INFINITY - INFINITY),))
+
+
+class _Exponential:
+    """Builds the functions for the exponential of matrices of one size, with derivatives up to one level."""
+
+    def __init__(self, function: MatrixExponential, precision: Precision) -> None:
+        self.name, self.n, self.level = function.name, function.n, function.level
+        self.size, self.one = function.size, function.n**2
+        self.precision = precision
+        self.norms = largest_norms(precision.bits)
+        self.coefficient = real(COEFFICIENTS, DEGREES[-1] + 1)
+
+    def functions(self) -> list[Function]:
+        """Return the functions, callees first."""
+        return [self._norm(), self._product(), self._exponential()]
+
+    def entry(self, array: Term, row: Term, column: Term, part: int = 0) -> Term:
+        """Return an entry of a matrix of a jet."""
+        place = self.n * row + column
+        return array[place + self.one * part if part else place]
+
+    def norm(self, array: Term, target: Term) -> Call:
+        """Return the statement that computes the norm of the first matrix of a jet."""
+        return Call(f"norm{self.n}", (array.part(0, self.one),), (target,))
+
+    def _norm(self) -> Function:
+        a, square = real("a", self.one), real("square")
+        body = (
+            Assign(square, number(0.0)),
+            For(_PLACE, whole(self.one), (Assign(square, square + a[_PLACE] * a[_PLACE]),)),
+            Return(call("sqrt", square)),
+        )
+        about = f"Return the Frobenius norm of a {self.n} x {self.n} matrix."
+        return Function(f"norm{self.n}", about, (a,), body, Kind.REAL)
+
+    def product(self, a: Term, b: Term, result: Term) -> Call:
+        """Return the statement result = a b."""
+        return Call(f"{self.name}_product", (a, b, result))
+
+    def _product(self) -> Function:
+        a, b, result = (real(x, self.size) for x in ("a", "b", "result"))
+        inner: list[Statement] = []
+        for part, factors in enumerate(pairs(self.level)):
+            entry = self.entry(result, _ROW, _COLUMN, part)
+            inner += self._sum(a, b, factors, entry, part)
+        rows = For(_ROW, whole(self.n), (For(_COLUMN, whole(self.n), tuple(inner)),))
+        about = f"result = a b for {self.n} x {self.n} matrices{' with derivatives' if self.level else ''}."
+        return Function(f"{self.name}_product", about, (a, b, result), (rows,))
+
+    def _sum(
+        self, a: Term, b: Term, factors: Sequence[tuple[int, int]], entry: Term, part: int
+    ) -> list[Statement]:
+        """Return the statements that compute one entry of a product."""
+
+        def terms(k: Term) -> list[Term]:
+            return [self.entry(a, _ROW, k, p) * self.entry(b, k, _COLUMN, q) for p, q in factors]
+
+        if self.n <= UNROLLED:
+            return [Assign(entry, total(x for k in range(self.n) for x in terms(whole(k))))]
+        value = real(f"total_{part}" if self.level else "total")
+        added = tuple(Assign(value, value + x) for x in terms(_TERM))
+        loop = For(_TERM, whole(self.n), added)
+        return [Assign(value, number(0.0)), loop, Assign(entry, value)]
+
+    def _exponential(self) -> Function:
+        a, result, work = real("a", self.size), real("result", self.size), real("work", self.size)
+        powers = tuple(real(f"power_{k}", self.size) for k in (1, 2, 3, 4))
+        scale, norm, least = real("scale"), real("norm"), self.norms[-1]
+        squarings, growth = count("squarings"), real("growth")
+        bits = self.precision.bits
+        body: list[Statement] = [
+            *map(Array, (*powers, work)),
+            self.norm(a, norm),
+            Assign(scale, number(1.0)),
+            Assign(squarings, whole(0)),
+            While(
+                both(norm * scale > least, squarings < bits),
+                (Assign(scale, number(0.5) * scale), Assign(squarings, squarings + 1)),
+            ),
+            Assign(norm, norm * scale),
+            For(_PLACE, whole(self.size), (Assign(powers[0][_PLACE], a[_PLACE] * scale),)),
+            *self._polynomial(powers, work, result, norm),
+            If(
+                squarings > 0,
+                (
+                    *self._growth(a, scale, growth),
+                    *self._squared(result, work, squarings, growth),
+                ),
+            ),
+            If(norm > least, (_is_lost(result),)),
+        ]
+        return Function(self.name, self._about(), (a, result), tuple(body))
+
+    def _about(self) -> str:
+        what = f"the exponential of the {self.n} x {self.n} matrix a"
+        if self.level:
+            what += f" + E e, where e^2 = 0{' for each of several e' if self.level > 1 else ''}"
+            what += "; the array a contains the matrices a and E"
+        return (
+            f"result = {what}: Taylor polynomial, squared. All results are NaN if the bound of the relative "
+            f"error exceeds 2^-{LEAST_DIGITS}."
+        )
+
+    def _polynomial(self, powers: Sequence[Term], work: Term, result: Term, norm: Term) -> list[Statement]:
+        """Return the statements that evaluate the Taylor polynomial of the least sufficient degree."""
+        b1, b2, b3, b4 = powers
+        groups, group, c = count("groups"), count("group"), self.coefficient
+        first, second, third, _ = self.norms
+        chosen = select(
+            norm > third, whole(4), select(norm > second, whole(3), select(norm > first, whole(2), whole(1)))
+        )
+        start = Assign(work[_PLACE], c[4 * groups] * b4[_PLACE])
+
+        def added(base: Term) -> tuple[Statement, ...]:
+            value = ((work[_PLACE] + c[base + 3] * b3[_PLACE]) + c[base + 2] * b2[_PLACE]) + c[base + 1] * b1[
+                _PLACE
+            ]
+            diagonal = result[(self.n + 1) * _ROW]
+            return (
+                For(_PLACE, whole(self.size), (Assign(result[_PLACE], value),)),
+                For(_ROW, whole(self.n), (Assign(diagonal, diagonal + c[base]),)),
+            )
+
+        inner = (
+            If(
+                group + 1 < groups,
+                (self.product(result, b4, work),),
+                (For(_PLACE, whole(self.size), (start,)),),
+            ),
+            *added(4 * group),
+        )
+        return [
+            Assign(groups, chosen),
+            self.product(b1, b1, b2),
+            self.product(b2, b1, b3),
+            self.product(b2, b2, b4),
+            For(group, groups, inner, reverse=True),
+        ]
+
+    def _growth(self, a: Term, scale: Term, growth: Term) -> list[Statement]:
+        """Return the statements that bound the spectral norm of the first exponential."""
+        largest, sums, c = real("largest_sum"), real("row_sum"), self.coefficient
+        off = number(0.5) * size(self.entry(a, _ROW, _COLUMN) + self.entry(a, _COLUMN, _ROW))
+        row = (
+            Assign(sums, a[(self.n + 1) * _ROW]),
+            For(_COLUMN, whole(self.n), (If(_COLUMN.differs(_ROW), (Assign(sums, sums + off),)),)),
+            Assign(largest, select(sums > largest, sums, largest)),
+        )
+        return [
+            Assign(largest, a[0]),
+            For(_ROW, whole(self.n), row),
+            Assign(largest, largest * scale),
+            Assign(growth, c[DEGREES[-1]]),
+            For(_TERM, whole(DEGREES[-1]), (Assign(growth, c[_TERM] + largest * growth),), reverse=True),
+        ]
+
+    def _squared(self, result: Term, work: Term, squarings: Term, growth: Term) -> list[Statement]:
+        """Return the statements that square the result and bound its error."""
+        n, unit = self.n, self.precision.unit
+        error, bound = real("error_bound"), real("bound")
+        body = (
+            self.norm(result, bound),
+            Assign(bound, select(bound < growth, bound, growth)),
+            Assign(error, 2.0 * bound * error + (n * n * unit) * (bound * bound)),
+            Assign(growth, growth * growth),
+            self.product(result, result, work),
+            Assign(result, work),
+        )
+        return [
+            Assign(error, number((n + 8) * unit * n)),
+            For(_TERM, squarings, body),
+            self.norm(result, bound),
+            If(error > 2.0**-LEAST_DIGITS * bound, (_is_lost(result),)),
+        ]
+
+
+def _inverse(function: MatrixInverse) -> Function:
+    """Return the function that inverts a matrix."""
+    n, a, b = function.n, real("a", function.size), real("result", function.size)
+    order, pivot, kept = count("order", n), count("pivot"), real("kept")
+    factor, multiple = real("factor"), real("multiple")
+    k, i, j = _TERM, _ROW, _COLUMN
+    row, at = n * k + j, n * k + k
+    search = If(size(b[n * i + k]) > size(b[n * pivot + k]), (Assign(pivot, i),))
+    exchanged = (Assign(kept, b[row]), Assign(b[row], b[n * pivot + j]), Assign(b[n * pivot + j], kept))
+    eliminated = (
+        Assign(multiple, b[n * i + k]),
+        For(j, whole(n), (Assign(b[n * i + j], b[n * i + j] - multiple * b[row]),)),
+        Assign(b[n * i + k], -(multiple * factor)),
+    )
+    column = (
+        Assign(pivot, k),
+        For(i, whole(n), (If(i > k, (search,)),)),
+        # If the matrix is singular, a pivot is zero, and all entries of the result become infinite or NaN.
+        Assign(order[k], pivot),
+        For(j, whole(n), exchanged),
+        Assign(factor, 1.0 / b[at]),
+        For(j, whole(n), (Assign(b[row], b[row] * factor),)),
+        Assign(b[at], factor),
+        For(i, whole(n), (If(i.differs(k), eliminated),)),
+    )
+    swapped = (
+        Assign(kept, b[n * i + k]),
+        Assign(b[n * i + k], b[n * i + order[k]]),
+        Assign(b[n * i + order[k]], kept),
+    )
+    body = (
+        Array(order),
+        Assign(b, a),
+        For(k, whole(n), column),
+        For(k, whole(n), (For(i, whole(n), swapped),), reverse=True),
+    )
+    about = f"result = the inverse of the {n} x {n} matrix a: elimination with row exchanges."
+    return Function(function.name, about, (a, b), tuple(body))
