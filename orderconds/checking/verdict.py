@@ -91,7 +91,8 @@ def check(
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Return order and tolerance as numbers; raise InputError for other types and values."""
+    """Return the order and the tolerance as numbers. Raises InputError for values of other types or outside
+    the bounds."""
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
     return (

@@ -173,7 +173,7 @@ def command(
 
 
 def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
-    """Write the number of tableaux without a claim to stderr, if there are any."""
+    """If there are tableaux without a claim, write their number to stderr."""
     if count := verdicts.count(UNCLAIMED):
         click.echo(
             f"--require-claims: {count} of {len(verdicts)} tableaux claim no order; {HOW_TO_CLAIM}",

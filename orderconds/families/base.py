@@ -318,7 +318,7 @@ class Family(ABC):
             f"the number of stages does not determine the coefficients of family {self.label()}",
             where="stages",
             expected="a family whose coefficients follow from the number of stages, such as rk or splitting",
-            hint="leave the number of stages out",
+            hint="omit the number of stages",
         )
 
     # Theorems

@@ -25,7 +25,8 @@ class Constraint:
     form: Affine
 
     def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
-        """Return the constraint with each name in ``sums`` replaced by the sum of the listed names."""
+        """Return the constraint in which each name in ``sums`` is replaced by the sum of the names listed for
+        it."""
         form: dict[str, Fraction] = {}
         for name, factor in self.form.items():
             for summand in sums.get(name, (name,)):

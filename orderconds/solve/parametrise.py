@@ -22,13 +22,15 @@ from orderconds.solve.linear import Constraint, Elimination, equal, equality, na
 from orderconds.solve.spec import Spec, refuse
 
 Nodes = Mapping[str, Sequence[str]]
-"""The coefficients of a stage by the name of its node, which is their sum."""
+"""For the name of each node, the names of the coefficients of its stage. The node is the sum of these
+coefficients."""
 
 
 def _eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of all constraints; those of ``--fix`` may have nodes."""
+    """Return the coefficients after elimination of all constraints. The constraints from ``--fix`` may
+    contain nodes."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:

@@ -105,7 +105,8 @@ def solve(
     """Find a method of ``family`` with this number of stages and order, and prove its order.
 
     The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
-    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` receives lines on the progress.
+    ``"a21=1/2"``. Contradictory constraints raise InputError. The function ``report`` is called with lines of
+    text about the progress.
 
     >>> heun = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
     >>> heun.tableau.b, heun.certificate
@@ -149,7 +150,7 @@ def _minimised(minimise: object) -> bool:
 
 
 def _size(size: object) -> Fraction | None:
-    """Return a bound on coefficients; None for None."""
+    """Return the upper bound for the coefficients as a fraction. For None, return None."""
     if size is None:
         return None
     try:

@@ -156,7 +156,8 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
 
 
 def _claimed(claims: object, family: str) -> dict[str, int | bool]:
-    """Return claims by label, each with its order, or whether the method has a property."""
+    """Return the claims by label. The value of a label is the claimed order in a family, or the truth value
+    of a property."""
     if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
         claims = {family: claims}
     if not isinstance(claims, Mapping):

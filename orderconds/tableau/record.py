@@ -328,7 +328,7 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
 
 
 def _exists(path: Path) -> bool:
-    """Return True if there is a file or folder of this name. For a name that is too long, the result is False."""
+    """Return True if a file or folder has this name. For a name that is too long, the result is False."""
     try:
         return path.exists()
     except OSError:
