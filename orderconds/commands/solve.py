@@ -49,8 +49,8 @@ if TYPE_CHECKING:
     "--fix",
     multiple=True,
     metavar="a21=1/2",
-    help="A linear equation for the coefficients and, in a Butcher tableau, for the nodes c_i. The option may "
-    "be repeated.",
+    help="A linear equation for the coefficients and, in a Butcher tableau, for the nodes c_i. "
+    "The option may be repeated.",
 )
 @click.option(
     "--positive",

@@ -22,15 +22,13 @@ from orderconds.solve.linear import Constraint, Elimination, equal, equality, na
 from orderconds.solve.spec import Spec, refuse
 
 Nodes = Mapping[str, Sequence[str]]
-"""For the name of each node, the names of the coefficients of its stage. The node is the sum of these
-coefficients."""
+"""For the name of each node, the names of the coefficients whose sum is the node."""
 
 
 def _eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of all constraints. The constraints from ``--fix`` may
-    contain nodes."""
+    """Return the coefficients after elimination of all constraints; ``--fix`` may refer to nodes."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:
@@ -47,8 +45,8 @@ def _eliminated(
 
 @dataclass(frozen=True)
 class _Cells:
-    """The coefficients of a tableau after elimination of the constraints: the text of each coefficient in the
-    file, and the formulas of named numbers."""
+    """The text of each coefficient after elimination of the constraints, and the formulas of named
+    numbers."""
 
     elimination: Elimination
     extra: Mapping[str, str] | None = None
@@ -205,8 +203,7 @@ def _matrix(rows: Sequence[str]) -> list[str]:
 
 
 def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of commutator-free methods, in which the stages and the update are products of
-    exponentials.
+    """Return the ansatz of commutator-free methods, whose steps are products of exponentials.
 
     >>> from orderconds.families import get
     >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
@@ -282,8 +279,7 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return the constraints that the exponents of each stage, and of the update, sum to the rows of the
-    Gauss tableau."""
+    """Return the constraints that the exponents add up to the rows of the Gauss tableau."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -355,8 +351,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The middle step is the last name in the list, so that the constraint on the sum of the steps determines
-    # it.
+    # The middle step is the last name, so that the constraint on the sum of the steps determines it.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -424,8 +419,7 @@ def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures that a search for commutator-free methods tries, in the order in which they are
-    tried.
+    """Return the structures that a search for commutator-free methods tries, in the order of the trials.
 
     >>> from orderconds.families import get
     >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))

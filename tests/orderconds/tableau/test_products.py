@@ -151,7 +151,7 @@ MALFORMED = {
     "a step with a float": (
         SPLITTING + 'step = [["T", 0.5]]\n',
         "step[1][2]: a value of type float",
-        "quote",
+        "write it in quotation marks",
     ),
     "rkn of no part": (SPLITTING + 'rkn = "W"\nstep = [["T", 1]]\n', "rkn = 'W'", "the name of the part V"),
     "unknown key of a splitting": (
