@@ -266,8 +266,7 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the texts of the coefficients of the Gauss tableau: the matrix A and the weights. A row of A is
-    the sum of the exponents of a stage."""
+    """Return A and b of the Gauss tableau as text. Row i of A is the sum of the exponents of stage i."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
