@@ -1,20 +1,20 @@
 """Derive, prove and compile Lie group integrators.
 
 A method is a tableau plus a family. The family determines the series of the method, and a comparison of this
-series with the exact flow gives the order conditions. ``orderconds`` is the symbolic side. ``codegen``
-compiles a method and a scene, the description of one mechanical system, into code. ``orderconds`` never
-imports ``codegen``.
+series with the exact flow gives the order conditions. The package ``orderconds`` contains the symbolic
+computations. The package ``codegen`` compiles a method and a scene into code; a scene is the description of
+one mechanical system. ``orderconds`` never imports ``codegen``.
 
 Conventions
 -----------
 All modules use these conventions.
 
-*Action and trivialisation.* A Lie group G acts from the left and is trivialised from the right: the
-equation is y' = f(y).y with f: M -> g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 **the first stage acts
-first**: it is the rightmost factor. A right action flips the sign of every bracket in a method.
+*Action and trivialisation.* A Lie group G acts from the left and is trivialised from the right: the equation
+is y' = f(y).y with f: M -> g. In exp(h b_s k_s) ... exp(h b_1 k_1).y0 **the first stage acts first**: it is
+the rightmost factor. For a right action, every bracket in a method has the opposite sign.
 
-*Brackets.* [A, B] = AB - BA; ad_x y = [x, y]; Ad_g is T L_g T R_{g^-1}. Ad*_g is the plain dual of Ad_g (no
-inverse), so Ad*_{gh} = Ad*_h Ad*_g, and ad*_x is the dual of ad_x. On SO(3), so(3) and its dual are
+*Brackets.* [A, B] = AB - BA; ad_x y = [x, y]; Ad_g is T L_g T R_{g^-1}. Ad*_g is the dual map of Ad_g, not of
+its inverse, so Ad*_{gh} = Ad*_h Ad*_g; ad*_x is the dual map of ad_x. On SO(3), so(3) and its dual are
 identified with R^3; then Ad*_g mu = g^T mu and ad*_x mu = -x x mu (cross product).
 
 *The derivative of exp.* dexp_x = sum_k ad_x^k/(k+1)! and dexp^{-1}_x = sum_k B_k/k! ad_x^k with B_1 = -1/2;

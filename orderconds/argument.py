@@ -1,6 +1,7 @@
-"""Arguments of functions in Python: their types and bounds, and messages that name the argument.
+"""Verification of the arguments of Python functions: types, bounds, and error messages that name the
+argument.
 
-The commands have the same bounds.
+The options of the commands have the same bounds.
 """
 
 from __future__ import annotations
@@ -16,15 +17,15 @@ from orderconds.errors import InputError
 Bounds = tuple[int, int]
 
 CONDITION_ORDER = (1, 20)
-"""The orders of conditions that are derived or checked."""
+"""The least and the largest order for which conditions are derived or checked."""
 EXPANDED_STAGES = (1, 12)
-"""The numbers of stages for which conditions are expanded."""
+"""The least and the largest number of stages for which conditions are expanded."""
 TREE_ORDER = (1, 40)
 CONSTRUCTED_STAGES = (1, 50)
 DIGITS = (10, 1000)
-"""The numbers of decimal places of refined coefficients."""
+"""The least and the largest number of decimal places of refined coefficients."""
 TOLERANCE = (0, 2**40)
-"""The uncertainty of doubles in units of rounding."""
+"""The least and the largest uncertainty of doubles, in units of rounding."""
 SOLVED_STAGES = (1, 40)
 SOLVED_ORDER = (1, 12)
 EXPONENTIALS = (1, 12)
@@ -34,7 +35,7 @@ PROCESSES = (1, 256)
 
 
 def integer(x: object, name: str, bounds: Bounds) -> int:
-    """Return an integer between bounds; InputError for other numbers and all other objects.
+    """Return an argument that is an integer between the bounds. Raises InputError for any other object.
 
     >>> integer(2.0, "stages", (1, 50))
     Traceback (most recent call last):
@@ -47,7 +48,8 @@ def integer(x: object, name: str, bounds: Bounds) -> int:
 
 
 def real(x: object, name: str, bounds: tuple[float, float]) -> float:
-    """Return a real number between bounds; InputError for NaN and all other objects.
+    """Return an argument that is a real number between the bounds. Raises InputError for NaN and any other
+    object.
 
     >>> real(-1, "tolerance", (0, 8))
     Traceback (most recent call last):
@@ -65,7 +67,7 @@ def real(x: object, name: str, bounds: tuple[float, float]) -> float:
 
 
 def text(x: object, name: str, expected: str) -> str:
-    """Return a text; InputError for all other objects.
+    """Return an argument that is a text. Raises InputError for any other object.
 
     >>> text(3, "family", "the name of a family")
     Traceback (most recent call last):
@@ -77,7 +79,8 @@ def text(x: object, name: str, expected: str) -> str:
 
 
 def texts(x: object, name: str, example: str) -> tuple[str, ...]:
-    """Return a sequence of texts; InputError for one text, a mapping, and all other objects.
+    """Return an argument that is a sequence of texts. Raises InputError for a single text, a mapping, and any
+    other object.
 
     >>> texts("a21=1", "fix", "a21=1/2")
     Traceback (most recent call last):
@@ -91,7 +94,8 @@ def texts(x: object, name: str, example: str) -> tuple[str, ...]:
 
 @contextmanager
 def named_as_arguments() -> Iterator[None]:
-    """Write options of the command line in messages as arguments in Python: ``--fix`` becomes ``fix``.
+    """In error messages, replace options of the command line by the names of Python arguments: ``--fix``
+    becomes ``fix``.
 
     >>> with named_as_arguments():
     ...     raise InputError("the prefix '1a'", where="--prefix", expected="a letter")
@@ -110,7 +114,8 @@ _OPTION = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 
 
 def described(x: object) -> str:
-    """Return a value and its type for a message; the value only if it is a number or a text.
+    """Return the text that describes an object in a message. It contains the type and, for numbers and texts,
+    the value.
 
     >>> described(None), described("4"), described(0)
     ('an object of type NoneType', "'4' of type str", '0')

@@ -1,4 +1,5 @@
-"""Modified equations: the vector field whose exact flow a method follows, as a truncated series in h.
+"""Modified equations: the exact flow of the modified vector field is the numerical method. The field is a
+truncated series in h.
 
 A step of a method is the exact flow, over the time h, of a modified field f~ = f + h f_2 + h^2 f_3 + ... The
 terms of f~ describe how the numerical solution differs from the exact solution over long times. For a
@@ -6,9 +7,9 @@ symplectic method they form a modified Hamiltonian, which the method conserves (
 *Geometric Numerical Integration*, Chapter IX). On Lie groups the terms are elementary differentials along
 frozen fields and their commutators (Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 
-The *modifying* field solves the inverse problem: the method, applied to the modifying field, follows the
-exact flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76 (2007)
-1941).
+The *modifying* field solves the inverse problem: if the method is applied to the modifying field, the result
+is the exact flow of f. This field is a series of the same form (Chartier, Hairer and Vilmart, Math. Comp. 76
+(2007) 1941).
 """
 
 from __future__ import annotations
@@ -177,7 +178,8 @@ def _ordered(field: VectorField, order: int) -> Iterator[Term]:
 
 
 def _place(tree: Tree) -> tuple[int, bytes]:
-    """Return the sort key of a tree in the alphabet of Lyndon words: larger trees first, then taller ones."""
+    """Return the sort key of a tree in the alphabet of Lyndon words. Larger trees come first; among trees of
+    equal size, taller trees come first."""
     return -len(tree), bytes(255 - level for level in tree)
 
 

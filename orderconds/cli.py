@@ -1,10 +1,10 @@
 """The command-line program: a click group that loads each command when it is called.
 
-The names of the built-in commands are in :data:`BUILT_IN`. Commands of other packages (``codegen`` has emit,
-converge and others) come from the entry-point group ``orderconds.commands``, which is scanned only if a name
-is not built in.
+The names of the built-in commands are in :data:`BUILT_IN`. Commands of other packages, such as ``emit`` of
+``codegen``, are entry points of the group ``orderconds.commands``. The entry points are searched only if the
+name of a command is not built in.
 
-Exit statuses are those of :mod:`orderconds.exit_status`.
+The module :mod:`orderconds.exit_status` defines the exit statuses.
 """
 
 from __future__ import annotations
@@ -62,26 +62,28 @@ BUILT_IN = {
 """Built-in commands: name -> (module that holds ``command``, one line for --help)."""
 
 OUTPUT_OPTIONS = {
-    "quiet": "Show no progress, and no results that hold; the exit status is the answer.",
-    "verbose": "Write progress to stderr also without a terminal, with the elapsed and the remaining time.",
+    "quiet": "Show no progress and no successful results. The exit status states the outcome.",
+    "verbose": "Write progress, with the elapsed and the remaining time, to stderr, also without a terminal.",
 }
 """Options of every command: name -> help."""
 
 
 class Program(click.Group):
-    """The click group of all commands; it turns each error into one of this program's exit statuses.
+    """The click group of all commands. It converts each error to an exit status of
+    :mod:`orderconds.exit_status`.
 
     >>> program.list_commands(click.Context(program))[:3]
     ['check', 'cite', 'completion']
     """
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return every command's name: the built-in ones first, then those of other packages."""
+        """Return the names of all commands: first the built-in commands, then the commands of other
+        packages."""
         others = sorted({entry.name for entry in _offered()} - set(BUILT_IN))
         return [*BUILT_IN, *others]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
-        """Import and return one command; None if no package has it."""
+        """Import and return one command. Return None if no package has a command of this name."""
         if name in BUILT_IN:
             command = importlib.import_module(BUILT_IN[name][0]).command
         else:
@@ -103,7 +105,8 @@ class Program(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Find the command named by the first argument, or suggest a close one."""
+        """Return the command that the first argument names. If there is no such command, the error message
+        suggests a similar name."""
         name = args[0]
         command = None if name.startswith("-") else self.get_command(ctx, name)
         if command is None and not name.startswith("-"):
@@ -117,12 +120,13 @@ class Program(click.Group):
                 hint=f"type: orderconds {close[0] if close else '--help'}",
             )
         resolved = super().resolve_command(ctx, args)
-        if resolved[1] is not None and not ctx.resilient_parsing:  # completion has incomplete lines
+        if resolved[1] is not None and not ctx.resilient_parsing:  # completion has incomplete command lines
             _refuse_repetition(resolved[1], click.Context(resolved[1], parent=ctx, info_name=name), args[1:])
         return resolved
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
-        """List all commands with one line each, also those that cannot be loaded."""
+        """Write the list of all commands, one line for each. Commands that cannot be loaded are also
+        listed."""
         rows = []
         for name in self.list_commands(ctx):
             if name in BUILT_IN:
@@ -151,10 +155,10 @@ class Program(click.Group):
             return super().make_context(*args, **extra)
 
     def main(self, *args: Any, **extra: Any) -> NoReturn:
-        """Run one command and exit with its status; every error becomes one message."""
+        """Run one command and exit with its status. Every error is reported by one message."""
         status = 0
         for name in ("stdout", "stderr"):
-            if getattr(sys, name) is None:  # the caller has closed the stream: ``orderconds ... >&-``
+            if getattr(sys, name) is None:  # The caller has closed the stream, as in ``orderconds ... >&-``.
                 setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 - until the end
         given = list(args[0] if args else extra.get("args") or sys.argv[1:])
         run = Run(as_json="--json" in given[: given.index("--") if "--" in given else None])
@@ -188,7 +192,7 @@ def _refuse_repetition(command: click.Command, ctx: click.Context, args: list[st
     try:
         _, _, met = command.make_parser(ctx).parse_args(list(args))
     except click.UsageError as error:
-        error.ctx = error.ctx or ctx  # click sets no context if the value of an option is missing
+        error.ctx = error.ctx or ctx  # If the value of an option is missing, click sets no context.
         raise
     given: dict[str | None, click.Option] = {}
     seen: set[str | None] = set()

@@ -20,15 +20,16 @@ SHOWN = 80
 
 @dataclass(frozen=True, repr=False)
 class OrderCondition:
-    """The condition that a method's value on ``tree`` equals ``rhs``, the value of the exact flow.
+    """An order condition: the value of a method on ``tree`` must be equal to ``rhs``, the value of the exact
+    flow.
 
     ``family`` is the label of the family (``rkmk(1)``), ``order`` the order to which it belongs, ``tree`` the
-    canonical text of the tree or word. ``source`` is the formula, or a function that builds it on demand.
-    ``key`` is the family's own encoding of the condition, from which the family evaluates the left-hand side.
-    ``relation`` is None for an independent condition. For a dependent condition it is a polynomial in
-    left-hand sides of independent conditions, which equals the left-hand side of the dependent condition for
-    every method of the family. In this polynomial ``<tree>`` denotes the left-hand side for a tree, for
-    example ``3 <o(|L(o o))> - <o> <o(o)>``.
+    canonical text of the tree or word. ``source`` is the formula, or a function that returns the formula and
+    is called when the formula is needed. ``key`` is the condition in the encoding of the family, from which
+    the family evaluates the left-hand side. ``relation`` is None for an independent condition. For a
+    dependent condition it is a polynomial in left-hand sides of independent conditions, which equals the
+    left-hand side of the dependent condition for every method of the family. In this polynomial ``<tree>``
+    denotes the left-hand side for a tree, for example ``3 <o(|L(o o))> - <o> <o(o)>``.
 
     >>> from orderconds.formula import coefficient, index_sum
     >>> quadrature = OrderCondition("rk", 1, "[]", index_sum(("i",), (), coefficient("b", "i")), Fraction(1))

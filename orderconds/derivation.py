@@ -17,7 +17,8 @@ from orderconds.errors import InputError
 class Derivation:
     """The conditions of ``family`` (a label, as ``rkmk(1)``) up to ``order``, grouped by order.
 
-    ``by_order[n - 1]`` holds the conditions of exactly order n. A derivation is a sequence of its conditions.
+    ``by_order[n - 1]`` contains the conditions of exactly order n. As a Python sequence, a derivation is the
+    sequence of its conditions.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation, len(derivation)
@@ -97,11 +98,11 @@ def derive(
     every: bool = False,
     **options: int | None,
 ) -> Derivation:
-    """Derive the independent order conditions of ``family`` up to ``order``; with ``every`` the conditions of
-    all trees.
+    """Derive the independent order conditions of ``family`` up to ``order``. If ``every`` is true, derive the
+    conditions of all trees.
 
-    With ``stages`` the sums are expanded for methods with this number of stages, and with ``explicit`` for
-    explicit methods (:func:`orderconds.stage_expansion.expand_stages`).
+    If ``stages`` is given, the sums are expanded for methods with this number of stages. If ``explicit`` is
+    also true, the sums are expanded for explicit methods (:func:`orderconds.stage_expansion.expand_stages`).
 
     ``options`` are options of the family, such as ``cutoff`` for RKMK. They may also be part of the name, as
     in ``"rkmk(1)"``.

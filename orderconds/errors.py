@@ -1,7 +1,8 @@
-"""Errors that a user can cause: one class for each cause. A message has four parts: the problem, its place in
-the input, the expected input, and a hint.
+"""Errors that a user can cause, with one class for each cause. A message consists of the problem, its
+position in the input, the expected input, and a hint.
 
-The command line turns every :class:`InputError` into exit status 2 and its message, never a traceback.
+For every :class:`InputError`, the command line prints the message without a traceback and exits with status
+2.
 """
 
 from __future__ import annotations
@@ -10,8 +11,8 @@ from __future__ import annotations
 class InputError(Exception):
     """Bad input or usage.
 
-    ``found`` is the problem, ``where`` the file, key or flag, ``expected`` a description of valid input, and
-    ``hint`` a suggestion; empty parts are left out of the message.
+    ``found`` describes the problem, ``where`` names the file, key or option, ``expected`` describes valid
+    input, and ``hint`` is a suggestion. Empty parts are omitted from the message.
     """
 
     def __init__(self, found: str, *, where: str = "", expected: str = "", hint: str = "") -> None:
@@ -28,7 +29,8 @@ class InputError(Exception):
 
 
 class TableauError(InputError):
-    """A tableau file that cannot be read: unknown key, wrong shape, bad coefficient, name used twice."""
+    """A tableau file that is not valid, for example because of an unknown key, a matrix of wrong shape, an
+    invalid coefficient, or a name that is defined twice."""
 
 
 class UnknownName(InputError):

@@ -1,4 +1,5 @@
-"""How the program ends: its exit status, one message on stderr, and with ``--json`` one document on stdout.
+"""The end of a run: the exit status of the program, one message on stderr, and with ``--json`` one document
+on stdout.
 
 =====  ===============================================================================
 0      success
@@ -30,10 +31,11 @@ INTERNAL = 70
 INTERRUPTED = 130
 BROKEN_PIPE = 141
 SIGNALS = ("SIGTERM", "SIGHUP")
-"""Signals treated like Ctrl-C: the program removes temporary files and ends its workers before it exits."""
+"""The signals that the program handles like Ctrl-C: it removes temporary files and ends its worker processes
+before it exits."""
 
 MAX_TEXT = 300
-"""The message shows at most this many characters of the text of an internal error."""
+"""The maximal number of characters of an internal error's text that the message contains."""
 
 
 class Terminated(KeyboardInterrupt):
@@ -53,7 +55,8 @@ class Stopped(Exception):
 
 
 def json_text(value: Any) -> str:
-    """Return a JSON document as text: indented, keys in their given order, ASCII only."""
+    """Return a JSON document as text. The text is indented and contains ASCII characters only; the keys keep
+    their order."""
     import json
 
     return json.dumps(value, indent=2, allow_nan=False)
@@ -61,8 +64,8 @@ def json_text(value: Any) -> str:
 
 @dataclass
 class Run:
-    """One run of the program: options of the command line, and the number of JSON documents printed so
-    far."""
+    """One run of the program: the options of the command line, and the number of JSON documents that have
+    been printed."""
 
     as_json: bool = False
     traceback: bool = False
@@ -109,8 +112,9 @@ class Run:
         return status
 
     def refuse(self, record: dict[str, Any]) -> None:
-        """Print an error's message; with ``--json`` print its record if no document has been printed."""
-        with contextlib.suppress(OSError):  # a full or closed stream must not change the exit status
+        """Print the message of an error. With ``--json``, also print the record of the error, if no JSON
+        document has been printed before."""
+        with contextlib.suppress(OSError):  # If a stream is full or closed, the exit status must not change.
             click.echo(f"orderconds: {record['message']}", err=True)
         if self.as_json and not self.documents:
             with contextlib.suppress(OSError):
@@ -156,7 +160,7 @@ def _usage_message(error: click.UsageError) -> str:
 
 @contextlib.contextmanager
 def past_click() -> Iterator[None]:
-    """Pass interrupts and closed pipes to :meth:`Run.end`, without click's own handling.
+    """Handle interrupts and closed pipes by :meth:`Run.end` and not by click.
 
     >>> with past_click():
     ...     raise KeyboardInterrupt
@@ -170,13 +174,15 @@ def past_click() -> Iterator[None]:
 
 
 def _silence_stdout() -> None:
-    """Discard output that the interpreter flushes at exit, because the reader of stdout is gone."""
+    """Discard the output that the interpreter would flush at exit, because the process that read stdout has
+    ended."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def catch_signals() -> None:
-    """Raise :class:`Terminated` on SIGTERM and SIGHUP; a second signal ends the program at once."""
+    """Install handlers that raise :class:`Terminated` on SIGTERM and SIGHUP. A second signal ends the program
+    immediately."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         signal.signal(number, signal.SIG_DFL)
@@ -184,7 +190,7 @@ def catch_signals() -> None:
 
     for name in SIGNALS:
         number = getattr(signal, name, None)
-        # If the caller has set a signal to be ignored, as nohup does, the signal stays ignored.
+        # A signal that the caller ignores is also ignored by this program; for example, nohup ignores SIGHUP.
         if number is not None and signal.getsignal(number) is signal.SIG_DFL:
             signal.signal(number, stop)
 

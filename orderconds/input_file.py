@@ -1,6 +1,6 @@
-"""Reading files that a user names: regular files only, and at most a stated number of bytes.
+"""Reading of files that a user names. Only regular files are read, and only up to a maximal number of bytes.
 
-A pipe or a device may have no end: reading it could block for ever or fill the memory.
+Other files may have no end: a read from a pipe or a device could block for ever or fill the memory.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def read_bytes(
         return content_of(path, limit=limit)
     except OSError as problem:
         raise error(reason(problem), where=str(path), expected=expected) from None
-    except ValueError:  # The path contains a null character or half a surrogate pair.
+    except ValueError:  # the path contains a null character or an unpaired surrogate
         raise error("not a valid file name", where=ascii(str(path)), expected=expected) from None
 
 
@@ -49,10 +49,11 @@ def read_text(
     limit: int = MAX_BYTES,
     error: type[InputError] = InputError,
 ) -> str:
-    """Return the text of a regular file in UTF-8; the errors are those of :func:`read_bytes`.
+    """Return the text of a regular file in UTF-8. Raises the same errors as :func:`read_bytes`, also if the
+    file is not in UTF-8.
 
-    >>> read_text(__file__).partition(":")[0]
-    '\"\"\"Reading files that a user names'
+    >>> read_text(__file__).partition(".")[0]
+    '\"\"\"Reading of files that a user names'
     """
     try:
         return read_bytes(path, expected, limit=limit, error=error).decode("utf-8")
@@ -61,7 +62,7 @@ def read_text(
 
 
 def content_of(path: str | Path, *, limit: int = MAX_BYTES, own: bool = False) -> bytes:
-    """Return the content of a regular file of at most ``limit`` bytes; raise OSError for any other file.
+    """Return the content of a regular file of at most ``limit`` bytes. Raises OSError for any other file.
 
     If ``own`` is true, the file must belong to the user and must not be a symbolic link, so that no other
     user can replace the file.
@@ -91,7 +92,7 @@ def _require_regular(status: os.stat_result, own: bool) -> None:
 
 
 def reason(problem: OSError) -> str:
-    """Return the operating system's description of an error, with a small first letter.
+    """Return the description of an error by the operating system. The first letter is in lower case.
 
     >>> reason(FileNotFoundError(errno.ENOENT, "No such file or directory"))
     'no such file or directory'

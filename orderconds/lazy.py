@@ -1,4 +1,5 @@
-"""Packages whose names load on first use, so that their import is fast (PEP 562)."""
+"""Packages that import each of their modules when one of its names is first used (PEP 562). Therefore the
+import of such a package is fast."""
 
 from __future__ import annotations
 
@@ -8,7 +9,7 @@ from types import ModuleType
 
 
 class _LazyPackage(ModuleType):
-    """A package whose names load from their modules on first use."""
+    """A package that imports a module when one of the names of the module is first used."""
 
     def __getattr__(self, name: str) -> object:
         homes = self.__dict__["_homes"]
@@ -18,8 +19,9 @@ class _LazyPackage(ModuleType):
         return value
 
     def __setattr__(self, name: str, value: object) -> None:
-        # The import system stores an imported module in its package. A function of the interface that has the
-        # name of a module stays; statements "from package.module import name" do not need the attribute.
+        # The import system stores an imported module as an attribute of its package. If a function of the
+        # interface has the same name as the module, the function remains the attribute. Statements "from
+        # package.module import name" do not need the attribute.
         if not (isinstance(value, ModuleType) and name in self.__dict__["_homes"]):
             super().__setattr__(name, value)
 
@@ -28,11 +30,11 @@ class _LazyPackage(ModuleType):
 
 
 def lazy(package: str, **names: tuple[str, ...]) -> None:
-    """Make the names of an imported package load from their modules on first use; ``dir`` loads no module.
+    """Change an imported package so that it imports a module when one of the names of the module is first
+    used. A call of ``dir`` imports no module.
 
-    ``names`` maps each module of the package to the names that load from it. If a module or package inside
-    the package has one of these names, the attribute of the package is nevertheless the object, not the
-    module.
+    ``names`` maps each module of the package to names that the module defines. If a name is also the name of
+    a module inside the package, the attribute of the package is the object and not the module.
 
     >>> import orderconds
     >>> callable(orderconds.check), "derive" in dir(orderconds)
@@ -45,6 +47,6 @@ def lazy(package: str, **names: tuple[str, ...]) -> None:
     homes = {n: f"{package}.{home}" for home, own in names.items() for n in own}
     module.__dict__["_homes"] = homes
     for name in homes:
-        if isinstance(module.__dict__.get(name), ModuleType):  # imported before this call
+        if isinstance(module.__dict__.get(name), ModuleType):  # This module was imported before the call.
             del module.__dict__[name]
     module.__class__ = _LazyPackage

@@ -1,4 +1,5 @@
-"""Write files atomically: write under a temporary name, flush to the disk, rename to the final name.
+"""Atomic writing of files. A file is written under a temporary name, flushed to the disk, and renamed to its
+final name.
 
 A process that is killed may leave temporary files; :func:`is_temporary` recognises their names.
 """
@@ -20,9 +21,9 @@ _TEMPORARY = re.compile(rf"\..*\.\w{{8}}{re.escape(SUFFIX)}", re.DOTALL)
 def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> None:
     """Write files under temporary names. When all files are on the disk, rename them in the given order.
 
-    A replaced file keeps its permissions. A new file gets the default permissions of the process, or with
-    ``private`` is readable by the user alone. If a path is a symbolic link, the link is replaced and its
-    target is not changed. After an error no temporary file remains.
+    A replaced file keeps its permissions. A new file has the default permissions of the process. If
+    ``private`` is true, only the user can read the new file. If a path is a symbolic link, the link is
+    replaced and its target is not changed. After an error no temporary file remains.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -36,12 +37,13 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
             # The temporary name contains only the beginning of the file's name, because the full name with a
             # suffix could be longer than the file system allows.
             name = f".{path.name[:40]}.{secrets.token_hex(4)}{SUFFIX}"
-            # The name is recorded before the file exists: a signal can arrive between any two instructions.
+            # The name is recorded before the file is created, because a signal can arrive between any two
+            # instructions.
             written[path] = path.parent / name
             with open(written[path], "xb", opener=_open_private) as stream:
                 stream.write(content)
                 stream.flush()
-                os.fsync(stream.fileno())  # without this flush, a power failure could leave an empty file
+                os.fsync(stream.fileno())  # otherwise the file could be empty after a power failure
             if not private:
                 os.chmod(written[path], _mode(path))
         for path, temporary in written.items():
@@ -53,7 +55,7 @@ def write_files(contents: Mapping[Path, bytes], *, private: bool = False) -> Non
 
 
 def is_temporary(name: str) -> bool:
-    """Whether a name has the form of the temporary files of :func:`write_files`.
+    """Return True if a name has the form of the temporary files of :func:`write_files`.
 
     >>> is_temporary(".rigid.c.k3_x91ab" + SUFFIX), is_temporary(".rigid.c")
     (True, False)

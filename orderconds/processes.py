@@ -1,7 +1,7 @@
-"""Run jobs in parallel in worker processes, which end when the process that started them ends.
+"""Parallel execution of jobs in worker processes. The workers end when the process that started them ends.
 
-Jobs and results are strings, numbers of Python, and records of these, because the exact numbers of flint
-cannot be pickled.
+Jobs and results consist of strings, numbers of Python, and records that contain these, because the exact
+numbers of flint cannot be pickled.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ Result = TypeVar("Result")
 def in_processes(
     work: Callable[[Job], Result], jobs: Sequence[Job], processes: int | None = None
 ) -> Iterator[Result]:
-    """Yield ``work(job)`` for each job, in order.
+    """Yield ``work(job)`` for each job, in the order of the jobs.
 
     ``processes`` is the number of worker processes, by default the number of processors. A single job runs in
-    this process. If the iteration ends early, for whatever reason, the workers are terminated. An error of a
-    job is raised again in this process. Raises InputError if a worker was killed.
+    this process. If the iteration ends before the last job, the workers are terminated. An error that a job
+    raises in a worker is raised again in this process. Raises InputError if a worker was killed.
 
     >>> list(in_processes(len, ["one"]))
     [3]
@@ -71,7 +71,7 @@ def _start(work: Callable[[Job], Result]) -> tuple[Connection, BaseProcess]:
 
 
 def _distribute(idle: list[Connection], jobs: Sequence[Job]) -> Iterator[Result]:
-    """Give each idle worker the next job, and yield the results in the order of the jobs."""
+    """Send the next job to each idle worker, and yield the results in the order of the jobs."""
     from multiprocessing import connection
 
     count, given = len(idle), 0

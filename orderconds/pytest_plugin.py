@@ -1,11 +1,12 @@
 """A pytest plugin for tableau files: ``pytest --orderconds tableaux/`` makes each file a test of its claims.
 
-Without a flag the plugin does nothing. The flags are those of ``orderconds check``:
-``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
+Without one of its flags the plugin does nothing. The other flags correspond to options of ``orderconds
+check``: ``--orderconds-require-claims``, ``--orderconds-complete``, ``--orderconds-certified``,
 ``--orderconds-execute`` and ``--orderconds-tolerance``. Files of every format are collected. A tableau that
-claims no order is skipped, with its computed order; ``--orderconds-require-claims`` lets it fail. Other
-files of these formats, such as ``pyproject.toml``, are named at the end with the reason why they are skipped.
-A file that the command line names is always collected. Python modules are parsed and not imported.
+claims no order is skipped, and its computed order is reported. With ``--orderconds-require-claims`` such a
+tableau fails. Files of these formats that contain no tableau, such as ``pyproject.toml``, are skipped. Their
+names and the reasons are printed at the end. A file that the command line names is always collected. Python
+modules are parsed and not imported.
 """
 
 from __future__ import annotations
@@ -26,11 +27,11 @@ FLAGS = {
 }
 
 SKIPPED = pytest.StashKey[dict[str, str]]()
-"""The skipped files, with the reasons."""
+"""The names of the skipped files, with the reason why each file is skipped."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the flags."""
+    """Add the flags of the plugin to the command line of pytest."""
     group = parser.getgroup("orderconds", "order conditions of tableaux")
     for flag, text in FLAGS.items():
         group.addoption(flag, action="store_true", help=text)
@@ -69,7 +70,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
-    """Keep pytest from importing a tableau module that the command line names."""
+    """Prevent pytest from importing a Python file with a tableau that the command line names."""
     if not _is_on(parent.config) or _is_test_module(module_path, parent.config):
         return None
     from orderconds.exchange.folder import reason_to_skip
@@ -81,18 +82,20 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
 
 
 def _asked(path: Path, config: pytest.Config) -> bool:
-    """Whether the command line names a file or a folder above it; pytest also visits files next to these."""
+    """Return True if the command line of pytest names this file or a folder that contains it. Pytest also
+    visits files that the command line does not name."""
     places = (config.invocation_params.dir / argument.partition("::")[0] for argument in config.args)
     return any(path.is_relative_to(place) or path.is_relative_to(place.resolve()) for place in places)
 
 
 def _is_test_module(path: Path, config: pytest.Config) -> bool:
-    """Whether pytest collects a module of this name as tests."""
+    """Return True if the settings of pytest (``python_files``) select a module of this name as a test
+    module."""
     return path.suffix == ".py" and any(fnmatch(path.name, x) for x in config.getini("python_files"))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
-    """Name the skipped files."""
+    """Print the names of the skipped files."""
     for path, reason in config.stash.get(SKIPPED, {}).items():
         terminalreporter.write_line(f"orderconds: skipped {path}: {reason}")
 
@@ -101,7 +104,7 @@ class NoTests(pytest.File):
     """A module without tests."""
 
     def collect(self) -> Iterable[pytest.Item]:
-        """Return nothing."""
+        """Return an empty list, because the module contains no tests."""
         return ()
 
 
@@ -114,10 +117,11 @@ class TableauFile(pytest.File):
 
 
 class TableauItem(pytest.Item):
-    """All claims of one tableau file."""
+    """A test of all claims of one tableau file."""
 
     def runtest(self) -> None:
-        """Check the file; raise :class:`ClaimFails` with the text that ``orderconds check`` prints."""
+        """Check the file. If a claim fails, raise :class:`ClaimFails` with the text that ``orderconds check``
+        prints."""
         from orderconds.checking import check, read
 
         require, complete, certified, execute = (
@@ -135,7 +139,8 @@ class TableauItem(pytest.Item):
             raise ClaimFails(report.summary())
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
-        """Return the verdict. If the file cannot be read, return the message, without a traceback."""
+        """Return the text of a failure: the verdict on the claims or, if the file cannot be read, the error
+        message. The text contains no traceback."""
         from orderconds.errors import InputError
 
         if isinstance(excinfo.value, ClaimFails | InputError):
@@ -143,7 +148,7 @@ class TableauItem(pytest.Item):
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:
-        """Name the file."""
+        """Return the position of the test for the report of pytest: the path of the file."""
         return self.path, None, f"orderconds: {self.path.name}"
 
 

@@ -22,14 +22,17 @@ if TYPE_CHECKING:
 
 
 MAX_COMPUTED = 5_000_000
-"""Largest estimated number of terms that are computed: about 500 MB."""
+"""The largest estimated number of terms for which the expansion is computed. The computation then needs about
+500 MB."""
 
 MAX_TERMS = 500_000
-"""Largest number of terms that are written: about 20 MB of text, and 1.5 GB of memory."""
+"""The largest number of terms for which the expansion is written. The text then has about 20 MB, and writing
+needs 1.5 GB of memory."""
 
 
 def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False) -> Derivation:
-    """Return a derivation's conditions as polynomials in the entries of a tableau with ``stages`` stages.
+    """Return a derivation whose conditions are expanded: they are polynomials in the entries of a tableau
+    with ``stages`` stages.
 
     If ``explicit`` is true, the tableau is strictly lower triangular. Otherwise all its entries are
     variables. Raises :class:`~orderconds.errors.InputError` for a family whose coefficients are not numbered
@@ -57,7 +60,7 @@ def expand_stages(derivation: Derivation, stages: int, *, explicit: bool = False
 
 
 def _terms_at_most(derivation: Derivation, stages: int, *, explicit: bool) -> int:
-    """Return an estimate from above of the number of terms.
+    """Return an upper bound of the number of terms.
 
     A tree with n vertices gives one term for each choice of n indices. In an explicit method two neighbours
     have stages * (stages - 1)/2 pairs of indices and not stages^2.
@@ -103,7 +106,8 @@ def polynomials(
 
 
 def _formula(symbols: list[Coefficient], terms: Iterable[tuple[tuple[int, ...], fmpq]]) -> Formula:
-    """Turn a polynomial's terms into a formula; entry k of a tuple is the exponent of ``symbols[k]``."""
+    """Return the formula of a polynomial that is given by its terms. Entry k of a tuple of exponents is the
+    exponent of ``symbols[k]``."""
     return Total(
         tuple(
             (

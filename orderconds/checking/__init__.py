@@ -1,16 +1,18 @@
 """Compute the exact order of a tableau in each family that its file claims, with a certificate.
 
 Conditions of order 1, 2, ... are evaluated in the ring of the tableau's coefficients until a condition fails.
-A claim states the exact order of the method. The claim also fails if the method has a higher order.
+A claim states the exact order of the method. Therefore a claim also fails if the order of the method is
+higher than the claimed order.
 
 Certificates. ``exact``: every residual up to the order is zero in an exact ring. ``ball``: the file names
 equations for its decimals, and interval arithmetic proves that the equations have exactly one solution within
 one unit of the last digits. The method whose coefficients are this solution has the stated order
 (:mod:`orderconds.proof`). ``decimal``: some residuals are balls that contain zero. The digits in the file
-support the order, but do not prove it. ``double``: the same, where the coefficients are doubles
-(:mod:`orderconds.tableau.doubles`); no residual is larger than a few roundings of the coefficients can cause.
-A ball too wide to decide (see :data:`orderconds.checking.residuals.RESOLUTION`) leaves the order
-``undecided`` and its certificate ``none``; a ball that excludes zero proves that the condition fails.
+support the order, but do not prove it. ``double``: the coefficients are doubles
+(:mod:`orderconds.tableau.doubles`), and some residuals are balls that contain zero. The residuals are so
+small that a few roundings of the coefficients can explain them, but the order is not proved. If a ball is too
+wide to decide a condition (see :data:`orderconds.checking.residuals.RESOLUTION`), the order is ``undecided``
+and its certificate is ``none``. A ball that does not contain zero proves that the condition fails.
 """
 
 from __future__ import annotations

@@ -1,11 +1,10 @@
-"""The claimable families of a tableau. The file of the tableau should state an order in each of these
-families.
+"""The claimable families of a tableau: the families in which the file of the tableau should claim an order.
 
 A Butcher tableau claims ``rk``, ``cg`` and ``rkmk``. With non-zero weights it also claims ``sprk``, ``vcg``
 and ``vrkmk``. For ``rkmk`` and ``vrkmk``, a claim with any value of the cut-off suffices. A commutator-free
 method claims ``rk``, ``cf`` and, with non-zero weights, ``vcf``. A pair claims ``prk``; a symplectic pair
-claims ``sprk_separable`` instead. A family is left out if the order in it follows from the order in another
-family. For example, ``prk`` is left out for an ``rk`` tableau. The method
+claims ``sprk_separable`` and not ``prk``. A family is omitted if the order in the family follows from the
+order in another family. For example, ``prk`` is omitted for an ``rk`` tableau. The method
 :meth:`orderconds.families.Family.claimable` decides for each family.
 """
 
@@ -19,9 +18,9 @@ from orderconds.tableau import Tableau
 def claimable_families(tableau: Tableau) -> tuple[Family, ...]:
     """Return the families in which a file of this tableau should claim an order.
 
-    They are sorted: first families on vector spaces, then families on Lie groups, and finally families whose
-    formulas divide by the weights. Within each of these three classes, the families whose preferred format is
-    the format of the tableau come first.
+    The result is sorted: first families on vector spaces, then families on Lie groups, and finally families
+    whose formulas divide by the weights. Within each of these three classes, the families whose preferred
+    format is the format of the tableau come first.
 
     >>> from orderconds.checking import read
     >>> [family.name for family in claimable_families(read("rk4"))]

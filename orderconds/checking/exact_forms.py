@@ -1,8 +1,8 @@
 """Recognise the exact coefficients of a tableau that is given by doubles or rounded decimals.
 
 Each coefficient is compared with fractions of small denominator, then with numbers p + q sqrt(d), where d is
-the same for all coefficients. The result counts only if the exact tableau has the order that the digits
-support, with the certificate ``exact``.
+the same for all coefficients. The exact numbers are accepted only if the tableau with these numbers has, with
+the certificate ``exact``, the order that the given digits support.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from orderconds.tableau.grammar import ZERO, Chain, Constant, Expression, parse
 from orderconds.tableau.record import Tableau, from_data
 
 CHANCE = Fraction(1, 2**9)
-"""A fraction with denominator q is accepted if q^2 times the uncertainty of the number is at most this."""
+"""The largest value of q^2 times the uncertainty of a number for which a fraction with denominator q is
+accepted."""
 
 TEXTS = ("name", "family", "source", "bibtex", "claims", "base", "parts", "order")
 """Keys of a file that contain no coefficients."""
@@ -40,7 +41,8 @@ class ExactForms:
 
 
 def exact_forms(tableau: Tableau) -> ExactForms | None:
-    """Return the exact tableau near the digits, or None if it is not recognised or its order is not proved.
+    """Return the exact tableau near the given digits. Return None if the numbers are not recognised or the
+    order of the exact tableau is not proved.
 
     >>> rows = {"A": [[], ["0.6666666666666666d"]], "b": ["0.25", "0.75"]}
     >>> exact_forms(from_data({"name": "m", "family": "rk", **rows})).data["A"]
@@ -74,7 +76,8 @@ def exact_forms(tableau: Tableau) -> ExactForms | None:
 
 
 def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
-    """Return the text of each number as an element of one field, or None."""
+    """Return the text of each number as an element of one field, or None if the numbers are not
+    recognised."""
     fractions = {constant: _fraction(constant) for constant in constants}
     texts = {constant: str(x) for constant, x in fractions.items() if x is not None}
     others = [constant for constant, x in fractions.items() if x is None]
@@ -93,18 +96,18 @@ def _recognised(constants: Sequence[Constant]) -> dict[Constant, str] | None:
 
 
 def _fraction(x: Constant) -> Fraction | None:
-    """Return the simplest fraction near a number, or None if chance could yield it."""
+    """Return the simplest fraction near a number, or None if the agreement could be a coincidence."""
     q = simplest(x.value - x.unit, x.value + x.unit)
     return q if q.denominator**2 * x.unit <= CHANCE else None
 
 
 def _bits(x: Constant) -> int:
-    """Return the number of binary places that are known of a number."""
+    """Return the number of binary places of a number that its uncertainty leaves certain."""
     return max(0, (x.unit.denominator // x.unit.numerator).bit_length() - 1)
 
 
 def _surd(x: Constant, d: int) -> str | None:
-    """Return a number as ``p + q sqrt(d)``, or None."""
+    """Return a number as the text ``p + q sqrt(d)``, or None if it is not recognised in this form."""
     bits = _bits(x)
     root = root_of(d, 2 * bits)
     coefficients = relation([x.value, Fraction(1), root], bits)
@@ -124,7 +127,7 @@ def _surd(x: Constant, d: int) -> str | None:
 
 
 def _replaced(x: object, texts: dict[Constant, str]) -> object:
-    """Return the values of a file in which each recognised number has its exact text."""
+    """Return the values of a file in which the exact text replaces each recognised number."""
     if isinstance(x, list):
         return [_replaced(y, texts) for y in x]
     if isinstance(x, dict):

@@ -1,4 +1,5 @@
-"""Limits on the work of a check. At a limit the check ends and reports its results so far."""
+"""Limits on the work of a check. When a limit is reached, the check ends and reports the results that it has
+computed."""
 
 from __future__ import annotations
 
@@ -14,7 +15,8 @@ class Limits:
     """The highest allowed number of ``conditions`` of one order, of ``seconds`` in total, and of
     ``megabytes`` of memory. None means no limit.
 
-    Time and memory are compared with their limits after each batch of conditions, so a batch may exceed them.
+    Time and memory are compared with their limits only after each batch of conditions, so the limits may be
+    exceeded during a batch.
     """
 
     conditions: int = MAX_CONDITIONS
@@ -24,7 +26,7 @@ class Limits:
 
 @dataclass
 class Meter:
-    """A counter for the conditions of one check; it reports when a limit is reached.
+    """A counter for the conditions that one check evaluates. It reports when a limit is reached.
 
     >>> meter = Meter(Limits(conditions=10))
     >>> meter.count(8)
@@ -48,7 +50,7 @@ class Meter:
         self.of_order += conditions
 
     def stops(self, more: int) -> bool:
-        """Whether evaluating this number of further conditions would exceed a limit."""
+        """Return True if evaluating this number of further conditions would exceed a limit."""
         limits = self.limits
         if self.of_order + more > limits.conditions:
             return True
@@ -58,7 +60,8 @@ class Meter:
 
 
 def resident_megabytes() -> float:
-    """Return the memory of this process; if the system does not report it, the peak memory.
+    """Return the memory that this process uses. If the system does not report this number, return the peak
+    memory of the process.
 
     >>> resident_megabytes() >= 0
     True
@@ -76,7 +79,7 @@ def resident_megabytes() -> float:
 def _largest_megabytes() -> float:
     try:
         import resource
-    except ImportError:  # Python on Windows has no module ``resource``
+    except ImportError:  # Python on Windows has no module ``resource``.
         return 0.0
     import sys
 

@@ -27,10 +27,10 @@ STOPPED = "stopped"
 """The verdict on an order that was not decided because of a limit."""
 
 DOUBLE = "double"
-"""The certificate of an order that coefficients in double precision support."""
+"""The certificate of an order that coefficients in double precision support but do not prove."""
 
 Tree = tuple[Key, Callable[[], OrderCondition]]
-"""A family's own encoding of a tree, and a function that returns the condition of the tree."""
+"""A pair: a tree in the encoding of its family, and a function that returns the condition of the tree."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,7 +55,8 @@ class FamilyOrder:
     limit: int | None = None
     stopped: int | None = None
     largest: float | None = None
-    """The largest residual up to this order, if the coefficients are doubles."""
+    """The largest residual of the conditions up to this order if the coefficients are doubles; otherwise
+    None."""
 
     def __repr__(self) -> str:
         return (
@@ -95,7 +96,7 @@ class FamilyOrder:
             "verdict": self.verdict,
             "certificate": self.certificate,
             "failing": [failure.as_json() for failure in self.failing],
-            # an infinite norm becomes null, because JSON has no infinity
+            # An infinite norm is written as null, because JSON has no infinity.
             "error_norm": None if self.error_norm == math.inf else self.error_norm,
         }
         if self.limit is not None:
@@ -123,9 +124,9 @@ def family_order(
     Hence ``bound`` is an upper bound of the order in ``family``. ``search_limit`` is the highest order that
     is evaluated for a file without a claim in ``family``. The search stops at the order of ``bound`` if this
     order is at least ``search_limit``, or if ``brief`` is true. The result then contains the failing
-    conditions of ``bound``. Conditions that follow from others, and from the orders ``proved`` in other
-    families, are not evaluated (:mod:`orderconds.families.reductions`). The search also ends when ``meter``
-    reports that a limit is reached.
+    conditions of ``bound``. Conditions that follow from other conditions, or from the orders ``proved`` in
+    other families, are not evaluated (:mod:`orderconds.families.reductions`). The search also ends when
+    ``meter`` reports that a limit is reached.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -143,8 +144,8 @@ def family_order(
 
 
 def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure, ...]:
-    """Return the first condition of this order that no method of the family satisfies, if this method
-    violates it.
+    """Return the first condition of this order that no method of the family satisfies, or None. The condition
+    is returned only if this method violates it.
 
     >>> from orderconds.families import get
     >>> from orderconds.tableau import find
@@ -160,7 +161,7 @@ def first_failing(tableau: Tableau, family: Family, order: int) -> tuple[Failure
 
 @dataclass(frozen=True)
 class _Search:
-    """A family, a method in its format, and the conditions that need not be evaluated."""
+    """A family, a method in the format of the family, and the reductions that apply to the method."""
 
     family: Family
     method: Method
@@ -168,7 +169,8 @@ class _Search:
     spared: Reductions
     meter: Meter
     sizes: list[float] | None
-    """The largest residual of each batch of conditions that hold, if the coefficients are doubles."""
+    """The largest residual of each batch of conditions in which no condition fails, if the coefficients are
+    doubles."""
 
     def run(
         self, claimed: int | None, required: int | None, bound: FamilyOrder | None, brief: bool
@@ -198,7 +200,8 @@ class _Search:
         return FamilyOrder(label, limit, certificate, True, (), None, claimed, required, ended)
 
     def _judged(self, n: int, unlikely: bool, decimal: bool) -> tuple[set[str], tuple[Failure, ...], bool]:
-        """Return the verdicts on order n, the conditions that fail, and whether all were evaluated."""
+        """Return three values: the verdicts on the conditions of order n, the conditions that fail, and True
+        if all conditions were evaluated."""
         failing: tuple[Failure, ...] = ()
         verdicts: set[str] = set()
         whole = True
@@ -224,8 +227,8 @@ class _Search:
 
 
 def _batches(family: Family, n: int) -> Iterator[tuple[tuple[Tree, ...], bool]]:
-    """Yield the conditions that decide order n: all of them at once, as (conditions, True), or in batches,
-    each as (batch, False).
+    """Yield the conditions that decide order n. A small number of conditions is yielded at once, as
+    (conditions, True), a large number in batches, each as (batch, False).
 
     The conditions are an independent set or, if such a set costs more, the conditions of all trees. The size
     of the batches doubles.
@@ -258,7 +261,7 @@ def _method(tableau: Tableau, family: Family) -> Method:
     method = family.read(tableau)
     if method is None:
         raise InputError(
-            f"a tableau of format {tableau.family} cannot be read in family {family.label()}",
+            f"a tableau of format {tableau.family} is not a method of family {family.label()}",
             where=tableau.path or tableau.name,
             expected=f"format {' or '.join(family.formats)}",
         )

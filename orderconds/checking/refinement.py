@@ -1,4 +1,5 @@
-"""A tableau with exact coefficients, or with more digits in its rounded decimals, and the proof."""
+"""The refinement of a tableau: its numbers are replaced by exact numbers or by decimals with more digits, and
+the new coefficients are proved."""
 
 from __future__ import annotations
 
@@ -42,7 +43,7 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
 
     If the tableau has a table ``[proof]``, ``digits`` (10 to 1000) places of its decimals are computed and
     proved. Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the
-    exact method has at least the order of the given one. ``tableau`` may also be a file or a name of the
+    exact method has at least the order of the given method. ``tableau`` may also be a file or a name of the
     library.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if

@@ -24,7 +24,7 @@ class EmbeddedOrder(Struct, frozen=True):
     family ``own``, and the computed orders of the row by family.
 
     ``certificates`` are the certificates of these orders, by family. ``own`` is ``rk`` if the row consists of
-    weights, and ``cf`` if it is an update by exponentials. ``failing`` are the failing conditions of the
+    weights, and ``cf`` if the row is an update by exponentials. ``failing`` are the failing conditions of the
     family ``own`` at the next order.
     """
 
@@ -56,7 +56,7 @@ class Report:
     embedded: EmbeddedOrder | None = None
     properties_claimed: bool = False
     hint: str = ""
-    """A suggestion for the author of the file."""
+    """A suggestion for the author of the tableau file, or an empty text."""
 
     @property
     def verdict(self) -> str:

@@ -1,4 +1,5 @@
-"""A report as a notebook shows it: a table of orders, and the first failing condition of each family."""
+"""The HTML text with which a notebook shows a report: a table of orders, and the first failing condition of
+each family."""
 
 from __future__ import annotations
 
@@ -11,7 +12,7 @@ if TYPE_CHECKING:
     from orderconds.checking.report import Report
 
 LONGEST = 120
-"""Longer formulas and residuals are not shown."""
+"""The maximal length of a formula or residual. Longer formulas and residuals are not shown."""
 
 
 def report_html(report: Report) -> str:
@@ -43,7 +44,7 @@ def _row(order: FamilyOrder) -> str:
 
 
 def _failing(order: FamilyOrder) -> Iterator[str]:
-    """Yield the first condition that fails at the next order."""
+    """Yield a line with the first condition that fails in one family, if a condition fails."""
     for failure in order.failing[:1]:
         count, n = len(order.failing), order.order + 1
         of_all = f"1 of {count} conditions" if count > 1 else "a condition"

@@ -34,7 +34,8 @@ RESOLUTION = Decimal("1e-3")
 exact value of an elementary integral of that order."""
 
 BITS = 256
-"""Precision of the balls in bits; it gives twenty digits of a residual that is not zero."""
+"""The precision of the balls in bits. With this precision, twenty digits of a non-zero residual are
+correct."""
 
 ENCLOSING = Balls(BITS)
 DIGITS = 20
@@ -50,7 +51,7 @@ class Failure:
     ring: Ring = field(repr=False)
     exact: Callable[[], Element] = field(repr=False)
     enclosure: arb | None = field(default=None, repr=False)
-    """A flint ball around the value, if one was computed."""
+    """A ball of the library flint around the value, or None if no ball was computed."""
 
     @cached_property
     def value(self) -> Element:
@@ -69,7 +70,7 @@ class Failure:
 
     @cached_property
     def size(self) -> Decimal:
-        """The residual as a number of 20 digits, from the ball if the ball determines all of them."""
+        """The residual as a number of 20 digits. The ball is used if it determines all 20 digits."""
         if self.enclosure is not None:
             low, high = (rational_decimal(x, DIGITS) for x in endpoints(self.enclosure))
             if low == high:
@@ -108,7 +109,7 @@ def judge(
     balls_first: bool = False,
     sizes: list[float] | None = None,
 ) -> tuple[set[str], tuple[Failure, ...]]:
-    """Return the set of verdicts on the conditions, and the conditions that fail.
+    """Return the set of verdicts that occur for the given conditions, and the conditions that fail.
 
     If ``sizes`` is a list and no condition fails, the largest residual is appended to it.
 
@@ -169,15 +170,16 @@ _ENCLOSED = Memo(_enclosed)
 
 
 def _over_q(family: Family, method: Method, ring: NumberField) -> bool:
-    """Whether the family evaluates the method with rational numbers, which is faster than with balls."""
+    """Return True if the family evaluates the method with rational numbers, which is faster than with
+    balls."""
     if not (family.over_rationals and isinstance(method, RungeKutta | PartitionedRungeKutta)):
         return False
     return nodal_algebra(ring, (method.A,), method.b) is not None
 
 
 class _OnDemand:
-    """Exact residuals on demand. The first residual requested is computed alone; the second request computes
-    all remaining residuals."""
+    """Exact residuals that are computed on request. The first request computes only the requested residual;
+    the second request computes all remaining residuals."""
 
     def __init__(
         self, family: Family, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
@@ -198,7 +200,8 @@ class _OnDemand:
 
 
 def _rational(x: Element) -> fmpq | None:
-    """Return an exact number as a quotient, or None if it is a ball or not rational."""
+    """Return a rational number as a quotient of integers. Return None if the number is a ball or is not
+    rational."""
     if isinstance(x, Algebraic):
         return x.rational_value if x.is_rational else None
     return x if isinstance(x, fmpq) else None
@@ -212,6 +215,6 @@ def _verdict(ring: Ring, residual: Element, n: int) -> str:
     zero = ring.is_zero(residual)
     if zero is not None:
         return "zero" if zero else "fails"
-    assert isinstance(ring, Balls)  # in an exact ring is_zero is never None
+    assert isinstance(ring, Balls)  # In an exact ring, is_zero never returns None.
     radius = Decimal(ring.radius(residual))
     return "supported" if radius <= RESOLUTION / factorial(n) else "undecided"

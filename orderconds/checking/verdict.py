@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 NOT_PROVED = ("decimal", DOUBLE)
-"""The certificates of orders that digits support and do not prove."""
+"""The certificates of orders that the digits in the file support but do not prove."""
 
 
 def check(
@@ -42,10 +42,11 @@ def check(
 
     With ``family`` (``"vcg"``, ``"rkmk(1)"``) only that family is checked, whether or not the file claims it.
     With ``order`` the order must be at least this number, and claims are ignored. With ``complete`` the check
-    fails unless the file claims an order in each claimable family. With ``certified`` it fails if only digits
-    support an order. A tableau without claims is checked in the family of its format, and its verdict is
-    ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in the report is a lower bound.
-    ``tolerance`` is the uncertainty of doubles in units of rounding (:mod:`orderconds.tableau.doubles`).
+    fails unless the file claims an order in each claimable family. With ``certified`` the check fails if an
+    order is supported by digits but not proved. A tableau without claims is checked in the family of its
+    format, and its verdict is ``unclaimed``. ``limits`` bound the work; if a limit is reached, the order in
+    the report is a lower bound. ``tolerance`` is the uncertainty of doubles in units of rounding
+    (:mod:`orderconds.tableau.doubles`).
 
     Raises subclasses of :class:`~orderconds.errors.InputError`: UnknownName for a family, ZeroWeight if a
     formula divides by a weight b_i = 0, and TableauError for a file that cannot be read.
@@ -90,7 +91,8 @@ def check(
 
 
 def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
-    """Return order and tolerance as numbers; raise InputError for other types and values."""
+    """Return the order and the tolerance as numbers. Raises InputError for values of other types or outside
+    the bounds."""
     if limits is not None and not isinstance(limits, Limits):
         raise InputError(described(limits), where="limits", expected="Limits")
     return (
@@ -100,19 +102,22 @@ def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | Non
 
 
 def _named(orders: tuple[FamilyOrder, ...], tableau: Tableau) -> tuple[FamilyOrder, ...]:
-    """Return the orders with the certificate ``double`` instead of ``decimal`` for a tableau of doubles."""
+    """Return the orders. For a tableau of doubles, the certificate ``double`` replaces the certificate
+    ``decimal``."""
     if not tableau.doubles:
         return orders
     return tuple(replace(f, certificate=_of_doubles(f.certificate)) for f in orders)
 
 
 def _of_doubles(certificate: str) -> str:
-    """Return the certificate of an order, given the certificate that balls around doubles yield."""
+    """Return the certificate of an order of a tableau of doubles. The argument is the certificate that the
+    evaluation with balls around the doubles gave."""
     return DOUBLE if certificate == "decimal" else certificate
 
 
 def _hint(tableau: Tableau, orders: Sequence[FamilyOrder]) -> str:
-    """Return the sentence that names closed forms of doubles, or an empty text."""
+    """Return a sentence that names exact numbers near the doubles of a tableau, or an empty text if there are
+    none."""
     if not tableau.doubles or any(family.verdict == "fails" for family in orders):
         return ""
     from orderconds.checking.exact_forms import exact_forms
@@ -171,7 +176,8 @@ def _orders(
     required: int | None,
     meter: Meter,
 ) -> tuple[FamilyOrder, ...]:
-    """Return the order in each family; beyond the search limit of a family, theorems determine the order."""
+    """Return the order in each family. Orders beyond the search limit of a family are derived from
+    theorems."""
     beside = _beside(tableau, wanted, required or 0)
     known_orders: list[FamilyOrder] = []
     for read_as, family, claimed in (*beside, *((tableau, *each) for each in wanted)):
@@ -191,7 +197,7 @@ def _orders(
 
 
 Reading = tuple[Tableau, Family, int | None]
-"""A tableau in a format of the family, the family, and the claimed order."""
+"""One order to compute: a tableau in a format of the family, the family, and the claimed order."""
 
 
 def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], required: int) -> list[Reading]:
@@ -203,7 +209,8 @@ def _beside(tableau: Tableau, wanted: Sequence[tuple[Family, int | None]], requi
 
 
 def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
-    """Return the families whose orders bound orders in other families, without the families in ``labels``.
+    """Return the families whose orders bound the orders in other families. Families in ``labels`` are
+    omitted.
 
     A tableau (A, b) that is a composition of midpoint rules is also read as a composition.
     """
@@ -221,10 +228,11 @@ def _bounding(tableau: Tableau, labels: Collection[str]) -> list[Reading]:
 def _beyond(
     tableau: Tableau, family: Family, ended: FamilyOrder, facts: tuple[Fact, ...], meter: Meter
 ) -> FamilyOrder:
-    """Return the order if theorems determine it beyond the highest order searched, else the result ``ended``.
+    """Return the order in a family if theorems determine it; otherwise return ``ended``, the result of the
+    search up to the search limit.
 
-    Theorems bound the order from below. The order in another family, or a failing condition, bounds it from
-    above.
+    Theorems give a lower bound of the order. The order in another family, or a failing condition, gives an
+    upper bound.
     """
     bounding = _bounding(tableau, [family.label()])
     bounding_orders = [family_order(read_as, other, claim, meter=meter) for read_as, other, claim in bounding]
@@ -299,7 +307,8 @@ def _settled_by(
 
 
 def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -> FamilyOrder:
-    """Change the certificate from ``decimal`` to ``ball`` if proved facts imply the order."""
+    """Return the order with the certificate ``ball`` in place of ``decimal`` if proved orders in other
+    families imply it."""
     if computed.certificate != "decimal" or not facts:
         return computed
     from orderconds.proof.implications import implied
@@ -309,7 +318,7 @@ def _certified(computed: FamilyOrder, family: Family, facts: tuple[Fact, ...]) -
 
 def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     """Read a file of any format that :mod:`orderconds.exchange` reads, or the tableau of this name in the
-    library. A Python module is parsed; with ``execute`` it is run.
+    library. A Python module is parsed, or executed if ``execute`` is true.
 
     >>> read("rk4").name
     'rk4'
@@ -323,8 +332,9 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:
-    """Yield the families to check, each with its claimed order: the given family; or all claimed families;
-    or, without claims, the family of the tableau format."""
+    """Yield the families to check, each with its claimed order. If a family is given, only this family is
+    checked. Otherwise these are the claimed families, or the family of the tableau format if the file claims
+    no order."""
     claims = {claim.label: claim.order for claim in tableau.claims.orders}
     if family is not None:
         member = families.get(family)
@@ -350,9 +360,9 @@ def _claimed(tableau: Tableau, label: str) -> Family:
 
         readers = ", ".join(member.label() for member in claimable_families(tableau))
         raise InputError(
-            f"a claim in family {label}, which does not read tableaux of format {tableau.family}",
+            f"a claim in family {label}, which does not accept tableaux of format {tableau.family}",
             where=where,
-            expected=f"a family that reads them, such as {readers}",
+            expected=f"a family that accepts them, such as {readers}",
         )
     return family
 
@@ -373,8 +383,8 @@ def _broken_claims(
 
 
 def _missing_claims(enclosed: Tableau, tableau: Tableau) -> Iterator[str]:
-    """Yield a message for each family without a claim, with the order that it could claim. ``enclosed`` has
-    the proved coefficients of the tableau."""
+    """Yield a message for each claimable family in which the file claims no order. The message contains the
+    order that the file could claim. ``enclosed`` contains the proved coefficients of the tableau."""
     from orderconds.checking.claimable import unclaimed
 
     for family in unclaimed(tableau):

@@ -49,7 +49,9 @@ WIDTH = 200
     metavar="FILE|DIR|NAME...",
     shell_complete=completing(tableau_names, files=True),
 )
-@click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), even without a claim.")
+@click.option(
+    "--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), also if the file claims no order in it."
+)
 @click.option(
     "--order",
     "-p",
@@ -70,10 +72,14 @@ WIDTH = 200
 @click.option(
     "--require-claims",
     is_flag=True,
-    help="Exit with 1 if a tableau claims no order that is checked, and with 2 if a file of a directory is "
-    "neither a tableau nor plainly other data.",
+    help="Exit with status 1 if a tableau claims none of the orders that are checked, and with status 2 if a "
+    "file below a directory is neither a tableau nor plainly other data.",
 )
-@click.option("--skip-others", is_flag=True, help="Skip named files that hold no tableau, as in a directory.")
+@click.option(
+    "--skip-others",
+    is_flag=True,
+    help="Skip named files that contain no tableau. Such files below a directory are always skipped.",
+)
 @click.option(
     "--tolerance",
     type=click.FloatRange(*TOLERANCE),
@@ -82,18 +88,24 @@ WIDTH = 200
     "or of 1 if the number is smaller). Default: 8. With 0 the floats are exact numbers.",
 )
 @click.option(
-    "--execute", is_flag=True, help="Run Python files to obtain their arrays. Otherwise they are parsed."
+    "--execute",
+    is_flag=True,
+    help="Execute Python files to obtain their arrays. By default Python files are only parsed.",
 )
 @click.option(
     "--max-conditions",
     type=click.IntRange(1),
-    help="Evaluate at most this many conditions of one order. Default: 50000.",
+    help="The largest number of conditions of one order that are evaluated. Default: 50000.",
 )
 @click.option(
-    "--max-seconds", type=click.FloatRange(0, min_open=True), help="End each check after this many seconds."
+    "--max-seconds",
+    type=click.FloatRange(0, min_open=True),
+    help="Stop the check of a tableau after this number of seconds.",
 )
 @click.option(
-    "--max-memory", type=click.IntRange(1), help="End each check if it uses more than this many megabytes."
+    "--max-memory",
+    type=click.IntRange(1),
+    help="Stop the check of a tableau when it uses more than this number of megabytes of memory.",
 )
 @click.option(
     "--json", "as_json", is_flag=True, help="Print one JSON list of records on stdout and nothing else."
@@ -115,14 +127,15 @@ def command(
 ) -> int:
     """Find the exact order and the properties of each tableau: a file (TOML, JSON, CSV, NPZ, Python, LaTeX or
     C), every such file below a directory, or a name from the library. A claimed order must equal the computed
-    order. A file claims an order with `order = 4`, or with `rk = 4` among its claims. If a limit ends the
-    search, the computed order is a lower bound.
+    order. A file claims an order with `order = 4`, or with `rk = 4` in the table `claims`. If a limit ends
+    the computation, the computed order is a lower bound.
 
-    Files of a directory that hold no tableau are skipped and named. A file is plainly other data if it has no
-    array of a tableau: a CSV file whose header names other columns, a JSON file without a matrix, a Python
-    module that assigns no matrix A and no list b, a NumPy archive with other names.
+    Files below a directory that contain no tableau are skipped, and their names are printed. A file is
+    plainly other data if it contains no array of a tableau. Examples are a CSV file whose header names other
+    columns, a JSON file without a matrix, a Python module that assigns no matrix A and no list b, and a NumPy
+    archive with other names.
 
-    Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
+    Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if a file could not be read.
 
     \b
     Examples:
@@ -131,7 +144,7 @@ def command(
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
     if family is not None:
-        families.get(family)  # report an unknown family once, not for each file
+        families.get(family)  # an unknown family is reported once, not for each file
     job = _Job(
         path="",
         family=family,
@@ -160,13 +173,16 @@ def command(
 
 
 def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
-    """Write the number of tableaux without a claim to stderr, if there are any."""
+    """If there are tableaux without a claim, write their number to stderr."""
     if count := verdicts.count(UNCLAIMED):
-        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
+        click.echo(
+            f"--require-claims: {count} of {len(verdicts)} tableaux claim no order; {HOW_TO_CLAIM}",
+            err=True,
+        )
 
 
 def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
-    """Return a job for each tableau, with the options of ``job``."""
+    """Return one job for each tableau. All jobs have the options of ``job``."""
     excused = _excused(arguments)
     paths = list(_files(arguments, skip_others, strict))
     return [
@@ -181,7 +197,7 @@ def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: boo
 
 
 def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
-    """Check tableaux in parallel; print and yield the outcomes in order."""
+    """Check tableaux in parallel. Print and yield the outcomes in the order of the jobs."""
     subject = jobs[0].path if len(jobs) == 1 else f"{len(jobs)} tableaux"
     with screen.counting(f"checking {subject}", len(jobs)) as done, _without_collection(jobs):
         for job, outcome in zip(jobs, in_processes(_checked, jobs), strict=True):
@@ -195,8 +211,8 @@ def _outcomes(jobs: Sequence[_Job], as_json: bool) -> Iterator[_Outcome]:
 
 @contextmanager
 def _without_collection(jobs: Sequence[_Job]) -> Iterator[None]:
-    """Switch garbage collection off for one file, because a check creates many small objects that are used
-    until the check ends."""
+    """Disable garbage collection during the check of one file. A check creates many small objects that are
+    used until the check ends, so garbage collection would free nothing."""
     collects = gc.isenabled()
     if len(jobs) == 1:
         gc.disable()
@@ -251,7 +267,7 @@ def _checked(job: _Job) -> _Outcome:
         import json
 
         return _Outcome(report.verdict, json.dumps(report.as_json()))
-    if not job.one_of_many:  # only the main process writes to the terminal
+    if not job.one_of_many:  # Only the main process writes to the terminal.
         if screen.is_shown(report.verdict == "holds"):
             _print_report(report, detailed=job.detailed)
         return _Outcome(report.verdict, "")
@@ -275,8 +291,8 @@ def _excused(arguments: Sequence[str]) -> set[str]:
 def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
-    The skipped files are named on stderr, with the reason. If ``strict`` is true, only files that are plainly
-    other data are skipped.
+    The names of skipped files are written to stderr, with the reason. If ``strict`` is true, only files that
+    are plainly other data are skipped.
     """
     for argument in arguments:
         if not argument.strip():
@@ -340,7 +356,8 @@ def _print_report(report: Report, *, detailed: bool) -> None:
 
 
 def _embedded(embedded: EmbeddedOrder) -> str:
-    """Return the orders of an embedded row and their certificates, each certificate once."""
+    """Return the orders of an embedded row, followed by their certificates. Each certificate is named
+    once."""
     groups: dict[str, list[str]] = {}
     for label, order in embedded.orders.items():
         groups.setdefault(embedded.certificates[label], []).append(f"{order} ({label})")
@@ -348,7 +365,8 @@ def _embedded(embedded: EmbeddedOrder) -> str:
 
 
 def _work(work: dict[str, Work]) -> str:
-    """Return the cost of a step in one line: evaluations, then exponentials and brackets by family."""
+    """Return one line that describes the cost of a step: the number of evaluations, then the numbers of
+    exponentials and brackets in each family."""
     evaluations = max(cost.evaluations for cost in work.values())
     counts = [_count(evaluations, "evaluation")]
     for label, cost in work.items():

@@ -1,4 +1,4 @@
-"""``orderconds convert``: a tableau from and to JSON, CSV, NumPy, SymPy, LaTeX and C arrays."""
+"""``orderconds convert``: convert a tableau from or to JSON, CSV, NumPy, SymPy, LaTeX or C arrays."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ NAMES = click.Choice(list(FORMATS))
 def command(
     source: str, of: str | None, to: str | None, name: str | None, output: str | None, as_json: bool
 ) -> int:
-    """Convert a tableau, given as a file or by its name in the library. Input is never executed as code.
-    Reading the output again gives the same method.
+    """Convert a tableau, given as a file or by its name in the library. Input is never executed as code. If
+    the output is read, the result is the same method.
 
     \b
     Examples:
@@ -47,11 +47,14 @@ def command(
     data = read_data(content, of, str(path), name or name_of(path))
     if name is not None:
         data["name"] = name
-    from_data(data, str(path))  # raises an error if the tableau is invalid
+    from_data(data, str(path))  # This line raises an error if the tableau is invalid.
     lost = list(left_out(data, to))
     if not as_json:
         for key in lost:
-            click.echo(f"note: the key {key} is left out; json and toml keep it", err=True)
+            click.echo(
+                f"note: the output does not contain the key {key}; the formats json and toml can contain it",
+                err=True,
+            )
     elif to == "numpy" and output is None:
         raise click.UsageError(
             "the output of --json cannot contain a NumPy archive, because the archive is binary; give -o FILE"

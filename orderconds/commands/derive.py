@@ -46,7 +46,7 @@ FORMATS = ("text", "latex", "sympy", "json")
     "--json",
     "as_json",
     is_flag=True,
-    help="The same as --format json; stdout has the JSON also if --output names a file.",
+    help="The same as --format json. The JSON is written to stdout, also if --output names a file.",
 )
 def command(
     family: str,
@@ -61,7 +61,7 @@ def command(
 ) -> int:
     """Print the independent order conditions of FAMILY (rk, vcg, "rkmk(1)", ...) up to an order.
 
-    The format latex has numbered equations with their trees and labels for a two-column article, and defines
+    The format latex contains numbered equations with labels and trees, for a two-column article, and defines
     all symbols.
 
     \b
@@ -112,7 +112,7 @@ def _print(derivation: Derivation, form: str, explain: bool) -> None:
 
 
 def _print_text(derivation: Derivation, explain: bool) -> None:
-    """Print each order with its count, its trees and its equations."""
+    """Print, for each order, the number of conditions, the trees and the equations."""
     click.echo(f"{derivation.family}: {', '.join(map(str, derivation.counts))} conditions of order 1, 2, ...")
     for order, conditions in enumerate(derivation.by_order, start=1):
         click.echo(f"\norder {order}: {len(conditions)} condition{'' if len(conditions) == 1 else 's'}")
@@ -144,7 +144,8 @@ def _print_entries(derivation: Derivation, order: int) -> None:
 
 
 def _record(derivation: Derivation, explain: bool) -> dict[str, object]:
-    """Return the JSON object; with ``explain`` each condition has its elementary differential."""
+    """Return the JSON object of a derivation. If ``explain`` is true, each condition contains its elementary
+    differential."""
     record: dict[str, object] = derivation.as_json()
     if explain:
         from orderconds.explain.kinds import named_by

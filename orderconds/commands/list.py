@@ -1,8 +1,8 @@
 """``orderconds list``: list families, tableaux, and the listings of other packages (``codegen``: groups and
 scenes).
 
-A listing of another package is an entry point in the group ``orderconds.listings``: a function without
-arguments that returns records {"name", "about"}; "about" is a description of one line.
+Another package provides a listing by an entry point in the group ``orderconds.listings``. The entry point is
+a function without arguments that returns records {"name", "about"}; "about" is a description of one line.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from orderconds.commands import screen
 from orderconds.errors import InputError, UnknownName
 
 LISTING_GROUP = "orderconds.listings"
-"""The entry-point group in which other packages offer listings."""
+"""The entry-point group in which other packages register listings."""
 
 Records = Iterable[dict[str, str]]
 
@@ -57,7 +57,8 @@ def kinds_offered() -> list[str]:
 
 
 def listing(kind: str) -> Callable[[], Records]:
-    """Return the function that lists one kind; entry points are scanned only if the kind is not built in.
+    """Return the function that lists one kind. Entry points of installed packages are searched only if the
+    kind is not built in.
 
     >>> next(iter(listing("families")()))["name"]
     'rk'
@@ -96,4 +97,4 @@ def _tableaux() -> Records:
 
 
 BUILT_IN: dict[str, Callable[[], Records]] = {"families": _families, "tableaux": _tableaux}
-"""The listings of this package."""
+"""The functions that list the kinds of this package, by the name of the kind."""

@@ -1,4 +1,5 @@
-"""``orderconds modified``: the modified equation of a method, whose flow the steps follow exactly."""
+"""``orderconds modified``: the modified equation of a method. A step of the method is the exact flow of this
+equation."""
 
 from __future__ import annotations
 
@@ -16,16 +17,21 @@ if TYPE_CHECKING:
 @click.command(name="modified", short_help="Print the modified equation of a method.")
 @click.argument("tableau", metavar="FILE|NAME", shell_complete=completing(tableau_names, files=True))
 @click.option(
-    "--order", "-p", type=click.IntRange(1, 10), required=True, help="Print the terms up to h^(ORDER - 1)."
+    "--order",
+    "-p",
+    type=click.IntRange(1, 10),
+    required=True,
+    help="Print the terms of the modified equation up to h^(ORDER - 1).",
 )
 @click.option(
     "--family",
-    help="Treat the tableau as a method of this family. Default: rk or cf, from its format.",
+    help="Treat the tableau as a method of this family. Default: rk or cf, as its format determines.",
 )
 @click.option(
     "--modifying",
     is_flag=True,
-    help="Print the modifying field. The method, applied to this field, follows the exact flow of f.",
+    help="Print the modifying field. If the method is applied to this field, the result is the exact flow "
+    "of f.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(tableau: str, order: int, family: str | None, modifying: bool, as_json: bool) -> int:

@@ -54,7 +54,7 @@ def put(path: str, content: bytes) -> None:
     >>> put(os.devnull, b"gone")
     """
     try:
-        target = Path(os.path.realpath(path))  # write to the target of a symbolic link
+        target = Path(os.path.realpath(path))  # The file is written to the target of a symbolic link.
         if target.is_symlink():
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
         if target.exists() and not target.is_file():
@@ -66,8 +66,8 @@ def put(path: str, content: bytes) -> None:
 
 
 def _write_directly(path: Path, content: bytes) -> None:
-    """Write to an existing device or pipe; raise an OSError if no process reads the pipe, instead of waiting
-    for one.
+    """Write to an existing device or pipe. If no process reads the pipe, raise an OSError and do not wait for
+    a reader.
     """
     try:
         handle = os.open(path, os.O_WRONLY | getattr(os, "O_NONBLOCK", 0))
@@ -77,5 +77,5 @@ def _write_directly(path: Path, content: bytes) -> None:
         raise
     with os.fdopen(handle, "wb") as stream:
         if os.name == "posix":
-            os.set_blocking(handle, True)  # from here on, writing waits for a slow reader
+            os.set_blocking(handle, True)  # From this line on, writing blocks until a slow reader has read.
         stream.write(content)

@@ -1,4 +1,5 @@
-"""``orderconds refine``: exact coefficients for doubles; more digits for rounded decimals and their proof."""
+"""``orderconds refine``: replace doubles by exact coefficients, or compute more digits of rounded decimals
+and prove them."""
 
 from __future__ import annotations
 
@@ -18,7 +19,12 @@ UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give 
     "--digits", type=click.IntRange(*DIGITS), default=60, show_default=True, help="Decimal places to write."
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
-@click.option("--json", "as_json", is_flag=True, help="Print digits, fixed decimals and proof as JSON.")
+@click.option(
+    "--json",
+    "as_json",
+    is_flag=True,
+    help="Print the new digits, the names of the fixed decimals and the proof as JSON.",
+)
 def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     """Make the coefficients of FILE exact or more precise.
 
@@ -26,9 +32,9 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     decimals ("0.8177~") of the file. Write the file again with more digits, a list of the decimals that were
     kept fixed (pins), and a record of the old digits.
 
-    If FILE has none, and its coefficients are binary floats or rounded decimals, recognise fractions and
-    numbers p + q sqrt(d), and prove that the exact method has the same order. The suffix of the output file
-    determines its format; stdout is TOML.
+    If FILE has no [proof] table, and its coefficients are binary floats or rounded decimals, recognise
+    fractions and numbers p + q sqrt(d), and prove that the exact method has the same order. The suffix of the
+    output file determines its format. The format on stdout is TOML.
 
     Exits with 0 if the new coefficients are proved, 1 if not, 2 for a file that cannot be read.
 
@@ -62,7 +68,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     if as_json:
         screen.print_json({"decimals": refined.decimals, "proof": proof.as_json()})
     elif output is None:
-        click.echo(refined.text.encode(), nl=False)  # the output file is UTF-8 even if the terminal is not
+        click.echo(refined.text.encode(), nl=False)  # UTF-8, also if the terminal has another encoding
     return 0
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def is_terminal() -> bool:
-    """Whether stdout is a terminal; only then is there colour and a progress line.
+    """Return True if standard output is a terminal. Colours and the progress line appear only on a terminal.
 
     >>> isinstance(is_terminal(), bool)
     True
@@ -45,10 +45,10 @@ def drawing_style(plain: bool = False) -> Style:
 
 @contextmanager
 def working(message: str) -> Iterator[Callable[[str], object]]:
-    """Show a message during the work. The result is a function that changes the message.
+    """Show a message while a computation runs. The result is a function that replaces the message.
 
-    The message is shown on a terminal, and with ``--verbose`` also elsewhere: then each message is a line on
-    stderr.
+    The message is shown on a terminal. If the output is not a terminal, each message is a line on stderr, but
+    only with ``--verbose``.
 
     >>> with working("deriving"):
     ...     order = 4
@@ -67,11 +67,12 @@ def working(message: str) -> Iterator[Callable[[str], object]]:
 
 @contextmanager
 def counting(message: str, total: int | None = None) -> Iterator[Callable[[str], object]]:
-    """Show the progress of counted work. The result is a function, to be called with the name of each
-    finished item.
+    """Show the progress of work that consists of items. The result is a function that the caller calls with
+    the name of each finished item.
 
-    ``total`` is the number of items; if it is known, the remaining time is shown. A bar is shown on a
-    terminal. With ``--verbose`` each item is a line on stderr elsewhere.
+    ``total`` is the number of items; if it is known, the remaining time is shown. On a terminal a progress
+    bar is shown. If the output is not a terminal, each finished item is a line on stderr, but only with
+    ``--verbose``.
 
     >>> with counting("measuring", total=2) as done:
     ...     _ = done("first")
@@ -109,12 +110,13 @@ def counting(message: str, total: int | None = None) -> Iterator[Callable[[str],
 
 
 def _on_terminal() -> bool:
-    """Return whether progress is drawn on a terminal."""
+    """Return True if progress is drawn on a terminal."""
     return is_terminal() and sys.stderr.isatty() and not current_run().quiet
 
 
 class _Lines:
-    """Progress as lines on stderr, only with ``--verbose``; ``total`` is the number of items if known."""
+    """The display of progress as lines on stderr. Lines are written only with ``--verbose``. ``total`` is the
+    number of items, or None if it is unknown."""
 
     def __init__(self, total: int | None = None) -> None:
         self.total, self.finished, self.begin = total, 0, time.monotonic()
@@ -135,7 +137,7 @@ class _Lines:
 
 
 def is_shown(held: bool) -> bool:
-    """Return whether a result is printed: with ``--quiet`` only results that do not hold are printed.
+    """Return True if a result is to be printed. With ``--quiet`` only failed results are printed.
 
     >>> is_shown(held=True), is_shown(held=False)
     (True, True)
@@ -144,7 +146,8 @@ def is_shown(held: bool) -> bool:
 
 
 def print_json(value: object) -> None:
-    """Print one JSON document: indented, with keys in their given order, ASCII only.
+    """Print one JSON document. The text is indented and contains ASCII characters only; the keys keep their
+    order.
 
     >>> print_json({"order": 4})
     {
@@ -155,7 +158,7 @@ def print_json(value: object) -> None:
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: int = 0) -> None:
-    """Print rows under column heads; the columns are as wide as their widest entry.
+    """Print rows below the headings of the columns. Each column is as wide as its widest entry.
 
     >>> print_table(["family", "order"], [["rk", "4"]])
     family  order
@@ -177,7 +180,7 @@ def print_table(columns: Sequence[str], rows: Sequence[Sequence[str]], indent: i
 
 
 def plain_table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
-    """Return the lines of a table in plain columns two spaces apart.
+    """Return the lines of a table in plain text. Two spaces separate the columns.
 
     >>> plain_table(["family", "order"], [["rk", "4"], ["rkmk(1)", "3"]])
     ['family   order', 'rk       4', 'rkmk(1)  3']

@@ -33,49 +33,56 @@ if TYPE_CHECKING:
 @click.option(
     "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."
 )
-@click.option("--explicit", is_flag=True, help="Only explicit methods: a_ij = 0 for j >= i.")
-@click.option("--dirk", is_flag=True, help="Only diagonally implicit methods: a_ij = 0 for j > i.")
+@click.option("--explicit", is_flag=True, help="Search only for explicit methods: a_ij = 0 for j >= i.")
+@click.option("--dirk", is_flag=True, help="Search only for diagonally implicit methods: a_ij = 0 for j > i.")
 @click.option(
-    "--symmetric", is_flag=True, help="Only symmetric methods: a step of length -h undoes a step of length h."
+    "--symmetric",
+    is_flag=True,
+    help="Search only for symmetric methods: a step of length -h undoes a step of length h.",
 )
 @click.option(
-    "--fsal", is_flag=True, help="Only methods whose last stage is the first stage of the next step."
+    "--fsal",
+    is_flag=True,
+    help="Search only for methods whose last stage is the first stage of the next step.",
 )
 @click.option(
     "--fix",
     multiple=True,
     metavar="a21=1/2",
-    help="A linear equation for coefficients, and for nodes c_i of a Butcher tableau; may be repeated.",
+    help="A linear equation for the coefficients and, in a Butcher tableau, for the nodes c_i. "
+    "The option may be repeated.",
 )
 @click.option(
     "--positive",
     multiple=True,
     metavar="NAME",
-    help="A coefficient that must be positive; b means all weights.",
+    help="The name of a coefficient that must be positive; the name b denotes all weights.",
 )
-@click.option("--size", metavar="X", help="Only methods with coefficients of absolute value at most X.")
+@click.option("--size", metavar="X", help="An upper bound for the absolute values of all coefficients.")
 @click.option(
     "--exponentials",
     type=click.IntRange(*EXPONENTIALS),
     default=2,
     show_default=True,
-    help="Families cf and vcf: the number of exponentials in the update.",
+    help="For the families cf and vcf: the number of exponentials in the update.",
 )
 @click.option(
     "--inner",
     type=click.IntRange(*EXPONENTIALS),
     default=2,
     show_default=True,
-    help="Families cf and vcf: the number of exponentials in each stage.",
+    help="For the families cf and vcf: the number of exponentials in each stage.",
 )
 @click.option(
-    "--rkn", is_flag=True, help="Family splitting: assume that the parts T and V satisfy [V,[V,[V,T]]] = 0."
+    "--rkn",
+    is_flag=True,
+    help="For the family splitting: assume that the parts T and V satisfy [V,[V,[V,T]]] = 0.",
 )
 @click.option(
     "--minimise",
     type=click.Choice(["error"]),
-    help="Search from all random starts. Of all methods found, write the method whose residuals of the next "
-    "order have the least norm.",
+    help="Search from all random starts. Write the method, among all methods that were found, for which the "
+    "norm of the residuals of the next order is least.",
 )
 @click.option(
     "--starts",
@@ -88,8 +95,12 @@ if TYPE_CHECKING:
     type=click.IntRange(*PROCESSES),
     help="The number of local processes.  [default: one for each processor]",
 )
-@click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")
-@click.option("--name", default="found", show_default=True, help="The name of the tableau.")
+@click.option(
+    "--dask",
+    metavar="ADDRESS",
+    help="Run the search on the dask cluster with the scheduler at tcp://host:port.",
+)
+@click.option("--name", default="found", show_default=True, help="The name of the new tableau.")
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option(
     "--checkpoint",
@@ -101,16 +112,16 @@ if TYPE_CHECKING:
 def command(family: str, output: str | None, as_json: bool, **options: Any) -> int:
     """Find a method of FAMILY with S stages and order P, prove its order, and write its tableau.
 
-    Exits with 0 if a method was found and proved, 1 if none was, or none exists, 2 for contradictory
-    options. The same seed gives the same file for any number of processes. An interrupted
-    search keeps its finished batches in the checkpoint, and the same command continues from there.
+    Exits with 0 if a method was found and proved, 1 if no method was found or no method exists, 2 for
+    contradictory options. The same seed gives the same file for any number of processes. The checkpoint file
+    contains the finished batches of an interrupted search. The same command then continues the search.
 
     \b
     Examples:
         orderconds solve rk --stages 3 --order 3 --explicit --fix c2=1/2 --fix c3=1
         orderconds solve vcg --stages 3 --order 3 --minimise error -o mine.toml
     """
-    # One thread for each process: results then do not depend on the number of threads.
+    # Each process uses one thread, so that results do not depend on the number of threads.
     for library in ("OPENBLAS", "OMP", "MKL"):
         os.environ[f"{library}_NUM_THREADS"] = "1"
     from orderconds.solve.solver import solve
@@ -145,7 +156,8 @@ def _order(family: str, output: str | None, options: dict[str, Any]) -> Order:
 
     # A search may take hours, so the name is verified before it begins.
     verify_name(options["name"], "--name")
-    # The bound is that of order p - 1: symmetric methods of even order p need conditions up to p - 1 only.
+    # The limit is the same as for order p - 1, because symmetric methods of even order p need only the
+    # conditions up to order p - 1.
     refuse_too_many_trees(families.get(family), options["order"] - 1)
     spec = Spec(
         **{key: options[key] for key in ("stages", "explicit", "dirk", "symmetric", "fsal", "rkn")},

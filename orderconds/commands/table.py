@@ -1,5 +1,5 @@
-"""``orderconds table``: the library as a Markdown table; write the table to a file or compare it with a
-file."""
+"""``orderconds table``: print the library as a Markdown table, write the table to a file, or compare the
+table with a file."""
 
 from __future__ import annotations
 
@@ -110,7 +110,8 @@ def row(name: str) -> tuple[str, ...]:
 
 
 def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
-    """Return the sort key: highest order first, and among equal orders families on groups first."""
+    """Return the sort key of a family and its order. Higher orders come first; for equal orders, families on
+    groups come first."""
     from orderconds import families
 
     family = families.get(claim.label)
@@ -119,7 +120,7 @@ def _first(claim: OrderClaim) -> tuple[int, bool, int, int]:
 
 
 def _around(path: str) -> tuple[str, str, str]:
-    """Return the text of a file, and its parts before and after the table."""
+    """Return three texts: the whole file, the part before the table and the part after the table."""
     text = read_text(path)
     start, end = text.find(BEGIN), text.find(END)
     if not 0 <= start < end:

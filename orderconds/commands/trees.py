@@ -68,7 +68,7 @@ def command(
     if count and (draw or (explain and svg is None)):
         raise click.UsageError("--count prints only a number; leave --draw and --explain out")
     if not count or svg is not None:
-        members = trees(kind, order)  # raises an InputError if there are too many
+        members = trees(kind, order)  # This call raises an InputError if there are too many trees.
     if svg is not None:
         put(svg, members.svg(explain=explain).encode())
     if as_json:

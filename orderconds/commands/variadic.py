@@ -1,8 +1,9 @@
-"""Options that take several values, as ``--method A B C``, for commands whose arguments come first.
+"""Options with several values, such as ``--method A B C``, for commands whose arguments precede the options.
 
-An option of click has a fixed number of values. In this class a repeatable option accepts all words up to the
-next option, provided that an argument of the command precedes the option: ``bench dipole --method cf4
-rkmk:rk4`` names two methods, while in ``bench --method cf4 dipole`` the last word is the scene.
+An option of click has a fixed number of values. In this class, the values of a repeatable option are all
+words up to the next option, if an argument of the command precedes the option. For example, ``bench dipole
+--method cf4 rkmk:rk4`` names two methods. In ``bench --method cf4 dipole`` no argument precedes the option,
+so the option has one value, and the last word is the scene.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import click
 
 
 class Variadic(click.Command):
-    """A command whose repeatable options take one or more values.
+    """A command whose repeatable options accept one or more values.
 
     >>> @click.command("show", cls=Variadic)
     ... @click.argument("scene")
@@ -26,7 +27,7 @@ class Variadic(click.Command):
     """
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Repeat the option before each of its further values, then parse as click does."""
+        """Insert the name of the option before each further value, then call the parser of click."""
         options = [p for p in self.params if isinstance(p, click.Option)]
         repeated = {name for p in options if p.multiple for name in p.opts}
         valued = {name for p in options if not p.is_flag for name in p.opts}

@@ -1,6 +1,7 @@
 """Explanations of conditions: drawings of trees, and their elementary differentials or Hamiltonians.
 
-``diagram`` turns every kind of tree into one record of vertices and edges, ``lines`` draws this record as
-text, ``svg`` as a picture. ``differentials`` writes elementary differentials. ``kinds`` lists all kinds with
-their members and numbers.
+The module ``diagram`` converts a tree of any kind to a diagram of vertices and edges. The module ``lines``
+draws a diagram as text, ``svg`` and ``tikz`` draw it as a picture. ``differentials`` returns elementary
+differentials as text. ``kinds`` defines all kinds of trees, with functions that enumerate and count the
+trees.
 """

@@ -1,4 +1,5 @@
-"""Diagrams: vertices, edges and ordered branches, the form in which every kind of tree is drawn.
+"""Diagrams, which consist of vertices, edges and ordered branches. Trees of every kind are converted to
+diagrams and then drawn.
 
 A vertex is a *dot* (trees of one colour), *black* or *white*, or a *transport* (the letter L of the action
 trees: a coadjoint action, not a derivative of the Hamiltonian). In words, a vertex is a *letter* or the
@@ -25,7 +26,7 @@ Edge = Literal["plain", "inward", "outward"]
 
 @dataclass(frozen=True)
 class Branch:
-    """An edge and the diagram at its far end.
+    """A branch of a vertex: an edge, and the diagram at the other end of the edge.
 
     >>> Branch("outward", Vertex("dot")).edge
     'outward'
@@ -40,8 +41,8 @@ class Vertex:
     """A vertex with its branches from left to right.
 
     ``legs`` = (before, letters) means that the first ``letters`` branches are letters of one word, and that
-    the edge to the parent is the letter after the first ``before`` of them. ``legs`` is None if the position
-    of this edge does not matter. ``label`` is the text of a letter.
+    the edge to the parent is an additional letter of this word, after the first ``before`` branches. ``legs``
+    is None if the position of this edge does not matter. ``label`` is the text of a letter.
 
     >>> Vertex("dot", (Branch("plain", Vertex("dot")),)).size
     2
@@ -59,7 +60,7 @@ class Vertex:
 
 
 Diagram = tuple[Vertex, ...]
-"""The roots of a word or forest, from left to right; one for a tree."""
+"""The roots of a word or forest, from left to right. A tree has one root."""
 
 
 def plain(forest: levels.Forest) -> Diagram:
@@ -85,7 +86,7 @@ def coloured(tree: bicoloured.BicolouredTree) -> Diagram:
 
 
 def with_directions(tree: directed.DirectedTree) -> Diagram:
-    r"""Return the diagram of a tree whose edges carry a direction.
+    r"""Return the diagram of a tree with directed edges.
 
     >>> [branch.edge for branch in with_directions(b"\0\2\3")[0].branches]
     ['outward', 'inward']
@@ -96,7 +97,8 @@ def with_directions(tree: directed.DirectedTree) -> Diagram:
 
 
 def action(tree: Velocity) -> Diagram:
-    """Return the diagram of an action tree: first the letters of its word, then its covectors.
+    """Return the diagram of an action tree. The branches are the letters of its word, followed by its
+    covectors.
 
     >>> from orderconds.series.action_trees import force, velocity
     >>> [branch.edge for branch in action(velocity((velocity(),), (force(),)))[0].branches]
@@ -106,7 +108,8 @@ def action(tree: Velocity) -> Diagram:
 
 
 def word(letters: Word, name: Callable[[Letter], str]) -> Diagram:
-    """Return the diagram of a word: its standard bracketing if it is a Lyndon word, else its letters.
+    """Return the diagram of a word. A Lyndon word is drawn as its standard bracketing, any other word as a
+    sequence of letters.
 
     >>> [vertex.sign for vertex in word((1, 2), str)], [vertex.label for vertex in word((2, 1), str)]
     (['bracket'], ['2', '1'])

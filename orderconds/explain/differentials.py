@@ -1,7 +1,8 @@
 """Texts of the elementary differentials and Hamiltonians that belong to trees.
 
-Each function handles one kind of tree. ``f''(x, y)`` is a derivative applied to vectors; subscripts name the
-variables of partial derivatives, one letter each. Words denote commutators of fields.
+Each function handles one kind of tree. ``f''(x, y)`` is the second derivative of f, applied to the vectors x
+and y. Subscripts name the variables of partial derivatives, one letter for each derivative. Words denote
+commutators of vector fields.
 """
 
 from __future__ import annotations
@@ -26,7 +27,8 @@ def differential(tree: levels.Tree) -> str:
 def hamiltonian(tree: levels.Tree) -> str:
     r"""Return the elementary Hamiltonian of a free tree, given by one of its rootings (HLW IX.9.2).
 
-    ``f`` is the Hamiltonian vector field; other rootings give the same function up to its sign.
+    ``f`` denotes the Hamiltonian vector field. For another choice of the root the function is the same up to
+    its sign.
 
     >>> hamiltonian(b"\0\1\1")
     "H''(f, f)"
@@ -54,7 +56,7 @@ def frozen_differential(forest: levels.Forest) -> str:
 def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
     r"""Return the elementary differential of a tree of two colours (HLW III.2.1).
 
-    For y' = f(y, z), z' = g(y, z): a black vertex denotes f, a white vertex denotes g.
+    The system is y' = f(y, z), z' = g(y, z). A black vertex denotes f, a white vertex denotes g.
 
     >>> partitioned_differential(b"\0\3\2")
     'f_zy(g, f)'
@@ -67,7 +69,8 @@ def partitioned_differential(tree: bicoloured.BicolouredTree) -> str:
 def directed_hamiltonian(tree: directed.DirectedTree) -> str:
     r"""Return the elementary Hamiltonian of a tree with directed edges, up to its sign.
 
-    For q' = H_p, p' = -H_q; an edge leads from a derivative in q to one in p.
+    The equations of motion are q' = H_p, p' = -H_q. An edge leads from a derivative in q to a derivative in
+    p.
 
     >>> directed_hamiltonian(b"\0\3\2")
     'H_pq(H_q, H_p)'
@@ -78,7 +81,7 @@ def directed_hamiltonian(tree: directed.DirectedTree) -> str:
 def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
     r"""Return the elementary Hamiltonian of an alternating tree, up to its sign (HLW VI.7.2).
 
-    For H = T(p) + V(q): a black vertex denotes T, a white vertex denotes V.
+    The Hamiltonian is H = T(p) + V(q). A black vertex denotes T, a white vertex denotes V.
 
     >>> separable_hamiltonian(b"\0\3\3")
     'T_pp(V_q, V_q)'
@@ -87,9 +90,10 @@ def separable_hamiltonian(tree: bicoloured.BicolouredTree) -> str:
 
 
 def bracket(word: Word, name: Callable[[Letter], str]) -> str:
-    """Return the commutator of a Lyndon word, by its standard bracketing; for another word, the product.
+    """Return the commutator that the standard bracketing of a Lyndon word defines. For any other word, return
+    the product of its letters.
 
-    Letters are Lie derivatives, which multiply in the order of action.
+    The letters denote Lie derivatives. In a product the letters are in the order of action.
 
     >>> bracket((1, 1, 2), str), bracket((2, 1), str)
     ('[1, [1, 2]]', '2 1')

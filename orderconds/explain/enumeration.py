@@ -1,4 +1,4 @@
-"""Trees of one kind and order as a sequence, which a notebook draws."""
+"""A sequence of all trees of one kind and order. A notebook shows the sequence as drawings."""
 
 from __future__ import annotations
 
@@ -16,15 +16,16 @@ from orderconds.explain.svg import sheet
 from orderconds.explain.tikz import picture
 
 MAX_TREES = 100_000
-"""At most this number of members is enumerated; the number of members grows exponentially with the order."""
+"""The largest number of trees, forests or words that are enumerated. The number grows exponentially with the
+order."""
 
 DRAWN = 500
-"""A picture shows at most this number of trees."""
+"""The largest number of trees in one picture."""
 
 
 @dataclass(frozen=True, repr=False)
 class ShownTree:
-    """A tree, forest or word of a kind.
+    """A tree, forest or word, together with its kind.
 
     >>> tree = trees("rooted", 3)[1]
     >>> tree.text, tree.differential, str(tree.condition)
@@ -83,7 +84,7 @@ class ShownTrees:
 
     @property
     def conditions(self) -> Mapping[Member, OrderCondition]:
-        """The order condition of each tree, by the key of the condition."""
+        """A map from each tree, in the encoding of its kind, to its order condition."""
         return self.kind.conditions(self.order)
 
     def __iter__(self) -> Iterator[ShownTree]:
@@ -105,7 +106,8 @@ class ShownTrees:
         return f"<{len(self)} {self.kind.name} of order {self.order}>"
 
     def svg(self, *, explain: bool = False) -> str:
-        """Return one sheet with all drawings; with ``explain`` captions contain elementary differentials."""
+        """Return one SVG document with all drawings. If ``explain`` is true, the captions contain elementary
+        differentials."""
         entries = (
             (self.kind.diagram(tree.member), [tree.text, *([tree.differential] if explain else [])])
             for tree in self

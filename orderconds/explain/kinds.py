@@ -1,6 +1,6 @@
 """The kinds of trees: enumeration, numbers, texts, drawings, and elementary differentials.
 
-A kind loads its modules on demand.
+The modules that a kind needs are imported when they are first used.
 """
 
 from __future__ import annotations
@@ -23,19 +23,19 @@ Member = Any
 
 
 MAX_TREES = 7_000
-"""Conditions of an order with more trees than this are not derived, because the number of trees grows
-exponentially with the order."""
+"""The largest number of trees of one order for which conditions are derived. A limit is necessary because the
+number of trees grows exponentially with the order."""
 
 
 @dataclass(frozen=True)
 class Kind:
     """One kind of trees, words or forests.
 
-    ``members`` enumerates the members of an order; ``count`` computes their number independently, from
-    generating functions. ``text`` is the text of a member, ``diagram`` its drawing, ``names`` the text of its
-    elementary differential or Hamiltonian. One family provides the conditions of the members. If
-    ``independent`` is true, the members correspond to an independent set of conditions of the family,
-    otherwise to all conditions.
+    Five attributes are functions. ``members`` enumerates the members of an order; ``count`` computes their
+    number from generating functions, without enumeration. ``text`` returns a member as text, ``diagram``
+    returns its drawing, and ``names`` returns its elementary differential or Hamiltonian as text. One family
+    provides the conditions of the members. If ``independent`` is true, the members correspond to an
+    independent set of conditions of the family, otherwise to all conditions.
 
     >>> kind = get("rooted")
     >>> [(kind.text(tree), kind.names(tree)) for tree in kind.members(3)]
@@ -70,7 +70,7 @@ class Kind:
         r"""Return the lines that explain a member: its text, a drawing, its elementary differential, its
         condition.
 
-        Without a style there is no drawing.
+        If no style is given, the drawing is omitted.
 
         >>> from orderconds.explain.lines import ASCII
         >>> kind = get("rooted")
@@ -94,7 +94,8 @@ class Kind:
 
 
 def get(name: str) -> Kind:
-    """Return a kind by name; raise :class:`~orderconds.errors.UnknownName` for any other name.
+    """Return the kind with this name. Raises :class:`~orderconds.errors.UnknownName` if there is no such
+    kind.
 
     >>> get("ordered").count(8)
     429
@@ -110,7 +111,8 @@ def get(name: str) -> Kind:
 
 
 def of_family(label: str) -> Kind | None:
-    r"""Return the kind of trees of a family's conditions; None for words, which have no drawing.
+    r"""Return the kind of the trees that index the conditions of a family. Return None if the conditions are
+    indexed by words, which have no drawing.
 
     >>> of_family("rkmk(1)").text(b"\0\1\0")
     '[.] .'
@@ -131,7 +133,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
         trees = kind.count(n)
         if trees > MAX_TREES:
             raise InputError(
-                f"there are {trees} trees of order {n}, and still more trees of higher orders",
+                f"there are {trees} trees of order {n}, and more trees of higher orders",
                 where=family.label(),
                 expected=f"at most {MAX_TREES}",
                 hint=f"lower the order to {n - 1}",
@@ -281,7 +283,7 @@ def _directed_rooted() -> Kind:
         directed.text,
         diagram.with_directions,
         # An edge of the second kind leads to a white vertex. The conditions do not depend on the colour of
-        # the root, so black is chosen.
+        # the root, so the root is drawn black.
         lambda tree: differentials.partitioned_differential(bicoloured.coloured(0, tree)),
         "directed-rooted",
     )

@@ -1,4 +1,5 @@
-"""Diagrams as text, with the root at the top and one line for each vertex, in Unicode or in ASCII."""
+"""Drawings of diagrams as text in Unicode or ASCII. The root is at the top, and each vertex has its own
+line."""
 
 from __future__ import annotations
 
@@ -43,7 +44,8 @@ UNICODE = Style(
 
 
 def draw(diagram: Diagram, style: Style) -> list[str]:
-    r"""Return the lines of a drawing; the trees of a word are drawn below each other, the first tree on top.
+    r"""Return the lines of a drawing. The trees of a word are drawn below each other, with the first tree at
+    the top.
 
     >>> from orderconds.explain.diagram import plain, with_directions
     >>> print("\n".join(draw(plain(b"\0\1\2\1"), ASCII)))

@@ -1,6 +1,7 @@
-"""Diagrams as SVG: the root below and branches above, as books draw them; many on one sheet, with captions.
+"""Drawings of diagrams in SVG, with the root at the bottom and branches above, as in books. One document
+contains several drawings with captions.
 
-Coordinates are decimals with two digits, so that a drawing has the same bytes on every platform. Lines take
+Coordinates are decimals with two digits, so that a drawing has the same bytes on every platform. Lines have
 the colour of the surrounding text (``currentColor``).
 """
 
@@ -27,10 +28,11 @@ RAISED = str.maketrans("()0123456789", "⁽⁾⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 @dataclass(frozen=True)
 class Layout:
-    """A vertex with its horizontal position ``x``, in steps relative to the parent of the vertex, and with
-    its branches.
+    """A vertex with its branches and its horizontal position ``x``. The position is relative to the parent of
+    the vertex; the unit is the distance between neighbours.
 
-    ``left`` and ``right`` are its outlines relative to the vertex, one number for each level.
+    ``left`` and ``right`` are the outlines of the drawing relative to the vertex, with one number for each
+    level.
     """
 
     x: float
@@ -41,7 +43,8 @@ class Layout:
 
 
 def lay_out(vertex: Vertex) -> Layout:
-    r"""Place branches as close as their outlines allow, and each parent above the middle of its branches.
+    r"""Place the branches of a vertex as close to each other as their outlines allow, and centre the vertex
+    below its branches.
 
     The method is that of E. M. Reingold and J. S. Tilford, IEEE Trans. Softw. Eng. 7 (1981) 223.
 
@@ -73,7 +76,7 @@ def lay_out(vertex: Vertex) -> Layout:
 
 
 def sheet(entries: Iterable[tuple[Diagram, Sequence[str]]], width: float = 900.0) -> str:
-    r"""Return an SVG document with all diagrams in rows, each above the lines of its caption.
+    r"""Return an SVG document that contains all diagrams in rows. Each caption is below its diagram.
 
     The first line of a caption is monospaced, the other lines are in the font of formulas. The roots of a row
     are on one line. ``width`` is the width of the sheet in px.
@@ -133,14 +136,14 @@ class _Block:
             at += (right - left + 1) * STEP
         for line, text in enumerate(self.caption, start=1):
             baseline = ground + 1.4 * SIZE * line - 0.4 * SIZE
-            # The first line is the text of a tree; the other lines are mathematics.
+            # The first line is the text of a tree. All other lines are formulas.
             font = TEXT_FONT if line == 1 else FORMULA_FONT
             shown = text if line == 1 else _formula(text)
             yield _text(x + self.width / 2, baseline, shown, SIZE, "middle", font)
 
 
 def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
-    """Draw a tree whose root is at (x, y), edges first."""
+    """Draw a tree whose root is at (x, y). Edges are drawn before vertices."""
     for branch, child in zip(tree.vertex.branches, tree.below, strict=True):
         far = x + child.x * STEP
         yield _edge(tree.vertex, branch, x, y, far, y - STEP)
@@ -153,7 +156,8 @@ def _drawn(tree: Layout, x: float, y: float) -> Iterator[str]:
 
 
 def _formula(text: str) -> str:
-    """Return an elementary differential with primes and raised exponents."""
+    """Return an elementary differential in which typographic primes and superscripts replace ASCII
+    characters."""
     raised = re.sub(r"\^(\(\d+\)|\d+)", lambda match: match[1].translate(RAISED), text)
     return raised.replace("'", "′")
 

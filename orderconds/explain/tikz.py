@@ -1,7 +1,8 @@
-r"""Diagrams as TikZ pictures, with the root at the bottom and branches above, for a line of mathematics.
+r"""Drawings of diagrams as TikZ pictures that fit in a line of formulas. The root is at the bottom, and
+branches are above.
 
-A picture needs the package tikz, for action trees with its library shapes.geometric. Its coordinates are
-computed as in :mod:`orderconds.explain.svg`.
+A picture needs the LaTeX package tikz; pictures of action trees also need the tikz library shapes.geometric.
+The coordinates are computed as in :mod:`orderconds.explain.svg`.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ ARROWS: dict[Edge, str] = {"plain": "", "outward": "[->]", "inward": "[<-]"}
 
 
 def picture(diagram: Diagram) -> str:
-    r"""Return an inline picture; the trees of a word or forest are beside each other.
+    r"""Return an inline picture. The trees of a word or forest are drawn beside each other.
 
     >>> from orderconds.explain.diagram import plain
     >>> print(picture(plain(b"\0\1")))

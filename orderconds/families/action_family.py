@@ -1,5 +1,5 @@
-"""The base class of the variational families. Their order conditions are indexed by action trees, see
-:mod:`orderconds.series.action_trees`."""
+"""The base class of the variational families. Their order conditions are indexed by action trees, which are
+defined in :mod:`orderconds.series.action_trees`."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ class ActionFamily(Family):
     """A family whose conditions are ``sum_i b_i tau_t(i)`` = exact value, one for each g-valued action tree
     t. The number ``tau_t(i)`` is the coefficient of t in the velocity of stage i.
 
-    The conditions of order n belong to the trees with n vertices, that is, n copies of the Hamiltonian H.
-    ``conditions`` selects independent conditions by the rank of their values at random methods.
-    ``decisive_conditions`` selects a larger set that implies all conditions; it computes no ranks and does
-    not import NumPy.
+    The conditions of order n belong to the trees with n vertices. Each vertex denotes one copy of the
+    Hamiltonian H. ``conditions`` selects independent conditions by the rank of their values at random
+    methods. ``decisive_conditions`` selects a larger set that implies all conditions; it computes no ranks
+    and does not import NumPy.
     """
 
     needs_nonzero_weights = True
@@ -50,7 +50,7 @@ class ActionFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> ActionSeries:
-        """Return the action series of a method; raises ZeroWeight if a weight b_i is zero."""
+        """Return the action series of a method. Raises ZeroWeight if a weight b_i is zero."""
 
     @abstractmethod
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
@@ -64,7 +64,8 @@ class ActionFamily(Family):
         """Return the object that writes the conditions of this family as index sums."""
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return independent conditions of exactly this order; conditions of simple trees are preferred."""
+        """Return a set of independent conditions of exactly this order. The selection prefers the conditions
+        of simple trees."""
         return tuple(map(self.condition, _independent(self, order)[-1]))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
@@ -92,7 +93,7 @@ class ActionFamily(Family):
         }
 
     def dependence_holds(self, order: int) -> bool:
-        """Whether the relations of the dependent conditions of this order hold exactly over Q.
+        """Return True if the relations of the dependent conditions of this order hold exactly over Q.
 
         The relations are verified at a random method that has two stages more than the methods of the rank
         computation.
@@ -113,7 +114,8 @@ class ActionFamily(Family):
             yield of_class[0], partial(self.condition, of_class[0])
 
     def decisive_count(self, order: int) -> int:
-        """Return the number of conditions in :meth:`decisive_conditions`, by a formula."""
+        """Return the number of conditions in :meth:`decisive_conditions`. A formula gives this number without
+        enumerating the trees."""
         return class_count(order)
 
     @cached_property

@@ -37,8 +37,8 @@ from orderconds.series.dexpinv import dexpinv_terms
 from orderconds.words.compositions import compositions
 
 Marked = tuple[Velocity | str, ...]
-"""A word of trees in which the index of a stage may occur once; this index represents a variation of the
-stage's velocity."""
+"""A word of trees. One letter may be the index of a stage instead of a tree; this letter denotes a variation
+of the velocity of that stage."""
 
 
 def multiplier(tree: Velocity) -> int:
@@ -74,8 +74,8 @@ class ActionFormula(ABC):
 
     @abstractmethod
     def word(self, row: str, word: Word) -> Formula:
-        """Return a word's coefficient in the group element of ``row``, times k! if the word repeats one
-        letter k times."""
+        """Return the coefficient of a word in the group element of ``row``. If the word repeats one letter k
+        times, the coefficient is multiplied by k!."""
 
     @abstractmethod
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
@@ -108,7 +108,8 @@ class ActionFormula(ABC):
 
 
 class ExponentialsFormula(ActionFormula):
-    """The index sums for products of exponentials; ``place`` is the index of an exponential in the product.
+    """The index sums for products of exponentials. In all methods ``place`` is the index of an exponential in
+    the product.
 
     >>> from orderconds.formula import named
     >>> from orderconds.series.action_trees import transport, velocity
@@ -125,15 +126,15 @@ class ExponentialsFormula(ActionFormula):
         """Return the tree's coefficient in the exponent of the exponential ``place``."""
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return a word's coefficient in the group element of ``row``, times k! if the word repeats one
-        letter k times."""
+        """Return the coefficient of a word in the group element of ``row``. If the word repeats one letter k
+        times, the coefficient is multiplied by k!."""
         if len(set(word)) > 1:
             return self.between(row, word, None, None)
         return product(*(self._whole_exponent(row, letter) for letter in word))
 
     def _whole_exponent(self, row: str, tree: Velocity) -> Formula:
-        """Return the sum of a tree's coefficients in all exponents of ``row``. For the leaf and stage i it is
-        ``c_i``."""
+        """Return the sum of a tree's coefficients in all exponents of ``row``. For the tree with one vertex
+        and for stage i the sum is ``c_i``."""
         if tree.vertices == 1:
             return coefficient("c", row)
         place = self.place()
@@ -141,7 +142,7 @@ class ExponentialsFormula(ActionFormula):
 
     def between(self, row: str | None, word: Word, above: str | None, below: str | None) -> Formula:
         """Return a word's coefficient in the product of the exponentials whose index is strictly between two
-        bounds. None means no bound."""
+        bounds. A bound may be None; then the index is not bounded on this side."""
         if not word:
             return one()
         # In the first term all letters come from different exponentials.
@@ -151,8 +152,8 @@ class ExponentialsFormula(ActionFormula):
     def _runs(
         self, row: str | None, word: Word, lengths: tuple[int, ...], above: str | None, below: str | None
     ) -> tuple[Fraction, Formula]:
-        """Return the product of 1/r! over the given run lengths r, and the sum in which the indices of the
-        runs strictly increase."""
+        """Return two values: the product of 1/r! over the given run lengths r, and the index sum over
+        strictly increasing indices of the runs."""
         places = [self.place() for _ in lengths]
         bounds = [*([above] if above else []), *places, *([below] if below else [])]
         relations: list[Relation] = [(low, "<", high) for low, high in pairwise(bounds)]
@@ -162,8 +163,8 @@ class ExponentialsFormula(ActionFormula):
         return Fraction(1, prod(map(factorial, lengths))), index_sum(places, relations, product(*factors))
 
     def around(self, row: str | None, place: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v, where x comes from the exponential at ``place``, without the
-        factor for x itself."""
+        """Return the coefficient of the word u x v, where the letter x comes from the exponential at
+        ``place``. The factor of the letter x is omitted."""
         terms = []
         for r in range(len(before) + 1):
             for q in range(len(after) + 1):
@@ -194,8 +195,8 @@ class CrouchGrossmanFormula(ExponentialsFormula):
         return product(_runge_kutta(row, place), self.tau(tree, place))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return ``a_ji`` (or ``b_i`` for the update) times the coefficients of the words before and after
-        the exponential i."""
+        """Return the product of ``a_ji`` (or ``b_i`` for the update) and the coefficients of two words: the
+        word before and the word after the letter from exponential i."""
         return product(_runge_kutta(row, stage), self.around(row, stage, before, after))
 
 
@@ -220,7 +221,7 @@ class CommutatorFreeFormula(ExponentialsFormula):
         return index_sum((stage,), (), product(self._entry(row, place, stage), self.tau(tree, stage)))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v, summed over the exponentials that contain the velocity of
+        """Return the coefficient of the word u x v, summed over the exponentials that contain the velocity of
         ``stage``."""
         place = self.place()
         inner = product(self._entry(row, place, stage), self.around(row, place, before, after))
@@ -247,14 +248,15 @@ class MuntheKaasFormula(ActionFormula):
         self._known: dict[tuple[bool, int, Marked], tuple[list[str], Formula]] = {}
 
     def word(self, row: str, word: Word) -> Formula:
-        """Return a word's coefficient in exp(X_i), times k! if the word repeats one letter k times."""
+        """Return the coefficient of a word in exp(X_i). If the word repeats one letter k times, the
+        coefficient is multiplied by k!."""
         if len(set(word)) > 1:
             return self._exponential(row, word)
         return product(*(self._power(row, 1, (letter,)) for letter in word))
 
     def through(self, row: str | None, stage: str, before: Word, after: Word) -> Formula:
-        """Return the coefficient of u x v in exp(X_i), or in exp(Y) for the update; x varies the velocity of
-        ``stage``."""
+        """Return the coefficient of the word u x v in exp(X_i), or in exp(Y) for the update. The letter x is
+        a variation of the velocity of ``stage``."""
         return self._exponential(row, (*before, stage, *after))
 
     def _exponential(self, row: str | None, word: Marked) -> Formula:
@@ -263,8 +265,8 @@ class MuntheKaasFormula(ActionFormula):
         )
 
     def _power(self, row: str | None, n: int, word: Marked) -> Formula:
-        """Return the coefficient of a word in X_i^n, or in Y^n for the update. It is computed once with a
-        free stage index."""
+        """Return the coefficient of a word in X_i^n, or in Y^n for the update. The coefficient is computed
+        once, for a symbolic stage index, and cached."""
         if n == 0 or len(word) < n:
             return one() if n == len(word) else zero()
         stages = [letter for letter in word if isinstance(letter, str)] + ([] if row is None else [row])
@@ -290,8 +292,8 @@ class MuntheKaasFormula(ActionFormula):
     def _argument(self, row: str | None, word: Marked) -> Formula:
         """Return the coefficient of a word in X_i, or in Y for the update.
 
-        The coefficient is a sum over the letters: each letter in turn is the argument of dexpinv. The letter
-        for a varied velocity belongs to one stage only.
+        The coefficient is a sum over the letters of the word. In each term, one letter is the argument of
+        dexpinv. A letter that denotes a varied velocity contributes only for its stage.
         """
         if row is not None and len(word) == 1 and isinstance(word[0], Velocity) and word[0].vertices == 1:
             return coefficient("c", row)
@@ -306,7 +308,8 @@ class MuntheKaasFormula(ActionFormula):
         return total(*terms)
 
     def _terms(self, letters: int) -> Terms:
-        """Return the terms of dexpinv with at most ``letters`` letters besides the velocity."""
+        """Return the terms of dexpinv that contain at most ``letters`` letters in addition to the
+        velocity."""
         return dexpinv_terms(letters if self._cutoff is None else min(letters, self._cutoff))
 
     def _dexpinv(self, stage: str, before: Marked, behind: Marked) -> Iterator[tuple[Fraction, Formula]]:

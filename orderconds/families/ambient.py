@@ -1,7 +1,7 @@
 """Runge-Kutta methods in the coordinates of the ambient space, a vector space that contains the manifold.
 
-One step leaves the manifold by at most the local error. The order is the classical order of the tableau. The
-family is a baseline for comparison with methods that stay on the manifold.
+After one step, the distance from the manifold is at most the local error. The order is the classical order of
+the tableau. The family is a baseline for comparison with methods that stay on the manifold.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class AmbientFamily(RungeKuttaFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because it equals the order in
+        """Return None: a file need not claim an order in this family, because the order equals the order in
         ``rk``."""
         return None
 

@@ -50,16 +50,16 @@ class Family(ABC):
     description: ClassVar[str] = ""
     """The description of the family in ``orderconds list families``, one line."""
     formats: ClassVar[tuple[str, ...]] = ()
-    """The tableau formats that the family reads, the preferred one first."""
+    """The tableau formats that the family accepts, in order of decreasing preference."""
     has_tableau: ClassVar[bool] = True
-    """Whether the family has tableaux, each of which determines a method. If not, the label of the family,
-    such as ``taylor(12)``, determines the method."""
+    """True if the methods of the family are given by tableaux. If False, the label of the family, such as
+    ``taylor(12)``, determines the method."""
     source: ClassVar[str] = ""
     """The publication of a family without tableau."""
 
     # Conditions
     needs_nonzero_weights: ClassVar[bool] = False
-    """Whether formulas of the family divide by the weights b_i, which must then be non-zero."""
+    """True if formulas of the family divide by the weights b_i, which must then be non-zero."""
     search_limit: ClassVar[int] = 8
     """The highest order that ``check`` evaluates for a file without a claim. For a file with a claim,
     ``check`` evaluates at least one order beyond the claim."""
@@ -67,7 +67,7 @@ class Family(ABC):
     """The highest order that any member of the family can have, by a theorem; None if no such theorem is
     known."""
     over_rationals: ClassVar[bool] = False
-    """Whether conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`), without
+    """True if conditions can be evaluated with rational numbers (:mod:`orderconds.ring.nodal`), without
     arithmetic in the field of the coefficients."""
     trees: ClassVar[str | None] = None
     """The kind of trees that index the conditions (:mod:`orderconds.explain.kinds`); None if words index
@@ -88,52 +88,53 @@ class Family(ABC):
 
     # Other families
     implies: ClassVar[Mapping[str, str]] = {}
-    """The families in which a method has at least the order that it has in this family, with reasons. The
-    keys are names of families, the values are theorems. At each order, the conditions of these families are a
-    subset of the conditions of this family."""
+    """The families in which every method has at least the order that it has in this family. The keys are the
+    names of these families, and the values are the theorems that prove it. At each order, the conditions of
+    these families are a subset of the conditions of this family."""
     abelian: ClassVar[str | None] = None
-    """The family to which this family reduces on an abelian group, where brackets vanish; None if no family
-    reads all tableaux of this family."""
+    """The family to which this family reduces on an abelian group, where all brackets are zero; None if no
+    such family accepts all tableaux of this family."""
     low_order: ClassVar[str | None] = None
     """The name of a family that has the same conditions up to order 2. These conditions contain no bracket
     and no momentum."""
     bounds_others: ClassVar[bool] = False
-    """Whether ``check`` computes the order in this family to bound the orders in other families."""
+    """True if ``check`` computes the order in this family to bound the orders in other families."""
     low_storage: ClassVar[tuple[str, ...]] = ()
     """The families in which a 2N (low-storage) scheme has the same order as in this family."""
 
     # Methods
     on_groups: ClassVar[bool] = False
-    """Whether a step consists of exponentials on a Lie group."""
+    """True if a step consists of exponentials on a Lie group."""
     fixed_stages: ClassVar[bool] = False
-    """Whether the stages are independent of the weights. A second row of weights can then estimate the
+    """True if the stages do not depend on the weights. Then a second row of weights can estimate the
     error."""
     keeps_manifold: ClassVar[bool] = True
-    """Whether a step stays on the manifold on which the problem is posed."""
+    """True if a step stays on the manifold on which the problem is posed."""
     keeps_energy: ClassVar[bool] = False
-    """Whether every method of the family preserves the energy exactly."""
+    """True if every method of the family preserves the energy exactly."""
     controls_steps: ClassVar[bool] = False
-    """Whether step-size control uses the coefficients that a step computes, and needs no embedded method."""
+    """True if step-size control estimates the error from coefficients that a step computes. Such a family
+    needs no embedded method."""
     takes_cutoff: ClassVar[bool] = False
-    """Whether the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
+    """True if the family has the option ``cutoff``, the number of brackets after which dexpinv or dexp is
     truncated."""
     minimal_brackets: ClassVar[int] = 0
-    """The highest order at which methods without ``cutoff`` are compiled to programs with the fewest
-    brackets."""
+    """The highest order at which the compiler reduces the number of brackets to the minimum for methods
+    without ``cutoff``."""
     cutoff: int | None = None
     """The number of brackets after which dexpinv is truncated; None: dexpinv is not truncated."""
 
     default_series: ClassVar[bool] = False
-    """Whether ``orderconds modified`` may choose this family for a tableau if the user names no family."""
+    """True if ``orderconds modified`` may choose this family for a tableau if the user names no family."""
 
     # Search
     unknowns: ClassVar[str | None] = None
     """The tableau format for which ``orderconds solve`` computes coefficients; None: the family has no
     search."""
     symplectic: ClassVar[bool] = False
-    """Whether a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
+    """True if a search considers only symplectic tableaux, b_i a_ij + b_j a_ji = b_i b_j."""
     equal_abscissae: ClassVar[bool] = False
-    """Whether the conditions of order three force the three abscissae of each stage, c_i, chat_i and m_i, to
+    """True if the conditions of order three force the three abscissae of each stage, c_i, chat_i and m_i, to
     be equal (:mod:`orderconds.solve.abscissae`)."""
     principal_error_limit: ClassVar[int | None] = None
     """The highest order at which the principal error is computed; None: no limit."""
@@ -176,10 +177,10 @@ class Family(ABC):
         return self.conditions(order)
 
     def dependence_holds(self, order: int) -> bool:
-        """Whether :meth:`conditions` imply all conditions of this order, verified without ranks modulo
-        primes.
+        """Return True if the conditions in :meth:`conditions` are proved to imply all conditions of this
+        order. The proof does not use ranks modulo primes.
 
-        By default this is a theorem about trees or words, and nothing is computed.
+        By default a theorem about trees or words proves the implication, and nothing is computed.
         """
         return True
 
@@ -194,7 +195,7 @@ class Family(ABC):
     def decisive_in_turn(self, order: int) -> Iterator[tuple[Key, Callable[[], OrderCondition]]]:
         """Yield the keys of :meth:`decisive_conditions`, each with a function that returns the condition.
 
-        A family with very many trees enumerates the trees on demand.
+        A family with a large number of trees generates the trees one at a time.
         """
         for condition in self.decisive_conditions(order):
             yield condition.key, partial(_itself, condition)
@@ -209,7 +210,7 @@ class Family(ABC):
     ) -> tuple[Element, ...]:
         """Return the left-hand side minus the right-hand side of each condition, as elements of ``ring``.
 
-        Raises ZeroDivisionError if a ball that contains zero is a divisor.
+        Raises ZeroDivisionError if the evaluation divides by a ball that contains zero.
 
         >>> from orderconds.families import get
         >>> from orderconds.tableau import Tableau, find
@@ -221,7 +222,7 @@ class Family(ABC):
         if not conditions:
             return ()
         if isinstance(ring, Balls):
-            with precision(ring.bits):  # the precision is set once for all operations
+            with precision(ring.bits):  # The precision is set once, before all operations.
                 differences = self._residuals(*_UNWRAPPED(method, ring), conditions)
             if not all(x.is_finite() for x in differences):
                 raise ZeroDivisionError("division by a ball that contains zero")
@@ -252,13 +253,13 @@ class Family(ABC):
         return
 
     def converted(self, convert: Callable[[Element], Element]) -> Family:
-        """Return the family after ``convert`` is applied to the coefficients that it stores. Most families
-        store no coefficients."""
+        """Return a copy of the family in which ``convert`` is applied to all stored coefficients. Most
+        families store no coefficients and return themselves."""
         return self
 
     def for_method(self, method: Method) -> Family:
-        """Return the family in which ``check`` evaluates a file that claims no order. It is called on the
-        family whose name is the name of the file's format."""
+        """Return the family in which ``check`` evaluates a file that claims no order. The method is called on
+        the family that has the same name as the format of the file."""
         return self
 
     @classmethod
@@ -266,7 +267,7 @@ class Family(ABC):
         """Return this family, with its options, if a file with this tableau should claim an order in it, else
         None.
 
-        By default it returns None: a file may claim an order in the family, but need not.
+        By default the result is None: a tableau file without a claim in this family is complete.
         """
         return None
 
@@ -285,7 +286,8 @@ class Family(ABC):
         """Return the numbers of field evaluations, exponentials and brackets in one step, or None if they are
         not known.
 
-        By default only the evaluations are counted.
+        By default the function counts only the field evaluations; the numbers of exponentials and brackets
+        are None.
         """
         from orderconds.tableau.work import evaluations
 
@@ -316,7 +318,7 @@ class Family(ABC):
             f"the number of stages does not determine the coefficients of family {self.label()}",
             where="stages",
             expected="a family whose coefficients follow from the number of stages, such as rk or splitting",
-            hint="leave the number of stages out",
+            hint="omit the number of stages",
         )
 
     # Theorems
@@ -324,18 +326,18 @@ class Family(ABC):
     def implied_order(self, orders: Mapping[str, int]) -> int:
         """Return a lower bound of the order that theorems derive from the orders in other families, or 0.
 
-        ``orders`` contains these orders by the label of the family. A family that names this family in
-        :attr:`implies` need not be considered here.
+        ``orders`` maps the labels of the other families to these orders. The method need not derive bounds
+        that already follow from :attr:`implies`.
         """
         return 0 if self.low_order is None else min(2, orders.get(self.low_order, 0))
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:
-        """Return a lower bound of the order by a theorem about the coefficients, or 0; no trees are
-        evaluated."""
+        """Return a lower bound of the order that a theorem about the coefficients proves, or 0. No order
+        condition is evaluated."""
         return 0
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether a step of the method in this family is proved to be symmetric."""
+        """Return True if a step of the method in this family is proved to be symmetric."""
         return False
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
@@ -354,8 +356,9 @@ class Family(ABC):
         return None
 
     def reductions(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> Reductions:
-        """Return the reductions for a method: theorems by which fewer conditions need evaluation. ``orders``
-        contains the proved orders of the method in other families, by label.
+        """Return the reductions that apply to a method: theorems that reduce the number of conditions to
+        evaluate. ``orders`` maps the labels of other families to the proved orders of the method in these
+        families.
 
         >>> from orderconds.families import get
         >>> from orderconds.ring import QQ
@@ -371,7 +374,8 @@ class Family(ABC):
         return Reductions(ring, self.is_symmetric(method, ring), self.substitute(method, ring), cut)
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return a family that has fewer conditions and suffices for a symmetric ``method``, or None.
+        """Return a family with fewer conditions that imply the conditions of this family if ``method`` is
+        symmetric, or None.
 
         If the result is None, the caller uses the family with the name of the method's format.
         """
@@ -424,7 +428,7 @@ def in_ring(ring: Ring, q: Fraction) -> Element:
 
 
 def all_nonzero(weights: Sequence[Element], ring: Ring) -> bool:
-    """Whether all weights are proved to be non-zero.
+    """Return True if all weights are proved to be non-zero.
 
     >>> from orderconds.ring import QQ
     >>> all_nonzero([QQ.one, QQ.zero], QQ)
@@ -445,6 +449,6 @@ def require_nonzero_weights(label: str, ring: Ring, b: Sequence[Element]) -> Non
             raise ZeroWeight(
                 f"b_{i} = {ring.text(weight)}" + (", which may be zero" if vanishes is None else ""),
                 where=f"family {label}",
-                expected="all weights b_i to be non-zero, because formulas of the family divide by them",
+                expected="all weights b_i to be non-zero, because the formulas of the family divide by b_i",
                 hint="choose another family, or a tableau without zero weights",
             )

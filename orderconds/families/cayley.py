@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 @register
 class CayleyFamily(MagnusFamily):
-    """Methods cay(Omega), or products of Cayley transforms. In printed conditions omega_{ij...} is the
+    """Cayley methods cay(Omega), or products of Cayley transforms. In printed conditions omega_{ij...} is the
     coefficient of the product ... A_j A_i.
 
     >>> for condition in CayleyFamily().conditions(3):
@@ -61,15 +61,15 @@ class CayleyFamily(MagnusFamily):
         return expansions.cayley(word)
 
     def polynomial(self, word: Word) -> Polynomial:
-        """Return the coefficient of a word as a multiple of the coefficient of the word or its reverse,
-        whichever is in :meth:`independent`."""
+        """Return the coefficient of a word as a polynomial in independent coefficients. If the word is not in
+        :meth:`independent`, the polynomial is a multiple of the coefficient of the reverse word."""
         if word == word[::-1]:
             return {(word,): Fraction(1)} if len(word) % 2 else {}
         return {(min(word, word[::-1]),): Fraction(1 if word < word[::-1] or len(word) % 2 else -1)}
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return random methods with one Cayley transform. Its argument is a random combination of products
-        and reverse products of A at random nodes."""
+        """Return random methods with one Cayley transform. The argument of the transform is a random
+        combination of products and reverse products of values of A at random nodes."""
         terms = []
         for length in range(1, order + 1):
             for _ in range(2**order):

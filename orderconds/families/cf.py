@@ -3,8 +3,8 @@ k_j.
 
 The update is exp(h sum_j beta_mj k_j) ... exp(h sum_j beta_1j k_j) y0, where the factor with index 1 acts
 first. In stage i, the coefficients alpha_iJj replace beta_Jj (Celledoni, Marthinsen and Owren, FGCS 19 (2003)
-341). If a stage starts from an earlier stage, its product begins with the exponentials of the earlier stage.
-In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
+341). If a stage starts from the value of an earlier stage, the exponentials of the earlier stage act first in
+its product. In printed conditions b_j = sum_J beta_Jj, a_ij = sum_J alpha_iJj and c_i = sum_j a_ij.
 """
 
 from __future__ import annotations
@@ -80,13 +80,13 @@ class CommutatorFreeFamily(OrderedForestFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method, else None. A tableau (A, b) claims its order in
-        ``cg``."""
+        """Return this family for a commutator-free method, else None. For a tableau (A, b) the result is
+        None, because its file claims the order in the family ``cg``."""
         return cls() if isinstance(tableau.method, CommutatorFree) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
-        symmetric."""
+        """Return True if the products of exponentials that lead to the stages are symmetric; the method is
+        then symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -145,7 +145,8 @@ def _word(
     row_total: Callable[[str], Formula],
     row_sum: Formula | None,
 ) -> Formula:
-    """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
+    """Return length! times the coefficient of a word in the product of exponentials of ``row``, where
+    ``length`` is the length of the word."""
     letters = trees_of(word)
     if len(set(letters)) == 1:
         alone = row_sum if row_sum is not None and len(letters[0]) == 1 else None

@@ -1,7 +1,7 @@
 """Crouch-Grossman methods: y1 = exp(h b_s k_s) ... exp(h b_1 k_1) y0 (HLW IV.8.1).
 
-In stage i, a_ij replaces b_j. The exponential of the first stage acts first, in the stages and in the update.
-Exponentials with coefficient zero are omitted.
+In stage i, the coefficients a_ij replace b_j. In the stages and in the update, the exponential of k_1 acts
+first. Exponentials with coefficient zero are omitted.
 """
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class CrouchGrossmanFamily(OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
-        symmetric."""
+        """Return True if the products of exponentials that lead to the stages are symmetric; the method is
+        then symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:
@@ -88,7 +88,7 @@ def crouch_grossman_series(method: Method, ring: Ring) -> ExponentialsSeries:
 
 
 def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
-    """Whether the Crouch-Grossman method of a tableau is proved to be symmetric.
+    """Return True if the Crouch-Grossman method of a tableau is proved to be symmetric.
 
     A variational method is symmetric if its discrete Lagrangian is symmetric, that is, if the products of
     exponentials that lead to the stages are symmetric.
@@ -104,7 +104,8 @@ def symmetric_crouch_grossman(method: Method, ring: Ring) -> bool:
 
 
 def _word(word: Forest, row: Callable[[str], Formula], row_sum: Formula | None) -> Formula:
-    """Return length! times the coefficient of a word in the product of exponentials of ``row``."""
+    """Return length! times the coefficient of a word in the product of exponentials of ``row``, where
+    ``length`` is the length of the word."""
     letters = trees_of(word)
     if len(set(letters)) == 1:
         # Exponentials of multiples of t commute. Hence the coefficient of the word t^k is the k-th power of

@@ -1,9 +1,9 @@
 """Compositions of a method Phi and its adjoint, or of symmetric methods. Words index the conditions.
 
-Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k of the alphabet
-denotes X_k and has weight k. The value of letter k is alpha^k in Phi_{alpha h} and -(-beta)^k in the adjoint
-Phi*_{beta h}. The exact flow has the value 1/n! on the word of n letters 1, and zero on all other words (HLW
-III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
+The basic method is Phi_h = exp(h X_1 + h^2 X_2 + ...), where X_1 is the vector field of the problem. Letter k
+of the alphabet denotes X_k and has weight k. The value of letter k is alpha^k in Phi_{alpha h} and -(-beta)^k
+in the adjoint Phi*_{beta h}. The exact flow has the value 1/n! on the word of n letters 1, and zero on all
+other words (HLW III.3.1; Murua and Sanz-Serna, Phil. Trans. R. Soc. A 357 (1999) 1079).
 """
 
 from __future__ import annotations
@@ -148,10 +148,10 @@ which the formula is divided."""
 
 
 def composition_formula(word: Word, block: BlockFormula, kind: str = "i") -> Formula:
-    """Return the index sum of n! times the value on a word of n letters.
+    """Return n! times the value on a word of n letters, as an index sum.
 
-    ``block`` is the contribution of one stage. ``kind`` is a lower-case letter for indices of stages, an
-    upper-case letter for indices of exponentials.
+    The function ``block`` returns the contribution of one stage. ``kind`` is the letter of the summation
+    indices: a lower-case letter for stages, an upper-case letter for exponentials.
 
     >>> from orderconds.formula import named
     >>> step = lambda letters, i: (coefficient("gamma", i), factorial(len(letters)))

@@ -1,12 +1,13 @@
 """Families in which the series of dexpinv is truncated after the power r, where r is the option ``cutoff``.
 
-Without truncation, RKMK is the Runge-Kutta method, and VRKMK its symplectic partitioned extension, in
-coordinates of the first kind. Their orders are therefore the orders of these two classical methods (HLW IV.8,
-Theorem 8.4; Bogfjellmo and Marthinsen, Section 3.4.1).
+Without truncation, RKMK applies the Runge-Kutta method of the tableau in canonical coordinates of the first
+kind. VRKMK applies the symplectic partitioned Runge-Kutta method of the tableau in these coordinates.
+Therefore RKMK and VRKMK have the orders of these two classical methods (HLW IV.8, Theorem 8.4; Bogfjellmo and
+Marthinsen, Section 3.4.1).
 
-The truncation error is of order h^(r+3). For even r >= 2, B_(r+1) = 0, so truncation after r and truncation
-after R = r + 1 give the same method. For all other r let R = r. The order is min(p, R + 2), where p is the
-order without truncation (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). The truncation
+The truncation error is of order h^(r+3). For even r >= 2, B_(r+1) = 0, and therefore truncation after the
+powers r and R = r + 1 gives the same method. For all other r let R = r. The order is min(p, R + 2), where p
+is the order without truncation (HLW Theorem IV.8.4; Bogfjellmo and Marthinsen, Theorem 3.5.3). The truncation
 changes only the values of trees with long words.
 """
 
@@ -26,8 +27,8 @@ from orderconds.tableau.record import Tableau
 from orderconds.tableau.work import Work, munthe_kaas_work
 
 CLAIMED = (0, 1, 2)
-"""The values of ``cutoff`` for which a complete file claims orders. A file claims an order for a larger value
-only if this order is higher than for the smaller values."""
+"""The values of ``cutoff`` for which a complete tableau file claims orders. The file claims an order for a
+larger ``cutoff`` only if this order is higher than the orders for all smaller values."""
 
 
 class DexpinvCut(Family):
@@ -61,7 +62,7 @@ class DexpinvCut(Family):
 
     def work(self, tableau: Tableau) -> Work | None:
         """Return the numbers of field evaluations, exponentials and brackets in one step. The number of
-        brackets assumes that dexpinv is evaluated separately in each stage."""
+        brackets is valid if dexpinv is evaluated separately in each stage."""
         return munthe_kaas_work(tableau, self.cutoff)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
@@ -77,15 +78,15 @@ class DexpinvCut(Family):
         return min(order, kept + 2)
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:
-        """Return the order without truncation, and the length of the longest words whose values the
-        truncation does not change."""
+        """Return the order of the method without truncation, and a length. The truncation does not change
+        values on words up to this length."""
         if not isinstance(method, RungeKutta) or self.abelian is None:
             return None
         return UnseenCut(orders.get(self.abelian, 0), longest_unseen(self.cutoff), self.longest_word)
 
 
 def longest_unseen(cutoff: int | None) -> int:
-    """Return the length of the longest words whose values the truncation does not change.
+    """Return the largest length up to which the truncation does not change the values on words.
 
     >>> [longest_unseen(r) for r in (0, 1, 2, 3, 4)]
     [1, 2, 4, 4, 6]

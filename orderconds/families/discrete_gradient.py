@@ -58,6 +58,6 @@ class DiscreteGradientFamily(Family):
         return RungeKuttaFamily().evaluate(method, ring, conditions)
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because the cost counts evaluations of the vector field, and a step evaluates the
-        energy and its differential instead."""
+        """Return None. The cost of a step counts evaluations of the vector field, but a step of these methods
+        evaluates the energy and its differential."""
         return None

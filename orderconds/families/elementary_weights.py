@@ -1,7 +1,7 @@
 """Elementary weights of rooted trees as index sums, and the order conditions ``weight = 1/gamma``.
 
-If a tree has directed edges or coloured vertices, each edge has one of two kinds: its coefficient is a_ij or
-ahat_ij.
+In a tree with directed edges or coloured vertices there are two kinds of edges. The coefficient of an edge is
+a_ij for the first kind and ahat_ij for the second kind.
 """
 
 from __future__ import annotations
@@ -54,8 +54,8 @@ def elementary_weight(
 ) -> Formula:
     r"""Return the elementary weight of a tree as an index sum.
 
-    The tree may have any encoding whose ``len`` is the number of vertices; ``below`` returns the pairs (kind
-    of edge, subtree) at its root.
+    The tree may have any encoding whose ``len`` is the number of vertices. The function ``below`` returns the
+    pairs (kind of edge, subtree) at the root.
 
     >>> from orderconds.formula import named
     >>> from orderconds.trees.levels import children
@@ -73,8 +73,8 @@ def weight_conditions(
     formula: Callable[[DirectedTree], Formula] = weight,
     switching: RootSwitching | None = None,
 ) -> tuple[OrderCondition, ...]:
-    """Return the condition ``weight = 1/gamma`` of each tree. If ``switching`` is given, dependent conditions
-    contain their relations.
+    """Return the condition ``weight = 1/gamma`` of each tree. If ``switching`` is given, each dependent
+    condition contains its relation to independent conditions.
 
     >>> from orderconds.trees.directed import directed_free_trees, text
     >>> [str(condition) for condition in weight_conditions("sprk", directed_free_trees(2), text)]
@@ -110,7 +110,7 @@ def _summed(
     """Return an index sum. The summand is the product of ``factors`` and the stage value of ``tree`` at the
     last index in ``indices``.
 
-    The formula needs no simplification, because equal subtrees are collected in powers.
+    Equal subtrees are collected in powers, and therefore the formula needs no simplification.
     """
     bound = list(indices)
     _multiply(bound, factors, bound[-1], tree, below)

@@ -17,7 +17,8 @@ from orderconds.words.shuffle import Word
 
 
 def node_powers(ring: Ring, c: Sequence[Element]) -> Callable[[int, int], Element]:
-    """Return the function (i, n) -> c_i^n, which computes each power once.
+    """Return the function (i, n) -> c_i^n for the given nodes c_i. The function stores the powers and
+    computes each power once.
 
     >>> from orderconds.ring import QQ
     >>> node_powers(QQ, [QQ.rational(1, 2)])(0, 3)
@@ -35,8 +36,8 @@ def exponent_values(ring: Ring, method: Magnus) -> tuple[Values, ...]:
     """Return the values of each exponent of a method on non-empty words, in the order in which the exponents
     act.
 
-    Brackets are not expanded in products of the A_i. Instead, the value of a bracket on a word is a sum over
-    all divisions of the word into two parts. Each value is computed once.
+    The function does not expand brackets into products of the A_i. It computes the value of a bracket on a
+    word as a sum over all divisions of the word into two parts. Each value is computed once and stored.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau.brackets import parse

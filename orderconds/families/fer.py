@@ -36,7 +36,8 @@ if TYPE_CHECKING:
 
 @register
 class FerFamily(MagnusFamily):
-    """Methods in which the last exponent has no commutators, and all other exponents have only commutators.
+    """Fer methods. The last exponent contains no commutators, and all other exponents contain only
+    commutators.
 
     >>> for condition in FerFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -53,7 +54,7 @@ class FerFamily(MagnusFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because it equals the order in
+        """Return None: a file need not claim an order in this family, because the order equals the order in
         ``magnus``."""
         return None
 
@@ -71,24 +72,25 @@ class FerFamily(MagnusFamily):
             )
 
     def exact(self, word: Word) -> Fraction:
-        """Return the value of the exact flow: 1/k for the letter k, else the coefficient of the word in
-        log(exp(-F_1) Y)."""
+        """Return the value of the exact flow on a word: 1/k if the word is the single letter k, otherwise the
+        coefficient of the word in log(exp(-F_1) Y)."""
         return Fraction(1, word[0]) if len(word) == 1 else fer_remainder(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the sum over nodes of b_i c_i^(k-1) for a letter k, and of phi_{ij...} c_i^(k_1-1) ... for
-        longer words."""
+        """Return the left-hand side of the condition of a word as a sum over nodes: of b_i c_i^(k-1) for the
+        single letter k, and of phi_{ij...} c_i^(k_1-1) c_j^(k_2-1) ... for a longer word k_1 k_2 ...."""
         return node_sum("b" if len(word) == 1 else "phi", word)
 
     def series(self, method: Method, ring: Ring) -> Callable[[Word], Element]:
-        """Return the values of F_1 on letters, and of the logarithm of the other factors on longer words."""
+        """Return the values of one step on words: the value of F_1 on single letters, and the value of the
+        logarithm of the other factors on longer words."""
         *others, last = exponent_values(ring, expect(method, Magnus))
         rest = product_logarithm(ring, others)
         return lambda word: last(word) if len(word) == 1 else rest(word)
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Magnus:
-        """Return random methods at random nodes: exponentials of brackets, nested to the left, then a
-        quadrature exponential."""
+        """Return random methods with random nodes. Each method consists of exponentials of left-nested
+        brackets, followed by the exponential of a quadrature sum."""
         c = tuple(ring.random(generator) for _ in range(order))
         terms = []
         for depth in range(2, order + 1):

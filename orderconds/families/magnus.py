@@ -37,7 +37,8 @@ if TYPE_CHECKING:
 
 @register
 class MagnusFamily(WordFamily):
-    """Methods exp(Omega), or products of exponentials of several Lie elements.
+    """Magnus methods exp(Omega). Omega is a Lie element; a product of several exponentials of Lie elements is
+    also accepted.
 
     >>> for condition in MagnusFamily().conditions(3):
     ...     print(condition.tree, condition)
@@ -102,8 +103,8 @@ class MagnusFamily(WordFamily):
         return expansions.magnus(word)
 
     def formula(self, word: Word) -> Formula:
-        """Return the left-hand side of the condition of a word: the sum of omega_{ij...} c_i^(k_1 - 1)
-        c_j^(k_2 - 1) ... over nodes."""
+        """Return the left-hand side of the condition of the word k_1 k_2 ...: the sum of omega_{ij...}
+        c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes."""
         return node_sum("omega", word)
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -121,7 +122,7 @@ class MagnusFamily(WordFamily):
 
 
 def node_sum(name: str, word: Word) -> Formula:
-    """Return the sum over nodes of ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ....
+    """Return the sum of ``name``_{ij...} c_i^(k_1 - 1) c_j^(k_2 - 1) ... over all indices i, j, ... of nodes.
 
     >>> from orderconds.formula import named
     >>> named(node_sum("omega", (2, 1, 3))).text()
@@ -133,7 +134,7 @@ def node_sum(name: str, word: Word) -> Formula:
 
 
 def linear_in_lyndon_words(word: Word) -> Polynomial:
-    """Return the linear part of a word's polynomial in Lyndon words.
+    """Return the linear part of the polynomial in Lyndon words that represents a word in the shuffle algebra.
 
     A Lie element has the value zero on every shuffle product of non-empty words. Hence the products in the
     polynomial contribute nothing, and the linear part is the value of the Lie element on the word.

@@ -1,7 +1,8 @@
 """A cache for the series of a method.
 
-A check evaluates orders 1, 2, ... of one method. The cached series computes the values on larger trees from
-the values on smaller trees.
+A check evaluates the conditions of one method for orders 1, 2, .... The series stores its values, and
+computes values on large trees from stored values on smaller trees. The cache keeps the series between two
+orders.
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ Result = TypeVar("Result")
 class Memo(Generic[Result]):
     """A cache of ``compute(method, ring)`` for the two most recent pairs of method and ring.
 
-    For example, one method may be evaluated over an exact ring and over balls. Methods are compared by
-    identity.
+    Two pairs suffice for a method that is evaluated over an exact ring and over balls. Methods are compared
+    by identity.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Composition

@@ -22,7 +22,8 @@ from orderconds.tableau.products import Method
 
 
 class MinimalBrackets(MuntheKaasFamily):
-    """A family with one method, given by a program that computes exponents from stage values and brackets.
+    """A family that contains one method. The method is given by a program that computes exponents from stage
+    values and brackets.
 
     >>> from orderconds.ring import QQ
     >>> euler = BracketProgram((), ({},), {("k", 0): QQ.one}, 0, (1,))
@@ -39,8 +40,8 @@ class MinimalBrackets(MuntheKaasFamily):
     def series(self, method: Method, ring: Ring) -> ForestSeries:
         """Return the Lie-Butcher series of the program. ``method``, the tableau of the program, is not
         used."""
-        # The elements of the ring Enclosures are balls of the library flint. The coefficients of the program
-        # are converted to such balls.
+        # The elements of the ring Enclosures are balls of the library flint, so the coefficients of the
+        # program are converted to balls.
         inner = self.converted(attrgetter("value")) if isinstance(ring, Enclosures) else self
         return BracketedSeries(ring, inner.program)
 

@@ -5,7 +5,8 @@ relations. The values on Lyndon words therefore determine all other values (see 
 of a word are ordered trees, sorted by decreasing size; trees of equal size are in the order of enumeration.
 
 Each condition is multiplied by the factorial of the length of its word, and by the factorial of the number of
-branches at each vertex. For example, sum_i b_i c_i^2 = 1/3 is printed and not 1/2 sum_i b_i c_i^2 = 1/6.
+branches at each vertex. For example, the printed condition is sum_i b_i c_i^2 = 1/3, and not 1/2 sum_i b_i
+c_i^2 = 1/6.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ class OrderedForestFamily(Family):
 
     @abstractmethod
     def series(self, method: Method, ring: Ring) -> ForestSeries:
-        """Return the Lie-Butcher series of one step: the values of ``method`` on ordered forests, elements of
-        ``ring``."""
+        """Return the Lie-Butcher series of one step of ``method``. Its values on ordered forests are elements
+        of ``ring``."""
 
     @abstractmethod
     def formula(self, forest: Forest) -> Formula:
@@ -109,8 +110,8 @@ def lyndon_forests(order: int) -> tuple[Forest, ...]:
 
 
 def longest_word(forest: Forest) -> int:
-    r"""Return the length of the longest word of trees in a forest: the forest itself, or the branches at one
-    vertex.
+    r"""Return the length of the longest word of trees in a forest. These words are the forest itself and, for
+    each vertex, the word of the branches at the vertex.
 
     >>> longest_word(b"\0\1\1\1\0")
     3

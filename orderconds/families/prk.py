@@ -77,19 +77,19 @@ class PartitionedFamily(Family):
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
         """Return this family for a pair of tableaux that is not symplectic, else None. For a symplectic pair,
-        other families determine the same order with fewer conditions."""
+        a family with fewer conditions determines the order."""
         method = tableau.method
         if not isinstance(method, PartitionedRungeKutta) or symplectic_pair(method, tableau.ring):
             return None
         return cls()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether both tableaux are symmetric."""
+        """Return True if both tableaux are symmetric."""
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def substitute(self, method: Method, ring: Ring) -> Substitute | None:
-        """Return the family of free trees for a symplectic pair with b = bhat, all non-zero, else None (HLW
-        VI.7, Theorem 7.4)."""
+        """Return the family with conditions indexed by free trees if the pair is symplectic, b = bhat, and
+        all weights are non-zero; else None (HLW VI.7, Theorem 7.4)."""
         if not isinstance(method, PartitionedRungeKutta):
             return None
         same = all(ring.is_zero(x - y) is True for x, y in zip(method.b, method.b_hat, strict=True))

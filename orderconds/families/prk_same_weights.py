@@ -1,5 +1,5 @@
-"""Partitioned Runge-Kutta methods with b = bhat: conditions do not depend on the colour of the root (HLW
-III.2.2)."""
+"""Partitioned Runge-Kutta methods with b = bhat. The condition of a tree does not depend on the colour of the
+root (HLW III.2.2)."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class SameWeightsFamily(PartitionedFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because it equals the order in
+        """Return None: a file need not claim an order in this family, because the order equals the order in
         ``prk``."""
         return None
 

@@ -65,12 +65,12 @@ class Reductions(Struct, frozen=True):
     cut: UnseenCut | None = None
 
     def order_follows(self, n: int) -> bool:
-        """Whether all conditions of order n hold if all conditions of lower order hold."""
+        """Return True if all conditions of order n hold if all conditions of lower order hold."""
         return self.even and n % 2 == 0
 
     def rest_follows(self, n: int) -> bool:
-        """Whether the substitute satisfies its conditions of order n, which are evaluated here. They imply
-        all conditions of order n."""
+        """Return True if the substitute satisfies its conditions of order n, which are evaluated here. They
+        imply all conditions of order n."""
         if self.substitute is None:
             return False
         family, method = self.substitute.family, self.substitute.method
@@ -78,6 +78,6 @@ class Reductions(Struct, frozen=True):
         return all(self.ring.is_zero(x) is True for x in residuals)
 
     def follows(self, n: int, key: Key) -> bool:
-        """Whether the condition of order n with this key holds because the truncation of dexpinv does not
-        change it."""
+        """Return True if the condition of order n with this key holds because the truncation of dexpinv does
+        not change it."""
         return self.cut is not None and n <= self.cut.order and self.cut.length(key) <= self.cut.longest

@@ -1,4 +1,5 @@
-"""The registry of families: built-in modules, registered classes, and entry points of installed packages."""
+"""The registry of families. A family is built in, registered by a program, or an entry point of an installed
+package."""
 
 from __future__ import annotations
 
@@ -121,8 +122,8 @@ def names() -> tuple[str, ...]:
 
 
 def with_conditions() -> tuple[str, ...]:
-    """Return the names in :func:`names` of the families whose methods are given by tableaux and have order
-    conditions.
+    """Return the names in :func:`names` of all families whose methods are given by tableaux. These families
+    have order conditions.
 
     >>> "rk" in with_conditions(), "taylor" in with_conditions()
     (True, False)
@@ -162,8 +163,8 @@ def family_class(name: str) -> type[Family]:
     True
     """
     if name not in _registered and name in BUILT_IN:
-        import_module(BUILT_IN[name])  # The import of the module registers the family.
-        # Without this line the message would be "unknown family", followed by a list that contains the name.
+        # The import should register the family. If it does not, this error is clearer than "unknown family".
+        import_module(BUILT_IN[name])
         assert name in _registered, (
             f"{BUILT_IN[name]} has no class with this name and the decorator @register"
         )

@@ -79,12 +79,12 @@ class RungeKuttaFamily(Family):
         return cls() if isinstance(tableau.method, RungeKutta | CommutatorFree | Composition) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the tableau is proved to be symmetric."""
+        """Return True if the tableau is proved to be symmetric."""
         return symmetric_tableau(method, ring)
 
 
 def symmetric_tableau(method: Method, ring: Ring) -> bool:
-    """Whether a tableau, or each tableau of a pair, is proved to be symmetric.
+    """Return True if a tableau, or each tableau of a pair, is proved to be symmetric.
 
     >>> from orderconds.tableau import find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -111,8 +111,8 @@ def weights_of(tableau: Tableau) -> tuple[Element, ...] | None:
 
 
 def has_weights(tableau: Tableau, *, nonzero: bool = False) -> bool:
-    """Whether a tableau can be interpreted as (A, b). With ``nonzero``, all weights must also be proved to be
-    non-zero.
+    """Return True if a tableau can be interpreted as (A, b). If ``nonzero`` is set, the result is True only
+    if all weights are proved to be non-zero.
 
     >>> from orderconds.tableau import find
     >>> cg4 = Tableau.load(find("cg4"))

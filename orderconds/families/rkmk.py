@@ -1,9 +1,10 @@
 """Runge-Kutta-Munthe-Kaas methods: ``rkmk(r)`` truncates dexpinv after the power r, ``rkmk`` does not
 truncate it.
 
-The left-hand sides of conditions are values of the series of the method on Lyndon words. They do not use any
-theorem about the order. The computed order is min(p, R + 2), where p is the Runge-Kutta order and R = r for r
-= 0 and odd r, R = r + 1 for even r >= 2, since B_{r+1} = 0.
+The left-hand sides of conditions are values of the series of the method on Lyndon words. The conditions do
+not assume any theorem about the order. They give the order min(p, R + 2), where p is the order of the tableau
+as a Runge-Kutta method. Here R = r if r is 0 or odd, and R = r + 1 if r >= 2 is even, because then the
+Bernoulli number B_{r+1} is zero.
 """
 
 from __future__ import annotations
@@ -48,7 +49,8 @@ if TYPE_CHECKING:
 
 
 RANKED = 8
-"""The highest order at which essential conditions are computed. At higher orders the ranks take too long."""
+"""The highest order at which essential conditions are computed. At higher orders the computation of ranks
+takes too long."""
 
 
 @register
@@ -83,14 +85,14 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return cls() if has_weights(tableau) else None
 
     def longest_word(self, key: Key) -> int:
-        """Return the length of the longest word of trees in a forest: the forest itself, or the branches at
-        one vertex."""
+        """Return the length of the longest word of trees in a forest. These words are the forest itself and,
+        for each vertex, the word of the branches at the vertex."""
         assert isinstance(key, bytes)
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the word ``[.] . ... .``, the first word whose value changes if dexpinv is
-        truncated."""
+        """Return the condition of the word ``[.] . ... .``. This is the condition of lowest order that a
+        truncation of dexpinv changes."""
         if self.cutoff is None or order < 3:
             return None
         return self._of([b"\0\1" + b"\0" * (order - 2)])[0]
@@ -123,12 +125,12 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
         return (
             f"Lyndon words over ordered trees give {counts} conditions of order 1, 2, ..., "
             f"which are sufficient for every method on a group. For {self.label()} methods the listed "
-            f"conditions imply all of these.{beyond}"
+            f"conditions imply all conditions of Lyndon words.{beyond}"
         )
 
     def highest_order(self, limit: int) -> int:
-        """Return R + 2, the highest order that is possible with this truncation of dexpinv, but at most
-        ``limit``.
+        """Return the smaller of ``limit`` and R + 2. The order R + 2 is the highest order that is possible
+        with this truncation of dexpinv.
 
         At the next order the values of every tableau satisfy a relation that the values of the exact flow
         violate. At this order there is one essential condition more than there are rooted trees. The number
@@ -148,7 +150,8 @@ class MuntheKaasFamily(DexpinvCut, OrderedForestFamily):
 
 
 class _Words:
-    """The coefficients of words as index sums; i is the index of a stage, or None for the step."""
+    """The coefficients of words as index sums. The argument ``i`` is the index of a stage, or None for the
+    update of the step."""
 
     def __init__(self, cutoff: int | None) -> None:
         self._cutoff = cutoff

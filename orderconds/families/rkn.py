@@ -1,12 +1,12 @@
-"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. Some brackets of T and V
-vanish.
+"""Runge-Kutta-Nystroem splittings: H = T(q, p) + V(q), where T is quadratic in p. For such Hamiltonians some
+brackets of T and V are zero.
 
-The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone, which have degree
-0, therefore commute. V and [V,[T,V]] are functions of q alone, as are all iterates of the product x o y =
-[x,[T,y]] on V. The resulting relation of lowest weight is [V,[V,[V,T]]] = 0. The conditions are indexed by
-the linear combinations of words over T and V that vanish on the ideal of these commutators. The numbers of
-conditions at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25, ... (McLachlan, SIAM J. Sci. Comput. 16 (1995)
-151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
+The bracket of functions of degrees i and j in p has degree i + j - 1. Functions of q alone have degree 0 and
+therefore commute. V and [V,[T,V]] are functions of q alone. More generally, all functions generated from V by
+the product x o y = [x,[T,y]] are functions of q alone. The resulting relation of lowest weight is
+[V,[V,[V,T]]] = 0. The conditions are indexed by the linear combinations of words over T and V that vanish on
+the ideal of these commutators. The numbers of conditions at order 1, 2, ... are 2, 1, 2, 2, 4, 5, 10, 14, 25,
+... (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151; McLachlan and Murua, J. Comput. Dyn. 6 (2019) 345).
 """
 
 from __future__ import annotations
@@ -46,8 +46,8 @@ T, V = 0, 1
 
 @register
 class NystroemFamily(Family):
-    """Splittings T + V of files in which the key ``rkn`` names V. Each condition corresponds to a combination
-    of words over T and V.
+    """Splittings T + V whose tableau file names the part V in the key ``rkn``. Each condition belongs to a
+    linear combination of words over T and V.
 
     >>> [len(NystroemFamily().conditions(n)) for n in range(1, 6)]
     [2, 1, 2, 2, 4]
@@ -64,8 +64,8 @@ class NystroemFamily(Family):
     unknowns = "splitting"
 
     def require(self, method: Method, ring: Ring) -> None:
-        """Raise :class:`~orderconds.errors.InputError` for a splitting in whose file the key ``rkn`` is
-        missing."""
+        """Raise :class:`~orderconds.errors.InputError` if the tableau file of the splitting has no key
+        ``rkn``."""
         if expect(method, Splitting).rkn is None:
             raise InputError(
                 "a splitting without the key rkn",
@@ -79,8 +79,8 @@ class NystroemFamily(Family):
         return tuple(map(self._condition, independent(order)))
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Return the conditions of a basis of all combinations. A dependent condition contains its relation
-        to independent conditions."""
+        """Return the conditions of a basis of all linear combinations of words that vanish on the ideal. A
+        dependent condition contains its relation to independent conditions."""
         return with_relations(map(self._condition, functionals(order)), relation, text)
 
     def evaluate(
@@ -113,7 +113,7 @@ class NystroemFamily(Family):
         return cls() if isinstance(method, Splitting) and method.rkn is not None else None
 
     def symmetric_facts(self, order: int) -> tuple[tuple[str, int], ...]:
-        """Return ``order`` in this family and min(order, 4) for a general splitting.
+        """Return two orders: ``order`` in this family, and min(order, 4) in the family of general splittings.
 
         The relation [V,[V,[V,T]]] = 0 changes only conditions of order four or more. Hence the order of a
         general splitting is at least 3, and it is even because the method is symmetric.
@@ -172,8 +172,7 @@ def formula(functional: Functional) -> Formula:
 
 
 def _scale(functional: Functional) -> int:
-    """Return the smallest factor that clears the denominators in the formulas of the words of a
-    combination."""
+    """Return the least common denominator of the formulas of the words in a linear combination."""
     splitting = SplittingFamily()
     return lcm(*(Fraction(x, splitting.scale(word)).denominator for word, x in functional))
 
@@ -200,7 +199,8 @@ def independent(order: int) -> tuple[Functional, ...]:
 
 @lru_cache(maxsize=32)
 def _potentials(weight: int) -> tuple[Series, ...]:
-    """Return the iterates of x o y = [x,[T,y]] on V that have this weight, as words."""
+    """Return the elements of this weight that the product x o y = [x,[T,y]] generates from V, as combinations
+    of words."""
     if weight == 1:
         return (expand(V),)
     potentials = []

@@ -1,4 +1,4 @@
-"""Symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. The methods with one stage are
+"""Symplectic Lie group integrators of Section 2.5 of Marthinsen's thesis. Methods with one stage are
 theta-methods.
 
 The family is equal to ``vrkmk(0)``, that is, VRKMK without brackets in dexpinv. The order is at most two (H.
@@ -36,7 +36,7 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
         super().__init__(0)
 
     def label(self) -> str:
-        """Return ``slgi``."""
+        """Return the label ``slgi``."""
         return self.name
 
     def claim(self, order: int) -> OrderClaim:
@@ -45,12 +45,12 @@ class SymplecticLieGroupFamily(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file need not claim an order in this family, because it equals the order in
+        """Return None: a file need not claim an order in this family, because the order equals the order in
         ``vrkmk(0)``."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return this family as the only variant."""
+        """Return a tuple that contains only this family, because the family has no variants."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:

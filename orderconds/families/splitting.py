@@ -1,8 +1,8 @@
 """Splittings: products of the flows of fields A, B, ... whose sum is the field of the problem.
 
-The conditions are indexed by words over A, B, .... One step is ... exp(b_1 h B) exp(a_1 h A), where A acts
-first in each stage. The exact flow exp(h (A + B + ...)) has the value 1/n! on every word of n letters (HLW
-III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
+The conditions are indexed by words over A, B, .... One step is ... exp(b_1 h B) exp(a_1 h A). In each stage,
+the flow of A acts first. The exact flow exp(h (A + B + ...)) has the value 1/n! on every word of n letters
+(HLW III.5; McLachlan and Quispel, Acta Numerica 11 (2002) 341).
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ class SplittingFamily(WordFamily):
     }
     trees = "letters"
     illustrates = ("letters",)
-    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting in two parts"}
+    implies: ClassVar[Mapping[str, str]] = {"rkn": "a splitting T + V is a splitting into two parts"}
     unknowns = "splitting"
 
     def __init__(self, parts: int = 2) -> None:
@@ -100,7 +100,8 @@ class SplittingFamily(WordFamily):
         return Fraction(1, factorial(len(word)))
 
     def scale(self, word: Word) -> int:
-        """Return the product of the factorials of the run lengths of a word."""
+        """Return the product of the factorials of the run lengths of a word. A run is a maximal block of
+        equal letters."""
         return prod(factorial(len(list(run))) for _, run in groupby(word))
 
     def formula(self, word: Word) -> Formula:
@@ -112,7 +113,7 @@ class SplittingFamily(WordFamily):
         return two_part_formula(word) if self.parts == 2 else splitting_formula(word)
 
     def for_method(self, method: Method) -> Family:
-        """Return the member of this family with the number of parts of the given splitting."""
+        """Return the family of splittings that have the same number of parts as the given splitting."""
         return SplittingFamily(len(expect(method, Splitting).parts))
 
     @classmethod
@@ -143,8 +144,8 @@ class SplittingFamily(WordFamily):
         return ProductOfExponentials(ring, len(steps), lambda J, k: steps[J][1] if steps[J][0] == k else None)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
-        """Return the coefficients of splittings in which every stage contains all parts, as unknowns of a
-        search."""
+        """Return the coefficients of splittings as unknowns of a search. Every stage contains the flows of
+        all parts."""
         refuse_explicit(self.label(), explicit)
         letters = "abcdef"[: self.parts]
         names = tuple((x, (str(i),)) for i in range(1, stages + 1) for x in letters)
@@ -178,8 +179,8 @@ def splitting_formula(word: Word) -> Formula:
         indices = [fresh() for _ in blocks]
         relations = []
         for (i, (one, _)), (j, (two, _)) in pairwise(zip(indices, blocks, strict=True)):
-            # A acts before B in each stage. A letter A and a later letter B may therefore come from the same
-            # stage.
+            # In each stage, A acts before B. Therefore a letter A and a letter B after it may come from the
+            # same stage.
             relations.append((i, "<=" if one < two else "<", j))
         factors = [
             coefficient("abcdef"[letter], i)
@@ -202,7 +203,7 @@ def two_part_formula(word: Word) -> Formula:
         i = fresh()
         return product(*[index_sum((i,), (), coefficient("a", i))] * len(word))
     *gaps, tail = "".join("AB"[letter] for letter in word).split("B")
-    runs: list[tuple[int, int]] = []  # pairs (gap, length): ``gap`` letters A, then ``length`` letters B
+    runs: list[tuple[int, int]] = []  # (gap, length): ``gap`` letters A, then ``length`` letters B
     for gap in map(len, gaps):
         if gap or not runs:
             runs.append((gap, 1))
@@ -233,8 +234,8 @@ def two_part_formula(word: Word) -> Formula:
 
 
 def _splits(lengths: list[int]) -> Iterator[tuple[int, tuple[tuple[int, ...], ...]]]:
-    """Yield the divisions of runs of these lengths into blocks, one block for each stage, with the
-    multinomial factor."""
+    """Yield all divisions of runs of these lengths into blocks, each with its multinomial factor. Each stage
+    contributes one block."""
     for split in tuples(*(tuple(compositions(length)) for length in lengths)):
         yield prod(factorial(sum(parts)) // prod(map(factorial, parts)) for parts in split), split
 

@@ -1,8 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods: bhat = b and ahat_ij = b_j - b_j a_ji/b_i.
 
-Suppose that the root of a tree moves across an edge. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
-weights of both trees add up to a product of weights of smaller trees. The conditions are therefore indexed by
-free trees with directed edges (Abia and Sanz-Serna 1993; HLW VI.7).
+Compare two rooted trees that differ only in the choice of the root: the roots are the two ends of one edge.
+By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the sum of the weights of both trees is a product of weights
+of smaller trees. Therefore the conditions are indexed by free trees with directed edges (Abia and Sanz-Serna
+1993; HLW VI.7).
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ class SymplecticPartitionedFamily(Family):
     needs_nonzero_weights = True
     over_rationals = True
     implies: ClassVar[Mapping[str, str]] = {
-        "rk": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field"
+        "rk": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field"
     }
     low_order = "rk"
     bounds_others = True
@@ -69,7 +70,7 @@ class SymplecticPartitionedFamily(Family):
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all rooted trees with directed edges. A dependent condition contains its
-        relation."""
+        relation to independent conditions."""
         return weight_conditions(self.name, directed_rooted_trees(order), text, switching=SWITCHING)
 
     def evaluate(
@@ -95,7 +96,8 @@ class SymplecticPartitionedFamily(Family):
         return cls() if has_weights(tableau, nonzero=True) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the tableau is proved to be symmetric. The conjugate (ahat, b) is then also symmetric."""
+        """Return True if the tableau is proved to be symmetric. The conjugate (ahat, b) is then also
+        symmetric."""
         return symmetric_tableau(method, ring)
 
     def order_of_tableau(self, method: Method, ring: Ring, orders: Mapping[str, int]) -> int:

@@ -1,9 +1,9 @@
 """Symplectic partitioned Runge-Kutta methods for separable Hamiltonians H = T(p) + V(q).
 
 Conditions contain only trees in which neighbouring vertices differ in colour. The relation b_i ahat_ij +
-bhat_j a_ji = b_i bhat_j allows the root of a tree to move across an edge. The conditions are therefore
-indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b and bhat may differ, as in pairs
-that are equivalent to splittings.
+bhat_j a_ji = b_i bhat_j relates the conditions of two rooted trees that differ only in the choice of the
+root. Therefore the conditions are indexed by free trees (Abia and Sanz-Serna 1993; HLW VI.7.2). The weights b
+and bhat may differ; for example, they differ in pairs that are equivalent to splittings.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class SeparableFamily(Family):
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all rooted trees with alternating colours. A dependent condition contains
-        its relation."""
+        its relation to independent conditions."""
         trees = [alternating(colour, tree) for colour in (0, 1) for tree in rooted_trees(order)]
         return weight_conditions(self.name, trees, text, rooted_weight, SWITCHING)
 
@@ -89,7 +89,7 @@ class SeparableFamily(Family):
         return cls() if pair else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether both tableaux of a pair are symmetric."""
+        """Return True if both tableaux of a pair are symmetric."""
         return isinstance(method, PartitionedRungeKutta) and symmetric_tableau(method, ring)
 
     def in_stages(self, stages: int, *, explicit: bool = False) -> StageForm:
@@ -102,7 +102,7 @@ def require_symplectic_pair(label: str, method: PartitionedRungeKutta, ring: Rin
     """Raise :class:`~orderconds.errors.InputError` unless b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
     If the coefficients are balls, the difference of the two sides must be a ball that contains zero. The
-    relation then holds to the digits that the file gives.
+    relation then holds up to the rounding errors of the decimals in the file.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find

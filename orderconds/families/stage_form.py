@@ -28,8 +28,8 @@ class StageForm(Struct, frozen=True):
 
 
 def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> StageForm:
-    """Return the coefficients of Butcher tableaux: full, or strictly lower triangular if ``explicit`` is
-    true.
+    """Return the coefficients of Butcher tableaux. The matrix A is strictly lower triangular if ``explicit``
+    is true, otherwise full.
 
     >>> tableau_form(2, explicit=True).names
     (('b', ('1',)), ('b', ('2',)), ('a', ('2', '1')))
@@ -47,8 +47,8 @@ def tableau_form(stages: int, explicit: bool = False, divides: bool = False) -> 
 
 
 def refuse_explicit(label: str, explicit: bool) -> None:
-    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true; used by families without tableaux
-    (A, b).
+    """Raise :class:`~orderconds.errors.InputError` if ``explicit`` is true. Families without tableaux (A, b)
+    call this function, because they have no explicit methods.
 
     >>> refuse_explicit("splitting", False)
     """

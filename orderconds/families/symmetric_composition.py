@@ -1,7 +1,7 @@
 """Symmetric compositions of a symmetric method of order two.
 
-A step is equal to its adjoint. The logarithm of the step therefore has only terms of odd weight. Hence there
-are conditions only for words over the letters 1, 3, 5, ..., and conditions of even order follow from
+A step is equal to its adjoint. Therefore the logarithm of the step contains only terms of odd weight. Hence
+conditions exist only for words over the letters 1, 3, 5, ..., and the conditions of even order follow from
 conditions of lower order (HLW III.3.3; Suzuki, J. Math. Phys. 32 (1991) 400).
 """
 
@@ -77,7 +77,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return tuple(word for word in words_of_weight(order) if all(letter % 2 for letter in word))
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the Lyndon words over odd letters; there are none if the order is even."""
+        """Return the Lyndon words over odd letters. If the order is even, the result is empty, because
+        conditions of even order follow from conditions of lower order."""
         return tuple(lyndon_words(range(1, order + 1, 2), order, int)) if order % 2 else ()
 
     def polynomial(self, word: Word) -> Polynomial:
@@ -106,8 +107,8 @@ class SymmetricCompositionFamily(CompositionFamily):
         return cls() if reads_backwards(method.gamma, tableau.ring) else None
 
     def symmetric_family(self, method: Method) -> Family | None:
-        """Return None. The method is called only for a family that has the name of a tableau format, and no
-        format has the name of this family."""
+        """Return None. The value is not used, because the method is called only for a family that has the
+        name of a tableau format."""
         return None
 
     def random_method(self, ring: Residues, generator: np.random.Generator, order: int) -> Method:
@@ -135,8 +136,9 @@ def _polynomial(word: Word) -> tuple[tuple[tuple[Word, ...], Fraction], ...]:
         return tuple(result.items())
     if sum(word) % 2:
         return (((word,), Fraction(1)),)
-    # The logarithm vanishes on words of even weight. Its value on a word is the sum, over all divisions of
-    # the word into m parts, of (-1)^(m+1)/m times the product of the values on the parts.
+    # The value of the logarithm is zero on words of even weight. On every word, this value is the sum of
+    # (-1)^(m+1)/m times the product of the values on the parts, over all divisions of the word into m = 1, 2,
+    # ... parts.
     result = {}
     for lengths in compositions(len(word)):
         if len(lengths) > 1:

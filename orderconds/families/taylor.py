@@ -1,9 +1,9 @@
 """Taylor's method of degree P: the step is the Taylor polynomial of the solution, computed by recurrences.
 
-The coefficients of the polynomial follow from the field by automatic differentiation, so there is no tableau
-and there are no order conditions: the order is P for every field (A. Jorba and M. Zou, *A software package
-for the numerical integration of ODEs by means of high-order Taylor methods*, Experimental Mathematics 14
-(2005) 99).
+Automatic differentiation of the vector field gives the coefficients of the polynomial. The family has no
+tableau and no order conditions, because the order is P for every vector field (A. Jorba and M. Zou, *A
+software package for the numerical integration of ODEs by means of high-order Taylor methods*, Experimental
+Mathematics 14 (2005) 99).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ degree."""
 
 @register
 class TaylorFamily(Family):
-    """The Taylor polynomial of degree P; ``degree`` is P.
+    """Taylor's method; ``degree`` is the degree P of the Taylor polynomial.
 
     >>> TaylorFamily(3).label(), TaylorFamily(3).degree_of_step()
     ('taylor(3)', 3)
@@ -37,7 +37,7 @@ class TaylorFamily(Family):
     """
 
     name = "taylor"
-    description = "Taylor polynomials of a degree, as taylor(12): no tableau, no conditions, order = degree."
+    description = "Taylor polynomials of a given degree, such as taylor(12); the order is the degree."
     has_tableau = False
     controls_steps = True
     keeps_manifold = True
@@ -51,7 +51,7 @@ class TaylorFamily(Family):
         self.degree = degree
 
     def label(self) -> str:
-        """Return the name with the degree."""
+        """Return the name of the family with the degree in parentheses, such as ``taylor(12)``."""
         return self.name if self.degree is None else f"{self.name}({self.degree})"
 
     def degree_of_step(self) -> int:
@@ -70,13 +70,15 @@ class TaylorFamily(Family):
         return tuple(Fraction(1, factorial(k)) for k in range(self.degree_of_step() + 1))
 
     def conditions(self, order: int) -> tuple[OrderCondition, ...]:
-        """Raise :class:`~orderconds.errors.InputError`, which says why there are no conditions."""
+        """Raise :class:`~orderconds.errors.InputError`. The message explains why the family has no order
+        conditions."""
         raise self._unconditional()
 
     def evaluate(
         self, method: Method, ring: Ring, conditions: Sequence[OrderCondition]
     ) -> tuple[Element, ...]:
-        """Raise :class:`~orderconds.errors.InputError`, which says why there are no conditions."""
+        """Raise :class:`~orderconds.errors.InputError`. The message explains why the family has no order
+        conditions."""
         raise self._unconditional()
 
     def read(self, tableau: Tableau) -> Method | None:
@@ -84,8 +86,8 @@ class TaylorFamily(Family):
         raise self._unconditional()
 
     def work(self, tableau: Tableau) -> Work | None:
-        """Return None, because the cost counts evaluations of the field, and a step evaluates recurrences
-        instead."""
+        """Return None. The cost of a step counts evaluations of the vector field, but a step of Taylor's
+        method evaluates recurrences."""
         return None
 
     def _unconditional(self) -> InputError:

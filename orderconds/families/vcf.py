@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 class VariationalCommutatorFree(ActionFamily):
     """The family ``vcf``.
 
-    Independent conditions are selected by ranks at random methods. ``update`` and ``stage`` are the numbers
-    of exponentials in the update and in each stage of these methods. The default numbers are large enough to
-    give one independent condition for each elementary Hamiltonian. A Runge-Kutta tableau is interpreted with
-    one velocity in each exponential.
+    Independent conditions are selected by the ranks of their values at random methods. ``update`` and
+    ``stage`` are the numbers of exponentials in the update and in each stage of the random methods. The
+    default numbers are large enough to give one independent condition for each elementary Hamiltonian. A
+    Runge-Kutta tableau is interpreted with one velocity in each exponential.
 
     >>> [len(VariationalCommutatorFree().conditions(n)) for n in (1, 2, 3, 4)]
     [1, 1, 6, 28]
@@ -49,7 +49,7 @@ class VariationalCommutatorFree(ActionFamily):
     formats = ("cf", "rk")
     symbols = EXPONENTIAL_SYMBOLS
     implies: ClassVar[Mapping[str, str]] = {
-        "cf": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field on G"
+        "cf": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field on G"
     }
     unknowns = "cf"
     equal_abscissae = True
@@ -86,16 +86,16 @@ class VariationalCommutatorFree(ActionFamily):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return this family for a commutator-free method without zero weights, else None. A tableau (A, b)
-        claims its order in ``vcg``."""
+        """Return this family for a commutator-free method without zero weights, else None. For a tableau (A,
+        b) the result is None, because its file claims the order in the family ``vcg``."""
         method, ring = tableau.method, tableau.ring
         if not isinstance(method, CommutatorFree):
             return None
         return cls() if all_nonzero(method.as_runge_kutta(ring).b, ring) else None
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
-        symmetric."""
+        """Return True if the products of exponentials that lead to the stages are symmetric; the method is
+        then symmetric."""
         return isinstance(method, CommutatorFree) and symmetric_paths(method, ring) is True
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -46,7 +46,7 @@ class VariationalCrouchGrossman(ActionFamily):
     formats = ("rk",)
     illustrates = ("action",)
     implies: ClassVar[Mapping[str, str]] = {
-        "cg": "for a Hamiltonian that is linear in the momentum, q follows the flow of a given field on G",
+        "cg": "if the Hamiltonian is linear in the momentum, q follows the flow of a vector field on G",
         "sprk": "a vector space is a Lie group under addition",
         "vcf": "a commutator-free method with one velocity in each exponential",
     }
@@ -62,8 +62,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, tableau.A, tableau.b))
 
     def random_series(self, ring: RandomRing, generator: np.random.Generator, order: int) -> ActionSeries:
-        """Return the series of random full tableaux with order - 1 stages; more stages do not increase the
-        ranks."""
+        """Return the action series of random full tableaux. The number of stages is ``order`` - 1, because
+        more stages do not increase the ranks."""
         stages = max(order - 1, 2)
         rows = [[ring.random(generator) for _ in range(stages)] for _ in range(stages + 1)]
         return CommutatorFreeSeries(ring, crouch_grossman_rows(ring, rows[:-1], rows[-1]))
@@ -73,8 +73,8 @@ class VariationalCrouchGrossman(ActionFamily):
         return CrouchGrossmanFormula()
 
     def is_symmetric(self, method: Method, ring: Ring) -> bool:
-        """Whether the products of exponentials that lead to the stages are symmetric; the method is then
-        symmetric."""
+        """Return True if the products of exponentials that lead to the stages are symmetric; the method is
+        then symmetric."""
         return symmetric_crouch_grossman(method, ring)
 
     def work(self, tableau: Tableau) -> Work | None:

@@ -1,9 +1,9 @@
 """Variational Runge-Kutta-Munthe-Kaas methods with dexpinv truncated after the power r: ``vrkmk(r)``.
 
 Equation (3.16) of Bogfjellmo and Marthinsen defines the method. The order is computed from the series of the
-method. It is min(p, R + 2), where p is the order as a symplectic partitioned Runge-Kutta method, and R is r
-for r = 0 and odd r, r + 1 for even r >= 2. For some r this order is higher than the bound in Theorem 3.5.3 of
-Bogfjellmo and Marthinsen. The tests verify the order.
+method. It is min(p, R + 2), where p is the order as a symplectic partitioned Runge-Kutta method, and R = r if
+r is 0 or odd, R = r + 1 if r >= 2 is even. For some r this order is higher than the bound in Theorem 3.5.3 of
+Bogfjellmo and Marthinsen. The tests of the project verify the order.
 """
 
 from __future__ import annotations
@@ -59,8 +59,8 @@ class VariationalMuntheKaas(DexpinvCut, ActionFamily):
         return longest_word(key)
 
     def first_unmet(self, order: int) -> OrderCondition | None:
-        """Return the condition of the tree ``o(o|L(o ... o))``, the first tree whose value changes if dexpinv
-        is truncated."""
+        """Return the condition of the tree ``o(o|L(o ... o))``. This is the condition of lowest order that a
+        truncation of dexpinv changes."""
         if self.cutoff is None or order < 3:
             return None
         leaf = velocity()

@@ -1,4 +1,4 @@
-"""VRKMK with the inverse of a truncated dexp, instead of a truncated dexpinv: ``vrkmk_pade(r)``.
+"""VRKMK methods ``vrkmk_pade(r)``, which invert a truncated series of dexp and do not truncate dexpinv.
 
 The stage velocities solve dexp_(r),X_i v_i = xi_i (Marthinsen's thesis, Section 3.4.1, alternative approach).
 Conditions are indexed by action trees, as in every variational family, and evaluated by the action series of
@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 
 @register
 class VariationalMuntheKaasPade(VariationalMuntheKaas):
-    """The family of tableaux (A, b), all b_i non-zero; dexp is truncated after the power ``cutoff``.
+    """The family ``vrkmk_pade(r)`` of tableaux (A, b) with all b_i non-zero. The series of dexp is truncated
+    after the power ``cutoff``.
 
     Without ``cutoff``, dexp is not truncated, and the family is equal to ``vrkmk`` without ``cutoff``.
 
@@ -66,16 +67,16 @@ class VariationalMuntheKaasPade(VariationalMuntheKaas):
 
     @classmethod
     def claimable(cls, tableau: Tableau) -> Self | None:
-        """Return None: a file may claim an order in this family, but need not."""
+        """Return None: a tableau file without a claim in this family is complete."""
         return None
 
     def claimed_variants(self) -> tuple[Family, ...]:
-        """Return this family as the only variant."""
+        """Return a tuple that contains only this family, because only one variant claims an order."""
         return (self,)
 
     def implied_order(self, orders: Mapping[str, int]) -> int:
-        """Return the order in ``rk``, but at most 2, because no theorem about the truncation of dexp is
-        used."""
+        """Return the smaller of 2 and the order in ``rk``. No theorem about the truncation of dexp is used,
+        and therefore no higher order is derived."""
         return min(2, orders.get("rk", 0))
 
     def unseen_cut(self, method: Method, orders: Mapping[str, int]) -> UnseenCut | None:

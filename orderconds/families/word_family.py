@@ -59,8 +59,8 @@ class WordFamily(Family):
         all conditions up to ``order``."""
 
     def independent(self, order: int) -> tuple[Word, ...]:
-        """Return the words of this weight whose conditions are independent and imply the conditions of all
-        other words of this weight."""
+        """Return words of this weight whose conditions are independent. These conditions imply the conditions
+        of all other words of this weight."""
         letters = sorted({letter for word in self.words(order) for letter in word})
         return tuple(lyndon_words(letters, order, self.weigh))
 
@@ -86,7 +86,7 @@ class WordFamily(Family):
 
     def all_conditions(self, order: int) -> tuple[OrderCondition, ...]:
         """Return the conditions of all words of exactly this order. A dependent condition contains its
-        relation."""
+        relation to independent conditions."""
         return with_relations(map(self._condition, self.words(order)), self._scaled, self.text)
 
     @cached_property

@@ -1,4 +1,5 @@
-r"""Equations in LaTeX for a paper: numbered, with a column of trees, and narrow enough for two columns.
+r"""Numbered equations in LaTeX for a paper, with a column of trees. The equations fit in a column of a
+two-column article.
 
 Long left-hand sides are broken between terms.
 """
@@ -18,7 +19,7 @@ _TOKEN = re.compile(r"\\[A-Za-z]+ ?|\\.|[{}]| [+-] |.")
 
 @dataclass(frozen=True)
 class Equation:
-    """An equation: both sides in LaTeX, a LaTeX picture for the first column, a label, and comments."""
+    """An equation: its two sides in LaTeX, a LaTeX picture for the first column, a label, and comments."""
 
     left: str
     right: str
@@ -30,8 +31,9 @@ class Equation:
 def numbered(equations: Sequence[Equation]) -> str:
     r"""Return an ``alignat`` environment, or an ``align`` environment (package amsmath).
 
-    The signs of equality are aligned. If a left-hand side is broken into several lines, all lines are aligned
-    at the left margin and not at the signs. The column of pictures is left out if no equation has one.
+    The equations are aligned at the equality signs. If a left-hand side is broken into several lines, all
+    lines are aligned at the left margin and not at the equality signs. The column of pictures is omitted if
+    no equation has a picture.
 
     >>> print(numbered([Equation(r"\sum_{i} b_{i}", "1", label="rk:1:1", comment="order 1")]))
     \begin{alignat}{1}
@@ -60,8 +62,8 @@ def numbered(equations: Sequence[Equation]) -> str:
 
 
 def broken(latex: str, line: int = LINE) -> list[str]:
-    r"""Break a formula into lines about ``line`` characters wide. Breaks are at plus and minus signs inside
-    as few brackets as possible.
+    r"""Break a formula into lines of about ``line`` characters. A line is broken before a plus or minus sign
+    that is inside as few brackets as possible.
 
     >>> broken("a_{1} + b_{2} - c_{3}", line=7)
     ['a_{1} + b_{2}', '- c_{3}']
@@ -95,7 +97,8 @@ def _terms(latex: str, within: int) -> list[str]:
 
 
 def _width(latex: str) -> float:
-    """Estimate the width of a formula in characters; fractions and scripts are narrower."""
+    """Return an estimate of the printed width of a formula in characters. Fractions, subscripts and
+    superscripts count as narrower than their LaTeX text."""
     scripts = sum(len(script) for script in re.findall(r"[_^]\{([^}]*)\}", latex))
     plain = re.sub(r"[_^]\{[^}]*\}|\\hat|\\Big[lr]", "", latex)
     plain = re.sub(r"\\tfrac\{(\d+)\}\{(\d+)\}", lambda m: max(m.groups(), key=len), plain)

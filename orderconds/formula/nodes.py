@@ -1,8 +1,8 @@
 """The syntax tree of index sums, its text, and functions that build and simplify formulas.
 
-Bound indices must have unique names while a formula is being built; :func:`fresh` returns such names. At the
-end :func:`named` replaces them by readable names. Upper-case indices run over exponentials, lower-case
-indices over stages.
+Bound indices must have unique names while a formula is being built; :func:`fresh` returns such names. When a
+formula is complete, :func:`named` replaces these names by readable names. Upper-case indices run over
+exponentials, lower-case indices over stages.
 """
 
 from __future__ import annotations
@@ -104,7 +104,8 @@ def coefficient(name: str, *indices: str) -> Formula:
 
 
 def product(*factors: Formula) -> Formula:
-    """Return the product: nested products are flattened, numbers come first, and equal factors become powers.
+    """Return the product of formulas. Nested products are flattened, numbers are moved to the front, and
+    equal factors are combined to powers.
 
     Factors are equal if they differ only in the names of bound indices. A zero factor gives zero.
 
@@ -124,8 +125,8 @@ def product(*factors: Formula) -> Formula:
             parts.append((base, exponent))
         else:
             parts += [(inner, exponent * power) for inner, power in _powers((base,))]
-    # Two different factors can be equal up to the names of bound indices only if both contain sums. If only
-    # one factor contains a sum, no comparison is necessary.
+    # Different factors are compared only if at least two factors contain sums, because different factors can
+    # be equal up to the names of bound indices only if both contain sums.
     alone = len([None for inner, _ in parts if not isinstance(inner, Coefficient)]) <= 1
     collected: dict[Hashable, tuple[Formula, int]] = {}
     for inner, exponent in parts:
@@ -138,7 +139,8 @@ def product(*factors: Formula) -> Formula:
 
 
 def total(*terms: tuple[Fraction | int, Formula]) -> Formula:
-    """Return the sum of rational multiples: nested sums are flattened, and equal terms are collected.
+    """Return the sum of rational multiples of formulas. Nested sums are flattened, and equal terms are
+    collected.
 
     Terms are equal if they differ only in the names of bound indices.
 
@@ -202,7 +204,8 @@ def refreshed(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return the formula with new names for its bound indices. Free indices are renamed as ``names``
     specifies.
 
-    Several copies of one formula can then be factors of one product, and their sums can be merged.
+    Copies of one formula with different bound indices can then be factors of one product, and their sums can
+    be merged.
 
     >>> half = index_sum(("j",), (), coefficient("a", "i", "j"))
     >>> named(product(*(refreshed(half, {"i": row}) for row in ("k", "l")))).text()
@@ -236,7 +239,7 @@ def named(formula: Formula, names: Mapping[str, str] | None = None) -> Formula:
     'sum_i b_i'
     """
     names = names or {}
-    # A bound index must not get the name of a free index.
+    # The new name of a bound index must differ from the names of all free indices.
     return _named(formula, names, tuple(x for x in free_indices(formula) if x not in names))
 
 
@@ -262,7 +265,7 @@ def _named(formula: Formula, names: Mapping[str, str], free: tuple[str, ...]) ->
 
 
 def coefficients(formula: Formula) -> Iterator[Coefficient]:
-    """Yield every coefficient that occurs, from left to right.
+    """Yield every coefficient that occurs in a formula, from left to right.
 
     >>> [c.name for c in coefficients(product(coefficient("b", "i"), coefficient("c", "i")))]
     ['b', 'c']

@@ -45,7 +45,7 @@ def latex_fraction(q: Fraction) -> str:
 
 
 def joined(indices: Sequence[str]) -> str:
-    """Return the text of several indices, with commas if one of them has more than one letter.
+    """Return the text of several indices. Commas separate the indices if an index has more than one letter.
 
     >>> joined(["i", "j"]), joined(["i", "j1"])
     ('ij', 'i,j1')
@@ -64,7 +64,8 @@ def subscript(written: str, notation: Notation) -> str:
 
 
 def chains(indices: Sequence[str], relations: Sequence[Relation], notation: Notation) -> str:
-    """Return the text below a summation sign. Relations are joined to chains if possible, as in ``i<j<k,l``.
+    """Return the text below a summation sign. If possible, relations are joined to a chain, as in
+    ``i<j<k,l``.
 
     If the largest index of a chain is not bound by this sum, the chain is written in decreasing order,
     ``k>j>i``, so that the first index is always bound by the sum.

@@ -1,7 +1,8 @@
-"""Formulas as SymPy expressions: coefficients become ``IndexedBase`` entries, index sums become ``Sum``.
+"""Conversion of formulas to SymPy expressions. A coefficient becomes an entry of an ``IndexedBase``, an index
+sum becomes a ``Sum``.
 
-This is the only module of ``orderconds`` that imports SymPy at the top. The module itself is imported on
-demand.
+This is the only module of ``orderconds`` that imports SymPy at the top. To avoid this import, other modules
+import the module only when they need it.
 """
 
 from __future__ import annotations
@@ -72,8 +73,8 @@ def _limits(indices: Sequence[str], relations: Sequence[Relation]) -> list[Limit
 
 
 def expand_sums(expression: sympy.Expr, stages: int, exponentials: int = 1) -> sympy.Expr:
-    """Return an exported expression with its sums expanded for a number of stages. (SymPy's ``doit`` does not
-    expand sums with ``i < j``.)
+    """Return a result of :func:`export` in which the sums are expanded for a number of stages. (SymPy's
+    ``doit`` does not expand sums with ``i < j``.)
 
     >>> from orderconds.formula import coefficient, index_sum, product
     >>> body = product(coefficient("b", "i"), coefficient("c", "j"))

@@ -1,4 +1,5 @@
-"""Prove that there is a method near rounded decimals, by interval Newton on its order conditions.
+"""Proofs that an exact method exists near rounded decimals. An interval Newton method is applied to the order
+conditions.
 
 A file's ``[proof]`` table (:mod:`orderconds.tableau.unknowns`) names equations for the decimals of the file.
 Krawczyk's operator proves that exactly one solution lies within one unit of the last digits of the decimals,

@@ -24,7 +24,8 @@ from orderconds.tableau.unknowns import Proof
 
 @dataclass(frozen=True)
 class Misrounded:
-    """A decimal of a file that is not the correctly rounded solution: name, given digits, correct digits."""
+    """A decimal of a file that differs from the correctly rounded solution. It consists of the name, the
+    digits in the file, and the correct digits."""
 
     name: str
     given: str
@@ -83,8 +84,8 @@ def certify(tableau: Tableau, bits: int = 256) -> Certificate:
 
 
 class _Key:
-    """A tableau as a cache key. Tableaux with the same data for a proof are equal, so the checks of several
-    families share one proof."""
+    """A tableau as a key of the cache of proofs. Two keys are equal if the data for the proof are equal.
+    Therefore the proof is computed once, although several families use it."""
 
     def __init__(self, tableau: Tableau) -> None:
         self.tableau = tableau
@@ -129,7 +130,7 @@ def _certify(key: _Key, least: int) -> Certificate:
 
 def _mismatch(conditions: int, unknowns: int) -> str:
     advice = (
-        f"pin {unknowns - conditions} of them"
+        f"pin {unknowns - conditions} of the unknowns"
         if unknowns > conditions
         else "name a reduction: a theorem by which some of the equations follow from the others"
     )
@@ -169,7 +170,8 @@ def _misrounded(proof: Proof, solution: Sequence[arb]) -> Iterator[Misrounded]:
 
 
 def _decimal(value: fmpq, unit: fmpq) -> str:
-    """Return ``value`` in decimal notation; it is a multiple of ``unit``, which is a power of ten."""
+    """Return ``value`` in decimal notation. The value must be a multiple of ``unit``, which is a power of
+    ten."""
     places = len(str(unit.q)) - 1
     return f"{Decimal(int((value / unit).p)).scaleb(-places):f}" if places else str(value)
 

@@ -1,4 +1,5 @@
-"""Search modulo primes for dependent conditions of a sub-family, and lift the combinations to fractions.
+"""A search modulo primes for dependent conditions of a sub-family. The coefficients modulo primes are then
+converted to fractions.
 
 Nothing in this module is a proof. A rank modulo a prime can be too small, and the numerator or denominator of
 a coefficient may be divisible by the prime. :class:`orderconds.proof.exact_member.ExactMember` verifies each
@@ -32,8 +33,8 @@ SPARE = 24
 """The number of additional random methods, which make an accidental dependence improbable."""
 
 PRIME_BITS = 61
-"""The size of the primes in bits. Products of residues fit in a machine word, and one prime is enough to
-determine fractions with small numerator and denominator."""
+"""The size of the primes in bits. With this size, products of residues fit in a machine word, and one prime
+suffices to determine fractions with small numerator and denominator."""
 
 MAX_PRIMES = 24
 """The largest number of primes. A combination whose coefficients are too large for this number of primes is
@@ -120,10 +121,12 @@ def dependences(
 def _modulo(
     sampling: _Sampling, candidates: Sequence[Sequence[OrderCondition]], surd: Surd | None
 ) -> tuple[tuple[OrderCondition, ...], Residues] | None:
-    """Return the independent conditions and the combinations modulo one prime.
+    """Return the independent conditions, and the dependent conditions as combinations of them, modulo one
+    prime.
 
-    If there is a square root, the results for both signs of the root are combined into rational parts. Return
-    None if the independent conditions for the two signs differ.
+    If the sub-family contains a square root sqrt(d), the function computes the coefficients for both signs of
+    the root. From these it computes x and y for each coefficient x + y sqrt(d). Return None if the
+    independent conditions for the two signs differ.
     """
     prime = sampling.prime
     if surd is None:
@@ -210,8 +213,8 @@ class _Sampling:
 
 
 class _Members(Samples):
-    """Samples in which radicals are random numbers. If the only radical is a square root, it has the value
-    ``square_root``."""
+    """A ring of samples modulo a prime, in which each radical is a random number. If the only radical is a
+    square root, its value is ``square_root``."""
 
     def __init__(self, prime: int, count: int, generator: Random, square_root: int | None) -> None:
         super().__init__(prime, count)
@@ -236,7 +239,8 @@ class _Members(Samples):
 
 
 class _NoRoot(Exception):
-    """The error if a number has no square root modulo the prime; another prime is then needed."""
+    """The error that is raised if a number has no square root modulo the prime. The caller then tries another
+    prime."""
 
 
 def _root_modulo(x: Fraction, prime: int) -> int:

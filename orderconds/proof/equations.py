@@ -50,7 +50,8 @@ from orderconds.tableau.simplifying import simplifying, simplifying_order
 from orderconds.tableau.unknowns import Proof, RootedRing
 
 LOW_STORAGE_ORDER = 5
-"""The highest order for which tests confirm that 2N schemes have only the conditions of rooted trees."""
+"""The highest order for which the tests of the project confirm that 2N schemes have only the conditions of
+rooted trees."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,8 @@ class Equations:
     proof: Proof
     facts: tuple[tuple[str, int], ...]
     letters: int | None = None
-    """The largest letter in words of independent conditions, for Gauss nodes; None if there is no bound."""
+    """The largest letter in the words that index independent conditions, for a Magnus method on Gauss nodes;
+    None for other methods."""
     kept: tuple[OrderCondition, ...] | None = None
     """The independent conditions for the reduction ``spelling``."""
 
@@ -177,9 +179,10 @@ def _independent(tableau: Tableau, proof: Proof) -> tuple[OrderCondition, ...]:
 
 
 def _letters(tableau: Tableau, proof: Proof) -> int | None:
-    """Return s for a Magnus method of order at most 2s on the s Gauss nodes, else None.
+    """Return s if the method is a Magnus method on the s Gauss nodes and the order in ``proof`` is at most
+    2s; else None.
 
-    The nodes are read exactly, without the decimals of the file.
+    The nodes are evaluated exactly, and must not depend on rounded decimals of the file.
     """
     method = tableau.method
     if not isinstance(method, Magnus) or proof.order > 2 * method.s:
@@ -189,13 +192,13 @@ def _letters(tableau: Tableau, proof: Proof) -> int | None:
     exact = {name: x for name, x in symbolic.numbers.items() if not any(c.unit for c in rounded_and_exact(x))}
     try:
         ring, values = evaluate(nodes, exact, symbolic.where)
-    except TableauError:  # raised if a node depends on a rounded decimal
+    except TableauError:  # This error is raised if a node depends on a rounded decimal.
         return None
     return method.s if gauss_nodes(list(values.values()), ring) else None
 
 
 def gauss_nodes(nodes: Sequence[Element], ring: Ring) -> bool:
-    """Whether the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
+    """Return True if the product of t - c_i is orthogonal on [0, 1] to all polynomials of lower degree.
 
     >>> from orderconds.ring import QQ
     >>> gauss_nodes([QQ.rational(1, 2)], QQ), gauss_nodes([QQ.zero, QQ.one], QQ)

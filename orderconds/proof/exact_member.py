@@ -1,4 +1,5 @@
-"""Exact values of conditions at one random method, to verify linear combinations of conditions.
+"""Exact values of the conditions of one random method. They verify that a condition is a combination of other
+conditions.
 
 A file whose coefficients are formulas in free numbers defines a sub-family of methods. A *member* is a method
 of this sub-family. :mod:`orderconds.tableau.random_member` draws a random member. The coefficients of the
@@ -30,16 +31,16 @@ Reading = Callable[[Method, Ring], Method]
 """A function from the method of a file over a ring to the method that a family evaluates."""
 
 Monomial = tuple[OrderCondition, ...]
-"""A monomial, given by its conditions: the product of their left-hand sides."""
+"""A monomial: the product of the left-hand sides of these conditions."""
 
 Combination = Mapping[Monomial, tuple[Fraction, Fraction]]
-"""Monomials with their coefficients x + y sqrt(d)."""
+"""A linear combination of monomials; each coefficient is x + y sqrt(d)."""
 
 
 @dataclass(frozen=True)
 class Surd:
-    """A square root of a rational number, the only radical of a file, as an element of the field it
-    generates."""
+    """The square root of a rational number that is the only radical of a file. It is an element of the field
+    that it generates."""
 
     radicand: Fraction
     ring: Ring
@@ -75,14 +76,15 @@ def lone_square_root(symbolic: SymbolicCoefficients) -> Surd | None:
 
 @dataclass(frozen=True)
 class ExactMember:
-    """The left-hand sides of conditions at one member; ``surd`` is the square root in its coefficients."""
+    """The left-hand sides of conditions at one member. ``surd`` is the square root that occurs in the
+    coefficients of the member, or None."""
 
     ring: Ring
     values: Mapping[OrderCondition, Element]
     surd: Surd | None
 
     def holds(self, condition: OrderCondition) -> bool:
-        """Whether a condition holds at this member.
+        """Return True if a condition holds at this member of the sub-family.
 
         Because the member is random, the condition then holds at every member, except with negligible
         probability (:mod:`orderconds.tableau.random_member`).
@@ -90,8 +92,8 @@ class ExactMember:
         return self.ring.is_zero(self.values[condition] - in_ring(self.ring, condition.rhs)) is True
 
     def verifies(self, condition: OrderCondition, combination: Combination | None) -> bool:
-        """Whether a combination equals the left-hand side at this member, and the right-hand side at the
-        exact flow.
+        """Return True if a combination equals the left-hand side at this member, and the right-hand side at
+        the exact flow.
 
         In this case ``condition`` follows from the conditions in the combination, at every member.
         """

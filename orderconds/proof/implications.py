@@ -18,7 +18,7 @@ Fact = tuple[str, int]
 
 
 def implied(facts: Iterable[Fact], family: Family, order: int) -> bool:
-    """Whether ``facts`` about a tableau imply that it has at least this order in ``family``.
+    """Return True if ``facts`` about a tableau imply that it has at least this order in ``family``.
 
     >>> facts = [("cg", 4)]
     >>> implied(facts, families.get("rk"), 4), implied(facts, families.get("rkmk(1)"), 3)
@@ -60,8 +60,8 @@ def settled(facts: Iterable[Fact], orders: Mapping[str, int], family: Family) ->
     """Return the order in ``family`` if theorems determine it, else None.
 
     ``facts`` are lower bounds of orders; ``orders`` are exact orders by label. Upper bounds come from
-    families whose conditions are a subset of those of ``family``: the order in ``family`` is at most the
-    order in such a family.
+    families whose conditions are a subset of the conditions of ``family``, because the order in ``family`` is
+    at most the order in such a family.
 
     >>> settled([("composition", 8)], {"composition": 8, "rk": 8}, families.get("vcg"))
     8

@@ -1,4 +1,5 @@
-"""Krawczyk's operator: a square system has exactly one solution in a box, proved in ball arithmetic.
+"""Krawczyk's operator, which proves in ball arithmetic that a square system has exactly one solution in a
+box.
 
 For F: R^n -> R^n, a box X with midpoint x and any matrix Y,
 
@@ -27,12 +28,12 @@ MAX_SWEEPS = 40
 
 
 class NotProved(Exception):
-    """The proof failed; the message is the reason."""
+    """The error that is raised if a proof fails. The message states the reason."""
 
 
 def enclose(system: System, box: Sequence[arb], bits: int) -> tuple[arb, ...]:
-    """Return balls around the only zero of ``system`` in ``box``, about as narrow as a precision of ``bits``
-    bits allows.
+    """Return balls that enclose the only zero of ``system`` in ``box``. The radii are almost as small as a
+    precision of ``bits`` bits allows.
 
     Raises :class:`NotProved` if Krawczyk's operator does not map the box into the interior of the box.
 

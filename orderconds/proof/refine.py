@@ -26,13 +26,13 @@ from orderconds.tableau.unknowns import Proof, RootedRing
 
 MAX_STEPS = 60
 TOLERANCE = fmpq(1, 100)
-"""The largest accepted change of a decimal; a larger change would lead to another method."""
+"""The largest accepted change of a decimal. After a larger change the solution would be another method."""
 
 
 @dataclass(frozen=True)
 class Refined:
-    """New ``decimals`` by name, the names of ``pinned`` decimals, and the text of the file with the new
-    decimals."""
+    """The result of a refinement: the new ``decimals`` by name, the names of the ``pinned`` decimals, and the
+    text of the file with the new decimals."""
 
     decimals: dict[str, str]
     pinned: tuple[str, ...]
@@ -40,8 +40,8 @@ class Refined:
 
 
 def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
-    """Return a tableau file with ``digits`` places in the decimals of its ``[proof]``, and with the list of
-    pinned decimals.
+    """Return a tableau file in which the unknowns of the ``[proof]`` table have ``digits`` decimal places,
+    and in which the pinned decimals are listed.
 
     The original digits are recorded as ``printed``, unless the file already has a table of this name. Raises
     :class:`~orderconds.proof.krawczyk.NotProved` if Newton's method does not converge to a solution near the
@@ -62,8 +62,8 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
         ring = Jets(len(start))
         at = [ring.variable(i, x) for i, x in enumerate(start)]
         system = equations(tableau)
-        # At a single point, the value and the gradient of an equation that is not an identity may both be
-        # zero. A box shows that the equation depends on the unknowns.
+        # The test uses a box and not a point, because the value and the gradient of an equation that is not
+        # an identity may both be zero at a point.
         wide = [ring.variable(i, x + arb(0, 1e-6)) for i, x in enumerate(start)]
         kept = independent(system, system(wide, ring))
         values = system(at, ring)
@@ -78,7 +78,7 @@ def refine(text: str, where: str = "<text>", digits: int = 60) -> Refined:
 
 
 def determined(jacobian: Sequence[Sequence[arb]]) -> list[int]:
-    """Return the indices of the unknowns that elimination with complete pivoting selects, in rising order.
+    """Return the indices of the unknowns that elimination with complete pivoting selects, in ascending order.
 
     Each row is scaled by its largest entry.
 
@@ -196,9 +196,9 @@ def _figures(value: Fraction, places: int) -> str:
 
 
 def _printed(proof: Proof, name: str) -> str:
-    """Return the value of the number ``name`` for the decimals of the file, as text."""
+    """Return, as text, the value of the number ``name`` that follows from the decimals of the file."""
     at = replace(proof, pinned=(*proof.pinned, *proof.unknowns), unknowns=())
-    value = at.number(name, cast("RootedRing", QQ), {})  # a decimal contains no radical
+    value = at.number(name, cast("RootedRing", QQ), {})  # A decimal contains no radical.
     return _decimal_text(Fraction(int(value.p), int(value.q)))
 
 

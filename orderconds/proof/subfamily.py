@@ -1,16 +1,17 @@
 """Independent conditions of the sub-family that a file's formulas define: the reduction ``spelling``.
 
 Formulas such as ``b3 = "1 - b1 - b2"`` define coefficients in terms of other coefficients. They restrict a
-family to a sub-family, in which fewer conditions of the family are independent. A condition is left out if
-its value is a fixed combination of kept conditions of its order and of products of kept conditions of lower
-order, and this combination is valid for every method of the sub-family and for the exact flow. The condition
-therefore holds if the kept conditions hold.
+family to a sub-family, in which fewer conditions of the family are independent. A condition is omitted if its
+value is a combination of kept conditions of the same order and of products of kept conditions of lower order.
+The combination must have constant coefficients, and must be valid for every method of the sub-family and for
+the exact flow. Then the omitted condition holds if the kept conditions hold.
 
-Combinations are found modulo primes (:mod:`orderconds.proof.dependence`), which proves nothing. Each
-combination is then verified exactly at one member of the sub-family, drawn from a digest of the file
-(:mod:`orderconds.proof.exact_member`). A condition without a verified combination is kept. A condition with a
-constant left-hand side is also kept, unless exact arithmetic finds it equal to the right-hand side. If a file
-has several radicals, random numbers replace them. The sub-family is then larger and the statement stronger.
+The combinations are found modulo primes (:mod:`orderconds.proof.dependence`), but a computation modulo primes
+is not a proof. Therefore each combination is verified exactly at one random member of the sub-family, which
+is computed from a digest of the file (:mod:`orderconds.proof.exact_member`). A condition without a verified
+combination is kept. A condition with a constant left-hand side is also kept, unless exact arithmetic finds it
+equal to the right-hand side. If a file has several radicals, random numbers replace the radicals. The
+sub-family then contains more methods, and the verified statement is stronger than necessary.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ def independent_conditions(
 ) -> tuple[OrderCondition, ...]:
     """Return the conditions up to ``order`` that do not follow from other conditions in the sub-family.
 
-    ``read`` turns the file's method and its ring into the method that the family evaluates.
+    The function ``read`` converts the method of the file over a ring to the method that the family evaluates.
 
     >>> from orderconds import families
     >>> from orderconds.tableau import Tableau

@@ -1,8 +1,9 @@
 """Scalars with a common interface: rationals, algebraic numbers, balls, power series, residues, polynomials.
 
-The algorithms use only the interface :class:`Ring`. They can therefore compute with all of these scalars.
-Other packages may import python-flint only in the modules that the import contract in pyproject.toml lists.
-The names below are imported on first use (PEP 562), so that a rational tableau imports no other rings.
+The algorithms of this package use only the interface :class:`Ring`. Therefore they can compute with all of
+these scalars. Outside this package, only the modules that the import contract in pyproject.toml lists may
+import python-flint. The names below are imported on first use (PEP 562), so that a computation with rational
+numbers imports no other rings.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Real balls (Arb) with a fixed working precision: rigorous enclosures of real numbers.
+"""Real balls (the library Arb), which enclose real numbers rigorously. The working precision is fixed.
 
 A ball encloses one unknown real number. If the ball does not contain zero, the number is not zero. The number
-is proved to be zero only if midpoint and radius of the ball are zero. The ball of an exact zero of a tableau
-has radius zero, so it remains an exact zero.
+is proved to be zero only if midpoint and radius of the ball are zero. The ball of a coefficient that is
+exactly zero has radius zero, so the coefficient remains an exact zero.
 """
 
 from __future__ import annotations
@@ -72,15 +72,15 @@ class Balls:
         raise ValueError("a root of a number whose sign is not proved")
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Ball:
-        """Return the only real root of ``minpoly`` within ``unit`` of ``near``; raise ValueError if there is
-        no such root or more than one."""
+        """Return the only real root of ``minpoly`` whose distance from ``near`` is at most ``unit``. Raises
+        ValueError if there is no such root or more than one."""
         coefficients = [fmpq(c.numerator, c.denominator) for c in minpoly]
         centre, radius = (fmpq(x.numerator, x.denominator) for x in (near, unit))
         return Ball(isolate(coefficients, centre, radius)[1](self.bits), self.bits)
 
     def size(self, x: Ball) -> int:
-        """Return the number of bits in the binary exponent of x. (The precision already limits the size of
-        mantissas.)"""
+        """Return the number of bits in the binary exponent of x. The mantissa is not counted, because the
+        precision limits its size."""
         return max(_magnitude(x.value.mid()), _magnitude(x.value.rad()))
 
     def enclose(self, x: arb) -> Ball:
@@ -101,8 +101,8 @@ class Balls:
         return 1 if x.value > 0 else -1
 
     def text(self, x: Ball) -> str:
-        """Return x as a coefficient in a tableau file: an exact number is not rounded, any other ball becomes
-        a decimal with ``~``.
+        """Return x as the text of a coefficient in a tableau file. An exact number is not rounded; every
+        other ball is written as a decimal with ``~``.
 
         The sign ``~`` means an error of at most one unit in the last digit.
 
@@ -148,8 +148,8 @@ class Balls:
 
 
 class Enclosures:
-    """The ring of real balls whose elements are objects of python-flint. The caller sets the working
-    precision.
+    """The ring of real balls whose elements are objects of python-flint, without a wrapper. The caller sets
+    the working precision.
 
     Elements have the type ``arb``, which does not store a precision. In a block ``with precision(bits)`` each
     operation returns the same ball as in :class:`Balls`, but takes less time. Division by a ball that
@@ -192,7 +192,7 @@ class Enclosures:
 
 
 def _magnitude(x: arb) -> int:
-    # x is exact and must remain exact. Any operation of flint, even abs, would round x to the current
+    # The exact number x must remain exact. Any operation of flint, even abs, would round x to the current
     # precision.
     mantissa, exponent = x.man_exp()
     return abs(int(abs(mantissa).bit_length()) + int(exponent))
@@ -201,7 +201,7 @@ def _magnitude(x: arb) -> int:
 def _supported_places(radius: fmpq) -> int:
     """Return the largest number d of decimal places with radius + half a unit <= one unit, that is, 10^-d >=
     2 radius."""
-    # flint converts integers of any length to text; Python converts at most 4300 digits
+    # The conversion by flint has no limit; Python converts at most 4300 digits.
     places = len(str(radius.q)) - len(str(radius.p))
     while fmpq(10) ** -places < 2 * radius:
         places -= 1
@@ -274,8 +274,8 @@ class Ball:
             return _finite(self.value**n, self.bits)
 
     def __eq__(self, other: object) -> bool:
-        """Whether two balls are equal as enclosures. Whether the enclosed numbers are equal is decided by
-        :meth:`Balls.is_zero`."""
+        """Return True if two balls have the same end points. :meth:`Balls.is_zero` decides whether the
+        enclosed numbers are equal."""
         return isinstance(other, Ball) and endpoints(self.value) == endpoints(other.value)
 
     def __hash__(self) -> int:
@@ -286,7 +286,8 @@ class Ball:
 
 
 def _finite(x: arb, bits: int) -> Ball:
-    """Return a finite flint ball as a :class:`Ball`; raise ZeroDivisionError if it is not finite."""
+    """Return a finite flint ball as a :class:`Ball`. Raises ZeroDivisionError if the flint ball is not
+    finite."""
     if not x.is_finite():
         raise ZeroDivisionError("division by a ball that contains zero")
     return Ball(x, bits)

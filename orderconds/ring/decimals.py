@@ -1,4 +1,5 @@
-"""Exact numbers as decimals and doubles, rounded once and correctly.
+"""Conversion of exact numbers to decimals and doubles. Each number is rounded once, and the rounding is
+correct.
 
 A number is given as a rational number, or by enclosures that can be computed to any precision. The precision
 is increased until both end points of the enclosure round to the same result. Hence the result is correct and
@@ -35,8 +36,8 @@ def _dyadic(x: arb) -> fmpq:
 
 
 def rational_decimal(x: fmpq, digits: int) -> str:
-    """Return x with ``digits`` significant digits, ties to even. If the result is exact, trailing zeros are
-    removed.
+    """Return x as a decimal with ``digits`` significant digits. Ties are rounded to even. If the result is
+    exact, trailing zeros are removed.
 
     >>> rational_decimal(fmpq(2, 3), 5), rational_decimal(fmpq(-1, 8), 20)
     ('0.66667', '-0.125')
@@ -81,7 +82,8 @@ def _place_point(figures: str, exponent: int) -> str:
 
 
 def decimal(enclosure: Enclosure, digits: int) -> str:
-    """Return an irrational number, given by enclosures, correctly rounded to ``digits`` digits.
+    """Return an irrational number as a decimal that is correctly rounded to ``digits`` digits. The number is
+    given by enclosures.
 
     >>> from orderconds.ring.precision import precision
     >>> def root(bits):
@@ -109,7 +111,8 @@ def nearest_float(enclosure: Enclosure) -> float:
 
 
 def rational_float(x: fmpq) -> float:
-    """Return the double nearest to x (integer division in Python rounds correctly).
+    """Return the double nearest to the fraction x. The function uses the division of integers in Python,
+    which rounds correctly.
 
     >>> rational_float(fmpq(1, 3))
     0.3333333333333333

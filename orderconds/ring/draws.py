@@ -1,4 +1,4 @@
-"""Pseudorandom numbers computed from the SHA-256 digest of a description, in counter mode.
+"""Pseudorandom numbers that are computed from a SHA-256 digest of the tested object and a counter.
 
 A randomised test, at random points or modulo a random prime, is valid only if the tested object does not
 depend on the random numbers. Therefore the random numbers are computed from a digest of the object itself.

@@ -1,5 +1,5 @@
-"""Maps from one ring to another: Q into every ring, number fields into balls, rings into their power
-series."""
+"""Maps from one ring to another: from Q to every ring, from number fields to balls, and from a ring to its
+power series."""
 
 from __future__ import annotations
 

@@ -1,9 +1,10 @@
-"""Real number fields: exact algebraic numbers, for which equality with zero is decidable.
+"""Real number fields, whose elements are exact algebraic numbers. It is decidable if an element is zero.
 
 A field Q(a) is represented by a monic irreducible polynomial and enclosures of its real root a. An element is
 a polynomial in a of lower degree; it is zero iff this polynomial is zero.
-:class:`orderconds.ring.tower.Tower` constructs fields by adjoining one root after another. If the operands
-belong to different fields of a tower, the element of the smaller field is lifted to the larger field.
+:class:`orderconds.ring.tower.Tower` constructs fields by adjoining one root after another. If the operands of
+an operation belong to different fields of a tower, the operand in the smaller field is first converted to an
+element of the larger field.
 """
 
 from __future__ import annotations
@@ -21,10 +22,10 @@ from orderconds.ring.protocol import Element, Key
 from orderconds.ring.roots import isolating
 
 LARGE = 8
-"""In fields of at least this degree, division is done by solving a linear system."""
+"""The least degree of a field in which a quotient is computed by solving a linear system."""
 
 REMEMBERED = 1000
-"""The largest size of the cache in which a field stores elements lifted from smaller fields."""
+"""The largest size of the cache in which a field stores converted elements of smaller fields."""
 
 
 class Generator(Struct, frozen=True):
@@ -88,7 +89,8 @@ class NumberField:
 
     @cached_property
     def _identity(self) -> Key:
-        """The generators with the enclosed roots, in order. Equal fields have equal keys."""
+        """The adjoined roots, in the order in which they were adjoined, with their enclosures. Equal fields
+        have equal keys."""
         return self.name, str(self.modulus), self.named_roots
 
     def __eq__(self, other: object) -> bool:
@@ -110,7 +112,7 @@ class NumberField:
         return Algebraic(self, fmpq_poly([fmpq(p, q)]))
 
     def is_zero(self, x: Algebraic) -> bool:
-        """Whether x = 0, decided exactly."""
+        """Return True if x = 0. The decision is exact."""
         return bool(x.polynomial.is_zero())
 
     def lift(self, x: Algebraic) -> Algebraic:
@@ -129,7 +131,7 @@ class NumberField:
         for basis, c in zip(self._parent_powers, below.coeffs(), strict=False):
             image = image + basis * c
         lifted = Algebraic(self, image)
-        # The results are cached, because the same few numbers are lifted many times while a file is read.
+        # The results are cached, because a few numbers are converted many times while a file is read.
         if len(self._lifts) >= REMEMBERED:
             self._lifts.clear()
         self._lifts[id(x)] = (x, lifted)
@@ -155,8 +157,8 @@ class NumberField:
 
     @cached_property
     def monomials(self) -> tuple[tuple[int, ...], ...]:
-        """The exponents of the generators, for the products that form a basis of the field, lowest exponents
-        first."""
+        """The basis of the field that consists of products of powers of the generators. Each product is given
+        by its exponents, lowest exponents first."""
         ranges = [range(g.degree) for g in reversed(self.generators)]
         return tuple(tuple(reversed(exponents)) for exponents in product(*ranges))
 
@@ -231,7 +233,7 @@ class NumberField:
 class Algebraic:
     """An element of a number field: a reduced ``polynomial`` in the primitive element.
 
-    Operands may be elements of fields of the same tower, fmpq or int.
+    The second operand of an operation may be an element of a field of the same tower, an fmpq or an int.
     """
 
     __slots__ = ("field", "polynomial")
@@ -244,7 +246,7 @@ class Algebraic:
 
     @property
     def is_rational(self) -> bool:
-        """Whether this number lies in Q."""
+        """True if this number lies in Q."""
         return bool(self.polynomial.degree() <= 0)
 
     @property
@@ -262,7 +264,7 @@ class Algebraic:
         >>> x.minimal_polynomial
         x^4 + (-10)*x^2 + 1
         """
-        # the characteristic polynomial of multiplication by x is a power of the minimal polynomial
+        # The characteristic polynomial of multiplication by x is a power of the minimal polynomial of x.
         factor = _columns(self._multiples(), self.field.degree).charpoly().factor()[1][0][0]
         return factor / factor.leading_coefficient()
 
@@ -278,7 +280,7 @@ class Algebraic:
         return None
 
     def __add__(self, other: object) -> Algebraic:
-        # usually both operands are elements of one field
+        # Usually both operands are elements of the same field.
         if type(other) is Algebraic and other.field is self.field:
             return Algebraic(self.field, self.polynomial + other.polynomial)
         if (pair := self._pair(other)) is None:
@@ -313,7 +315,7 @@ class Algebraic:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Algebraic:
-        """Return 1/x; raise ZeroDivisionError for x = 0."""
+        """Return 1/x. Raises ZeroDivisionError for x = 0."""
         if self.polynomial.is_zero():
             raise ZeroDivisionError("division by an algebraic number that is zero")
         key = str(self.polynomial)
@@ -359,7 +361,7 @@ class Algebraic:
     def __eq__(self, other: object) -> bool:
         try:
             pair = self._pair(other)
-        except TypeError:  # numbers in fields of different towers are not comparable
+        except TypeError:  # Numbers in fields of different towers cannot be compared.
             return False
         return pair is not None and bool(pair[0].polynomial == pair[1].polynomial)
 
@@ -383,7 +385,7 @@ def _term(c: fmpq, monomial: str) -> str:
 
 
 def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    """Return polynomial(at) modulo ``modulus``.
+    """Return the value of ``polynomial`` at the polynomial ``at``, reduced modulo ``modulus``.
 
     >>> x = fmpq_poly([0, 1])
     >>> substituted(x * x, x + 1, x * x - 2)
@@ -396,6 +398,7 @@ def substituted(polynomial: fmpq_poly, at: fmpq_poly, modulus: fmpq_poly) -> fmp
 
 
 def _columns(polynomials: list[fmpq_poly], degree: int) -> fmpq_mat:
-    """Return the matrix whose columns are the coefficients of polynomials of lower degree."""
+    """Return the matrix whose columns contain the coefficients of the given polynomials, padded with
+    zeros."""
     rows = [[p[i] for p in polynomials] for i in range(degree)]
     return fmpq_mat(degree, len(polynomials), [x for row in rows for x in row])

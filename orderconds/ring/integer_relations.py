@@ -1,8 +1,7 @@
 """Integer relations between numbers that are known to few digits, by lattice reduction.
 
-The lattice spanned by (e_k, N x_k) has a short vector if a combination of the numbers x_k with small
-integer coefficients is zero (Lenstra, Lenstra and Lovasz 1982). The result is a guess. The caller has to
-verify it.
+The lattice spanned by (e_k, N x_k) has a short vector if a combination of the numbers x_k with small integer
+coefficients is zero (Lenstra, Lenstra and Lovasz 1982). The result is not proved. The caller must verify it.
 """
 
 from __future__ import annotations
@@ -14,7 +13,8 @@ from math import isqrt
 from flint import fmpz, fmpz_mat
 
 GUARD = 6
-"""A relation of n numbers is accepted if chance yields one of this size with probability below 2^-GUARD."""
+"""A relation is accepted if random numbers satisfy a relation of this size only with probability below
+2^-GUARD."""
 
 
 def relation(values: Sequence[Fraction], bits: int) -> list[int] | None:
@@ -54,7 +54,8 @@ def root_of(d: int, bits: int) -> Fraction:
 
 
 def quadratic_field(x: Fraction, bits: int) -> int | None:
-    """Return the square-free d for which x seems to be p + q sqrt(d) with rational p and q, or None.
+    """Return a square-free d such that x agrees, to the known digits, with a number p + q sqrt(d) with
+    rational p and q. Return None if there is no such d.
 
     >>> quadratic_field(Fraction(0.25 - 3**0.5 / 6), 50)
     3

@@ -17,7 +17,8 @@ from orderconds.ring.protocol import Element
 
 
 class Jets:
-    """The ring of functions of ``width`` variables, given by value and gradient at a point or on a box.
+    """The ring of functions of ``width`` variables. A function is represented by enclosures of its value and
+    gradient at a point or on a box.
 
     >>> from orderconds.ring.precision import precision
     >>> with precision(64):
@@ -61,7 +62,8 @@ class Jets:
         return Jet(value, x.width, _scaled(x.slopes, value / (x.value * index)))
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Jet:
-        """Return, as a constant, the only real root of ``minpoly`` within ``unit`` of ``near``."""
+        """Return, as a constant, the only real root of ``minpoly`` whose distance from ``near`` is at most
+        ``unit``."""
         return self.constant(Balls(working_bits()).named_root(minpoly, near, unit, name).value)
 
     def is_zero(self, x: Jet) -> bool | None:
@@ -128,7 +130,7 @@ class Jet:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Jet:
-        """Return 1/x; raise ZeroDivisionError if x may be zero."""
+        """Return 1/x. Raises ZeroDivisionError if x may be zero."""
         if self.value.contains(0):
             raise ZeroDivisionError("division by a ball that contains zero")
         value = 1 / self.value

@@ -46,7 +46,7 @@ class LaurentPolynomials:
         return self._context.from_dict({exponents: scale})
 
     def is_zero(self, x: Laurent) -> bool:
-        """Whether x = 0."""
+        """Return True if x = 0."""
         return bool(x.numerator.is_zero())
 
     def terms(self, x: Laurent) -> tuple[tuple[Exponents, fmpq], ...]:
@@ -137,7 +137,7 @@ class Laurent:
     __rmul__ = __mul__
 
     def __truediv__(self, other: object) -> Laurent:
-        """Return the quotient by a non-zero monomial; raise ZeroDivisionError for any other divisor."""
+        """Return the quotient by a non-zero monomial. Raises ZeroDivisionError for any other divisor."""
         y = self._other(other)
         if y is None:
             return NotImplemented

@@ -5,12 +5,12 @@ Gauss, Radau and Lobatto methods. Each vector x over the stages is then p(c) for
 modulo M. The componentwise product of vectors is the product of polynomials modulo M, and a matrix A is a
 linear map of polynomials. Suppose that for all k < s, A c^k is a polynomial in c with *rational*
 coefficients, and b.c^k is a rational number. Then all computations are done over Q. For example, five Radau
-nodes generate a field of degree 24. A product of two vectors then needs one product of rational polynomials
-modulo M instead of five products in this field.
+nodes generate a field of degree 24. Then the product of two vectors requires one product of rational
+polynomials modulo M, and not five products in this field.
 
-The rational coefficients are guessed from balls and then verified exactly in the number field. The polynomial
-``A p`` is stored as ``int_0^z p`` modulo M, plus corrections for a few powers z^k in p. A collocation method
-has no corrections.
+Candidates for the rational coefficients are computed from balls, and then verified exactly in the number
+field. The polynomial ``A p`` is stored as ``int_0^z p`` modulo M, plus corrections for a few powers z^k in p.
+A collocation method has no corrections.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from orderconds.ring.precision import precision
 from orderconds.ring.protocol import Element, Ring
 
 BITS = 512
-"""The precision, in bits, of the balls from which rational numbers are guessed."""
+"""The precision, in bits, of the balls from which candidates for rational numbers are computed."""
 
 Matrix = Sequence[Sequence[Element]]
 
@@ -114,8 +114,8 @@ def nodal_algebra(ring: Ring, matrices: Sequence[Matrix], b: Sequence[Element]) 
 
 
 class _Key:
-    """A cache key. Two keys are equal if they refer to the same coefficient objects. All orders of one check
-    therefore use the same algebra."""
+    """A cache key for a method. Two keys are equal if their methods contain the same coefficient objects.
+    Therefore the checks of all orders of one method use the same algebra."""
 
     def __init__(self, ring: NumberField, matrices: tuple[Matrix, ...], b: Sequence[Element]) -> None:
         self.ring, self.matrices, self.b = ring, matrices, b
@@ -163,7 +163,8 @@ def _built(key: _Key) -> NodalAlgebra | None:
 
 
 class _Guess:
-    """The rational coefficients of a polynomial, guessed by interpolation at the nodes with balls."""
+    """A function that returns candidates for the rational coefficients of a polynomial. They are computed by
+    interpolation at the nodes with balls."""
 
     def __init__(self, ring: NumberField, nodes: Sequence[Algebraic]) -> None:
         self.ring, self.size = ring, len(nodes)
@@ -178,8 +179,8 @@ class _Guess:
 
 
 def simplest(x: arb) -> fmpq:
-    """Return the rational number with the smallest denominator in a ball, by the continued fractions of its
-    end points.
+    """Return the rational number with the smallest denominator in a ball. It is computed from the continued
+    fractions of the end points.
 
     >>> with precision(64):
     ...     simplest(arb(22) / 7)

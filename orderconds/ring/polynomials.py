@@ -49,7 +49,7 @@ class Polynomials:
         return self._context.constant(fmpq(p, q))
 
     def is_zero(self, x: fmpq_mpoly) -> bool:
-        """Whether x = 0."""
+        """Return True if x = 0."""
         return bool(x.is_zero())
 
     def terms(self, x: fmpq_mpoly) -> tuple[tuple[tuple[int, ...], fmpq], ...]:

@@ -10,7 +10,7 @@ T = TypeVar("T")
 
 
 def power(x: T, n: int, one: T) -> T:
-    """Return x^n, where x^0 is ``one``; raise ZeroDivisionError if n < 0 and x has no inverse.
+    """Return x^n, where x^0 is ``one``. Raises ZeroDivisionError if n < 0 and x has no inverse.
 
     >>> power(3, 5, 1), power(2.0, -2, 1)
     (243, 0.25)

@@ -1,4 +1,4 @@
-"""Truncated power series in h over any base ring. Terms beyond h^order are dropped.
+"""Truncated power series in h over any base ring. Terms of degree above ``order`` are omitted.
 
 If a step program is evaluated over this ring, the result contains the exact Taylor coefficients of its local
 error.
@@ -45,12 +45,12 @@ class PowerSeries:
 
     def from_coefficients(self, coefficients: tuple[Element, ...]) -> Series:
         """Return the series with these first coefficients. If there are fewer coefficients than the order
-        requires, the missing coefficients are zero. Superfluous coefficients are dropped."""
+        requires, the missing coefficients are zero. Coefficients of degree above the order are omitted."""
         kept = coefficients[: self.order + 1]
         return Series(self, (*kept, *((self.base.zero,) * (self.order + 1 - len(kept)))))
 
     def is_zero(self, x: Series) -> bool | None:
-        """Whether all coefficients up to the order vanish; None if the base ring cannot decide."""
+        """Return True if all coefficients up to the order are zero; None if the base ring cannot decide."""
         verdicts = [self.base.is_zero(c) for c in x.coefficients]
         return False if False in verdicts else None if None in verdicts else True
 

@@ -1,4 +1,4 @@
-"""Set the working precision of flint, a global variable of the process. No other module changes this
+"""The working precision of flint, which is a global variable of the process. Only this module changes the
 precision.
 
 Other modules call the context manager of this module, which restores the previous precision at the end.

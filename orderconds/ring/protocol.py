@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     import numpy as np
 
 Element = Any
-"""An element of some ring, or the second operand of an arithmetic operation. The type is open, so that
-objects of flint, mpmath and NumPy can be elements without a wrapper. Only this alias and :data:`Key` are open
-types."""
+"""An element of some ring, or the second operand of an arithmetic operation. The type is ``Any``, so that
+objects of flint, mpmath and NumPy can be elements without a wrapper. Only this alias and :data:`Key` have the
+type ``Any``."""
 
 Key = tuple[Any, ...]
 """A hashable sort key of an element. The keys of all elements of one ring can be compared with each other."""
@@ -32,8 +32,8 @@ class Ring(Protocol):
         """Return p/q in this ring."""
 
     def is_zero(self, x: Element) -> bool | None:
-        """Return whether x = 0, or None if the ring cannot decide. (A ball that contains zero and other
-        numbers does not decide whether x = 0.)"""
+        """Return True if x = 0, False if x differs from 0, and None if the ring cannot decide. (A ball that
+        contains zero and other numbers does not decide this question.)"""
 
     def text(self, x: Element) -> str:
         """Return x as exact text, in the grammar of tableau files if this grammar can express x."""
@@ -46,7 +46,7 @@ class Ring(Protocol):
 
 
 class RingWithRoots(Ring, Protocol):
-    """A ring in which real roots of elements can be taken."""
+    """A ring in which real roots of elements can be computed."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real ``index``-th root of x."""
@@ -60,7 +60,7 @@ class RealRing(Ring, Protocol):
 
 
 class RandomRing(Ring, Protocol):
-    """A ring with random elements."""
+    """A ring that can generate random elements."""
 
     def random(self, generator: np.random.Generator) -> Element:
         """Return a random element."""

@@ -12,8 +12,8 @@ from orderconds.ring.residues import Residue
 
 
 def pivot_columns(columns: Sequence[Residue]) -> tuple[int, ...]:
-    """Return the indices of the columns that are not linear combinations of earlier columns. Their number is
-    the rank.
+    """Return the indices of the pivot columns, which are not linear combinations of earlier columns. The
+    number of pivot columns is the rank.
 
     Each column contains the values of one function at the samples, one sample in each row. If the samples are
     random, linear dependence of the columns means linear dependence of the functions, except with a

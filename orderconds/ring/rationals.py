@@ -28,7 +28,7 @@ class Rationals:
         return fmpq(p, q)
 
     def is_zero(self, x: fmpq) -> bool:
-        """Whether x = 0."""
+        """Return True if x = 0."""
         return bool(x == 0)
 
     def text(self, x: fmpq) -> str:

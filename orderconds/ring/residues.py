@@ -43,7 +43,7 @@ class Residues:
         return hash((self.prime, self.samples))
 
     def rational(self, p: int, q: int = 1) -> Residue:
-        """Return p/q in every sample; raise ZeroDivisionError if the prime divides q."""
+        """Return the element that is p/q in every sample. Raises ZeroDivisionError if the prime divides q."""
         p, q = int(p) % self.prime, int(q) % self.prime
         if q == 0:
             raise ZeroDivisionError(f"the denominator is divisible by the prime {self.prime}")
@@ -59,7 +59,7 @@ class Residues:
         return Residue(self, generator.integers(0, self.prime, self.samples, dtype=np.int64))
 
     def is_zero(self, x: Residue) -> bool:
-        """Whether all samples are zero."""
+        """Return True if all samples are zero."""
         return not x.values.any()
 
     def text(self, x: Residue) -> str:
@@ -71,7 +71,8 @@ class Residues:
         return tuple(int(v) for v in x.values)
 
     def approximate(self, x: Residue, digits: int = 20) -> str:
-        """Return the residues as text; a residue has no decimal approximation."""
+        """Return the residues as text. They are not decimals, because a residue has no decimal
+        approximation."""
         return self.text(x)
 
 
@@ -79,7 +80,7 @@ class Residue:
     """A vector of residues, shape (samples,), with componentwise arithmetic."""
 
     __slots__ = ("ring", "values")
-    # with this attribute, Python calls __radd__ etc. if the left operand is a NumPy scalar
+    # With this attribute, Python calls __radd__ etc. if the left operand is a NumPy scalar.
     __array_ufunc__ = None
 
     def __init__(self, ring: Residues, values: NDArray[np.int64]) -> None:
@@ -114,7 +115,7 @@ class Residue:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Residue:
-        """Return 1/x by Fermat's formula x^(p-2); raise ZeroDivisionError if a sample is zero."""
+        """Return 1/x by Fermat's formula x^(p-2). Raises ZeroDivisionError if a sample is zero."""
         if not self.values.all():
             raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
         result, square, n = self.ring.one, self, self.ring.prime - 2

@@ -33,7 +33,7 @@ def place_of_root(minpoly: Sequence[Fraction], near: Fraction, unit: Fraction) -
     index of the root.
 
     The coefficients of both polynomials are in ascending order. The index counts the real roots of the factor
-    from 0, in rising order. Raises ValueError if the interval contains no root or more than one.
+    from 0, in ascending order. Raises ValueError if the interval contains no root or more than one.
 
     >>> minpoly = [Fraction(-2), Fraction(0), Fraction(1)]
     >>> coefficients, place = place_of_root(minpoly, Fraction(7, 5), Fraction(1, 10))
@@ -64,8 +64,8 @@ def _factor_and_place(coefficients: Sequence[fmpq], near: fmpq, unit: fmpq) -> t
 
 
 def isolating(monic: fmpq_poly, root: Enclosure) -> str:
-    """Return the shortest decimal, with at least 10 places, that identifies ``root``: no other root is within
-    one unit of its last place.
+    """Return the shortest decimal with at least 10 places that identifies ``root``. No other root differs
+    from the decimal by at most one unit of its last place.
 
     >>> from flint import fmpq_poly
     >>> from orderconds.ring.precision import precision

@@ -1,5 +1,5 @@
-"""Vectors of residues modulo a prime, implemented without NumPy, because its import takes as long as a whole
-check.
+"""Vectors of residues modulo a prime. The implementation does not use NumPy, because the import of NumPy
+takes as long as a whole check.
 
 The ring (Z/p)^n of n samples is isomorphic to (Z/p)[z]/((z - 0)(z - 1) ... (z - (n - 1))): sample k is the
 value of a polynomial at z = k. One sum or product of polynomials thus computes the result for all samples.
@@ -38,7 +38,7 @@ class Samples:
         self.zero, self.one = self.rational(0), self.rational(1)
 
     def rational(self, p: int, q: int = 1) -> Sample:
-        """Return p/q in every sample; raise ValueError if the prime divides q."""
+        """Return the element that is p/q in every sample. Raises ValueError if the prime divides q."""
         return Sample(self, nmod_poly([int(p) * pow(int(q), -1, self.prime)], self.prime))
 
     def element(self, values: Sequence[int]) -> Sample:
@@ -50,14 +50,14 @@ class Samples:
         return Sample(self, total)
 
     def random(self, generator: Random) -> Sample:
-        """Return independent, uniformly distributed samples, by drawing uniformly distributed coefficients of
-        the polynomial."""
+        """Return independent, uniformly distributed samples. The function generates uniformly distributed
+        coefficients of the polynomial."""
         return Sample(
             self, nmod_poly([generator.randrange(self.prime) for _ in range(self.count)], self.prime)
         )
 
     def is_zero(self, x: Sample) -> bool:
-        """Whether all samples are zero."""
+        """Return True if all samples are zero."""
         return bool(x.polynomial.is_zero())
 
     def constant(self, x: Sample) -> int | None:
@@ -65,8 +65,8 @@ class Samples:
         return int(x.polynomial[0]) if x.polynomial.degree() <= 0 else None
 
     def coordinates(self, x: Sample) -> list[int]:
-        """Return the ``count`` coefficients of the polynomial, which are an invertible linear map of the
-        samples."""
+        """Return the ``count`` coefficients of the polynomial. An invertible linear map takes the samples to
+        these coefficients."""
         coefficients = [int(c) for c in x.polynomial.coeffs()]
         return coefficients + [0] * (self.count - len(coefficients))
 
@@ -79,7 +79,8 @@ class Samples:
         return tuple(self.coordinates(x))
 
     def approximate(self, x: Sample, digits: int = 20) -> str:
-        """Return the samples as text; a residue has no decimal approximation."""
+        """Return the samples as text. They are not decimals, because a residue has no decimal
+        approximation."""
         return self.text(x)
 
 
@@ -117,7 +118,7 @@ class Sample:
     __rmul__ = __mul__
 
     def reciprocal(self) -> Sample:
-        """Return 1/x; raise ZeroDivisionError if a sample is zero."""
+        """Return 1/x. Raises ZeroDivisionError if a sample is zero."""
         common, inverse, _ = self.polynomial.xgcd(self.ring.modulus)
         if common.degree() != 0:
             raise ZeroDivisionError(f"a sample is zero modulo {self.ring.prime}")
@@ -147,10 +148,11 @@ def _plain(x: Element) -> Element:
 def echelon(
     columns: Sequence[Sequence[int]], prime: int
 ) -> tuple[tuple[int, ...], dict[int, dict[int, int]]]:
-    """Return the pivots: the indices of columns that are not combinations of earlier columns modulo
-    ``prime``.
+    """Return two values. The first value contains the pivots: the indices of columns that are not
+    combinations of earlier columns modulo ``prime``.
 
-    The second value maps every other column to its combination of pivot columns, {pivot: residue}.
+    The second value maps every column that is not a pivot to its combination of pivot columns, {pivot:
+    residue}.
 
     >>> echelon([[1, 1], [2, 2], [1, 3], [4, 6]], 101)
     ((0, 2), {1: {0: 2}, 3: {0: 3, 2: 1}})

@@ -1,4 +1,5 @@
-"""A growing number field: radicals and named roots are adjoined until the field contains every coefficient.
+"""A number field that is extended step by step: radicals and named roots are adjoined until the field
+contains every coefficient.
 
 A root b of a separable polynomial over K = Q(a) is adjoined as follows. In the algebra K[x]/(polynomial), let
 c be the first of the elements b, ab, b + a, b - a, ... whose powers span the algebra. The characteristic
@@ -33,8 +34,8 @@ class DegreeError(ArithmeticError):
 
 
 class Tower:
-    """A growing number field. Numbers of earlier, smaller fields remain valid, because they can be lifted to
-    the current field.
+    """A number field that is extended when a root is adjoined. Elements of an earlier, smaller field remain
+    valid, because they can be converted to elements of the current field.
 
     >>> tower = Tower()
     >>> r = tower.root(tower.rational(2), 2)
@@ -53,8 +54,8 @@ class Tower:
     def constant(self, value: Fraction, unit: Fraction) -> Algebraic:
         """Return an exact rational number.
 
-        Raises TypeError for a positive ``unit``, because the constant is then a rounded decimal, which only a
-        ball represents.
+        Raises TypeError for a positive ``unit``, because the constant is then a rounded decimal, and only a
+        ball can represent a rounded decimal.
         """
         if unit:
             raise TypeError("a number field contains no balls")
@@ -90,8 +91,8 @@ class Tower:
         return self._radical(x, index)
 
     def _rational_root(self, x: fmpq, index: int) -> Algebraic:
-        """Return x^(1/index) as a rational number times the root of the least possible integer, by p/q = p
-        q^(k-1) / q^k."""
+        """Return x^(1/index) as the product of a rational number and the root of the least possible integer.
+        For k = ``index``, the function uses p/q = p q^(k-1) / q^k."""
         inside = fmpz(x.p) * fmpz(x.q) ** (index - 1)
         outside, rest = fmpz(1), []
         for prime, exponent in _factors(inside):
@@ -125,7 +126,8 @@ class Tower:
         return root
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Algebraic:
-        """Return the only real root of ``minpoly`` (ascending coefficients) within ``unit`` of ``near``.
+        """Return the only real root of ``minpoly`` (ascending coefficients) whose distance from ``near`` is
+        at most ``unit``.
 
         Raises ValueError if there is no such root or more than one, and :class:`DegreeError` if the field
         becomes too large.
@@ -229,7 +231,7 @@ def _flat(columns: list[list[Algebraic]], degree: int) -> fmpq_mat:
 
 
 def _satisfied(characteristic: fmpq_poly, enclosure: Enclosure) -> fmpq_poly:
-    """Return the monic irreducible factor of which the enclosed number is a root."""
+    """Return the monic irreducible factor that has the enclosed number as a root."""
     factors = [factor / factor.leading_coefficient() for factor, _ in characteristic.factor()[1]]
     bits = 64
     while len(factors) > 1:

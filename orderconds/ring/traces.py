@@ -1,4 +1,5 @@
-"""Recorded arithmetic: an element is the index of an operation in a straight-line program.
+"""Arithmetic that is recorded as a program. An element is the index of an operation in a straight-line
+program, which has no branches and no loops.
 
 If an algorithm runs over this ring, its operations are recorded as a program. The program can later be
 evaluated at any inputs. Equal operations are recorded once; operations with the constants 0 and 1 are
@@ -21,7 +22,7 @@ an input."""
 
 @dataclass(frozen=True)
 class Operation:
-    """One operation of a program.
+    """One operation of a recorded program.
 
     ``left`` and ``right`` are indices of earlier operations. ``value`` is the constant, the position of the
     input, or the index n of an n-th root.
@@ -65,7 +66,8 @@ class Traces:
         return Trace(self, -1, Fraction(p, q))
 
     def is_zero(self, x: Trace) -> bool:
-        """Whether x is the constant zero, for all values of the inputs."""
+        """Return True if x is the constant zero. The result of an operation on inputs is never the constant
+        zero."""
         return x.constant == 0
 
     def text(self, x: Trace) -> str:
@@ -73,7 +75,7 @@ class Traces:
         return str(x.constant) if x.constant is not None else f"%{x.place}"
 
     def key(self, x: Trace) -> tuple[str]:
-        """Return the text of the element, which identifies the element."""
+        """Return the text of the element as the sort key, because the text identifies the element."""
         return (self.text(x),)
 
     def approximate(self, x: Trace, digits: int = 20) -> str:

@@ -7,7 +7,7 @@ of :mod:`orderconds.series.action_trees`. The coefficients at stage i with weigh
 - ``psi_{H(u*v|M)}(i) = (1/b_i) sum_j b_j prod_{p in M} psi_p(j) [u x v in stage j's group element]``,
 - ``psi_{L(w)}(i) = (1/b_i) [x reverse(w) in the update's group element]``,
 
-where Phi_w(i) is the coefficient of the word w in stage i's group element. Square brackets denote the
+where Phi_w(i) is the coefficient of the word w in the group element of stage i. Square brackets denote the
 coefficient of a word in a group element; the letter x is a variation of the velocity of stage i and occurs
 once. The method has order p iff ``sum_i b_i tau_t(i)`` is equal to the value of the exact flow for every tree
 with at most p vertices. Families differ only in the map from velocities to group elements. This module uses
@@ -37,8 +37,8 @@ Row = tuple[Exponential, ...]
 class ActionSeries(ABC):
     """The action series of one method over one ring; every value is cached.
 
-    ``weights`` are the b_i, all invertible in ``ring``. Row i < ``stages`` belongs to stage i, and the last
-    row, with index ``stages``, to the update.
+    ``weights`` are the b_i, all invertible in ``ring``. A row is an index: row i < ``stages`` denotes stage
+    i, and the last row, with index ``stages``, denotes the update.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_trees import force, velocity
@@ -110,7 +110,7 @@ class ActionSeries(ABC):
         ]
 
     def stage_insertions(self, before: Word, after: Word) -> list[Stages]:
-        """Return the values of :meth:`insertion` as a table: the outer index is the row j, the inner index is
+        """Return the values of :meth:`insertion` as a table. The outer index is the row j; the inner index is
         the stage i whose velocity is varied."""
         values = self._insertions.get((before, after))
         if values is None:
@@ -137,8 +137,8 @@ class ActionSeries(ABC):
         """Return sum_i b_i tau_t(i). It is the coefficient of the tree t in the update, and the coefficient
         of the elementary Hamiltonian of t.
 
-        Intermediate values that belong to this tree only are not cached. The cache for all trees of an order
-        then fits in memory.
+        Intermediate values that only this tree needs are not cached, so that the cache for all trees of one
+        order fits in memory.
         """
         known = self._tau.get(tree)
         values = self._velocity(tree) if known is None else known
@@ -202,8 +202,8 @@ class CommutatorFreeSeries(ActionSeries):
         return total
 
     def _through(self, row: int, place: int, before: Word, after: Word) -> Element:
-        """Return the coefficient of u x v in which x comes from one given exponential; the coefficient of x
-        itself is one."""
+        """Return the part of the coefficient of u x v in which x comes from one given exponential. The
+        coefficient of x in the exponent is counted as one."""
         exponential, length = self.rows[row][place], len(before)
         left, run = [], self.ring.one
         for r in range(length + 1):
@@ -232,8 +232,8 @@ class CommutatorFreeSeries(ActionSeries):
         return self._inverse_factorial[n]
 
     def _before(self, row: int, word: Word) -> Stages:
-        """Return the word's coefficient in the product of the exponentials before index J, for J = 0, ...,
-        m."""
+        """Return, for J = 0, ..., m, the coefficient of the word in the product of the exponentials with
+        index below J."""
         known = self._prefix[row].get(word)
         if known is not None:
             return known
@@ -254,8 +254,8 @@ class CommutatorFreeSeries(ActionSeries):
         return values
 
     def _after(self, row: int, word: Word) -> Stages:
-        """Return the word's coefficient in the product of the exponentials from index J on, for J = 0, ...,
-        m."""
+        """Return, for J = 0, ..., m, the coefficient of the word in the product of the exponentials with
+        index at least J."""
         known = self._suffix[row].get(word)
         if known is not None:
             return known

@@ -45,8 +45,8 @@ def class_count(vertices: int) -> int:
 
 
 def _generating_functions(order: int) -> tuple[list[int], list[int]]:
-    """Return T and P as power series. The equations of T and P are iterated until the required coefficients
-    no longer change."""
+    """Return T and P as power series. The equations of T and P are solved by fixed-point iteration, until the
+    required coefficients no longer change."""
     size = order + 1
 
     def times(a: list[int], b: list[int]) -> list[int]:
@@ -57,7 +57,7 @@ def _generating_functions(order: int) -> tuple[list[int], list[int]]:
         w = [1] + [0] * order
         for n in range(1, size):
             w[n] = sum(t[k] * w[n - k] for k in range(1, n + 1))
-        e = [1] + [0] * order  # n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}: Euler transform
+        e = [1] + [0] * order  # Euler transform: n e_n = sum_k (sum_{d|k} d p_d) e_{n-k}
         for n in range(1, size):
             e[n] = (
                 sum(sum(d * p[d] for d in range(1, k + 1) if k % d == 0) * e[n - k] for k in range(1, n + 1))

@@ -1,11 +1,12 @@
-"""Enumeration of the action trees with a given number of vertices, on demand, simplest first.
+"""Enumeration of the action trees with a given number of vertices. The trees are generated when they are
+needed, simplest trees first.
 
 The cost of a tree measures how difficult its condition is to read. It is a sum of non-negative terms, among
 them the costs of the subtrees. Hence the subtrees of a tree whose cost is at most a limit also have costs of
 at most this limit. Subtrees are tried in order of cost, so the search ends at the first subtree beyond the
-limit. A long list is enumerated in parts, with rising cost limits, and only as far as a check requires. For
-example, there are 6331 trees with six vertices, but the few hundred simplest trees decide the order of most
-methods.
+limit. A long list is enumerated in parts, with increasing cost limits. The parts that a check does not need
+are not computed. For example, there are 6331 trees with six vertices, but the few hundred simplest trees
+decide the order of most methods.
 """
 
 from __future__ import annotations
@@ -153,8 +154,8 @@ def _multisets(vertices: int, limit: float) -> tuple[tuple[int, Momenta], ...]:
 def _chosen(
     vertices: int, largest: int, bound: int | None, limit: float, rest: float
 ) -> Iterator[tuple[int, Momenta]]:
-    """Yield multisets whose elements decrease in (vertices, index in the list); ``bound`` is the index of the
-    preceding element."""
+    """Yield multisets as sequences that decrease in (vertices, index in the list). ``bound`` is the index of
+    the preceding element."""
     if vertices == 0:
         yield 0, ()
         return

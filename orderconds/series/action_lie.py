@@ -2,7 +2,7 @@
 
 The exponents are ``X_i = h sum_j a_ij dexpinv_{(r),X_j} xi_j`` for stage i, and ``Y``, with b_j in place of
 a_ij, for the update (Bogfjellmo and Marthinsen, equation (3.16)). An additional letter x represents a
-variation of the velocity of one stage. It occurs exactly once in a word ``u x v``.
+variation of the velocity of one stage. In a word ``u x v`` the letter x occurs exactly once.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ omitted."""
 class MuntheKaasActionSeries(ActionSeries):
     """The action series of the tableau (A, b) in VRKMK; dexpinv is truncated after the power ``cutoff``.
 
-    The coefficients of a word are computed in one operation for all stages, and likewise for the variations
-    of all stages.
+    One operation computes the coefficients of a word for all stages. In the same way, one operation computes
+    the coefficients for the variations of all stages.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.series.action_enumeration import velocities
@@ -135,7 +135,8 @@ class MuntheKaasActionSeries(ActionSeries):
         """Add to ``totals`` the coefficients of u x v in X_i X_i^(n-1). The first part of the word comes from
         X_i."""
         for cut in range(1, len(before) + len(after) + 3 - n):
-            # number of letters of v in the first part of the word; negative if this part ends before x
+            # The number of letters of v in the first part of the word. It is negative if this part ends
+            # before x.
             rest = cut - len(before) - 1
             if rest >= 0:
                 varied = self._varied_power(update, 1, before, after[:rest])
@@ -181,8 +182,8 @@ class MuntheKaasActionSeries(ActionSeries):
             _add(total, [(i, x * scale) for i, x in row.items()])
 
     def _around(self, before: Word, behind: Word) -> Stages | None:
-        """Return the terms of dexpinv_{(r),X_j} in which a letter has the word ``before`` in front of it and
-        the word ``behind`` after it. None means zero."""
+        """Return the terms of dexpinv_{(r),X_j} for a letter that follows the word ``before`` and precedes
+        the word ``behind``. The result None means zero."""
         values = None
         for q, m, n in self._present(len(before), len(behind)):
             if m and n:
@@ -197,8 +198,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return values
 
     def _varied_before(self, before: Word, after: Word, behind: Word) -> list[Varied]:
-        """Return the terms of dexpinv_{(r),X_j} in which a letter has u x v in front of it and the word
-        ``behind`` after it."""
+        """Return the terms of dexpinv_{(r),X_j} for a letter that follows the word u x v and precedes the
+        word ``behind``."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(before) + 1 + len(after), len(behind)):
             varied = self._varied_power(0, m, before, after)
@@ -208,8 +209,8 @@ class MuntheKaasActionSeries(ActionSeries):
         return totals
 
     def _varied_behind(self, first: Word, before: Word, after: Word) -> list[Varied]:
-        """Return the terms of dexpinv_{(r),X_j} in which a letter has the word ``first`` in front of it and u
-        x v after it."""
+        """Return the terms of dexpinv_{(r),X_j} for a letter that follows the word ``first`` and precedes the
+        word u x v."""
         totals: list[Varied] = [{} for _ in range(self.stages)]
         for q, m, n in self._present(len(first), len(before) + 1 + len(after)):
             scales = [q * x for x in self._power(0, m, first)] if m else [q] * self.stages

@@ -1,11 +1,12 @@
 """Selection of independent action conditions, by ranks at random tableaux modulo a prime.
 
-A condition of order n depends on other conditions if its value is a fixed combination of other values of
-order n and of products of values of lower order, for every method **and for the flow**. Such dependences are
-computed from the values at many random methods and at the flow. Pivots are chosen in the canonical order of
-the trees, so that the simplest trees are selected. The values at the flow must be included. Without them, a
-condition that no method of the family satisfies would count as dependent. Such conditions exist, for example,
-for VRKMK with too few terms of dexpinv.
+A condition of order n depends on other conditions if its value is a linear combination, with constant
+coefficients, of other values of order n and of products of values of lower order. The combination must be
+valid for every method **and for the exact flow**. Such dependences are computed from the values for many
+random methods and for the exact flow. Pivots are chosen in the canonical order of the trees, so that the
+simplest trees are selected. The values for the exact flow are necessary. Without these values, a condition
+that no method of the family satisfies would count as dependent. Such conditions exist, for example, for VRKMK
+with too few terms of dexpinv.
 """
 
 from __future__ import annotations
@@ -72,8 +73,8 @@ def _independent(family: RandomSeries, order: int, prime: int) -> tuple[tuple[Ve
 def sample(
     family: RandomSeries, order: int, trees: Sequence[Velocity], prime: int
 ) -> dict[Velocity, Residue]:
-    """Return the values of trees at the flow and at random methods. The number of methods exceeds the largest
-    possible rank.
+    """Return the values of trees for the exact flow and for random methods. The number of methods exceeds the
+    largest possible rank.
 
     The random methods do not depend on the list of trees.
 

@@ -71,14 +71,14 @@ def relations(family: RandomSeries, independent: Sequence[Sequence[Velocity]]) -
 
 
 SEED = 61
-"""The seed of the random method over Q; its value is arbitrary."""
+"""The seed for the random method over Q. Any other seed is equally suitable."""
 
 
 class _Drawn(Rationals):
     """The ring Q with random elements of 61 bits."""
 
     def random(self, generator: np.random.Generator) -> Element:
-        """Return a random fraction, not zero."""
+        """Return a random non-zero fraction."""
         numerator, denominator = (int(n) for n in generator.integers(1, 2**61, 2))
         return self.rational(numerator, denominator)
 
@@ -87,7 +87,7 @@ def hold_over_rationals(
     series: Callable[[RandomRing, np.random.Generator], ActionSeries],
     polynomials: Mapping[Velocity, Polynomial],
 ) -> bool:
-    """Whether relations hold exactly at a random method over Q, and for the exact flow.
+    """Return True if the relations hold exactly for a random method over Q and for the exact flow.
 
     ``series`` returns the series of a random method with coefficients in a ring. The random method should
     have more stages than the methods from which the relations were computed. If a relation of degree d is not
@@ -140,8 +140,8 @@ def _coefficients(
 
 
 def _monomials(trees: Sequence[Velocity], vertices: int, start: int = 0) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the multisets of trees with ``vertices`` vertices in total; multisets with the fewest factors
-    come last."""
+    """Yield the multisets of trees with ``vertices`` vertices in total. Multisets with the fewest trees come
+    last."""
     if vertices == 0:
         yield ()
     for place in range(start, len(trees)):

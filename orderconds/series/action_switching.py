@@ -1,9 +1,9 @@
 """Root switching: trees that differ only in the choice of the root have the same condition.
 
-The root can move from the root vertex to a force that is attached to it: ``o(w | M, H(u*v | N))`` and ``o(u
-o(w | M) v | N)`` have equal coefficients, for every method and for the flow. Both coefficients contain one
-double sum over the stages of the two vertices of the connecting edge, and the two sums may be exchanged.
-Hence one tree of each class is sufficient.
+The root of a tree can be moved to the vertex of a force that is attached to the root: ``o(w | M, H(u*v |
+N))`` and ``o(u o(w | M) v | N)`` have equal coefficients, for every method and for the flow. Both
+coefficients contain one double sum over the stages of the two vertices of the connecting edge, and the two
+sums may be exchanged. Hence one tree of each class is sufficient.
 """
 
 from __future__ import annotations
@@ -16,7 +16,8 @@ from orderconds.series.action_trees import Force, Velocity, force, velocity
 
 
 def switched(tree: Velocity) -> Iterator[Velocity]:
-    """Yield the trees that result if the root moves along a force to a neighbouring vertex.
+    """Yield the trees that result if the root is moved to a neighbouring vertex that is connected to the root
+    by a force.
 
     >>> list(switched(velocity((), (force(), force()))))
     [o(o(|f(*))), o(o(|f(*)))]
@@ -42,7 +43,8 @@ def classes(vertices: int) -> tuple[tuple[Velocity, ...], ...]:
 
 
 def classes_in_turn(vertices: int) -> Iterator[tuple[Velocity, ...]]:
-    """Yield the classes on demand, ordered by their simplest trees. Each class is computed once.
+    """Yield the classes one by one, in the order of their simplest trees. Each class is computed when it is
+    needed, and only once.
 
     >>> next(classes_in_turn(7))[0]
     o(o o o o o o)
@@ -71,7 +73,7 @@ def _classes(vertices: int) -> Iterator[tuple[Velocity, ...]]:
         if tree not in seen:
             members = [tree]
             seen.add(tree)
-            for member in members:  # trees are appended to the list during the loop
+            for member in members:  # Trees are appended to the list during the loop.
                 for other in switched(member):
                     if other not in seen:
                         seen.add(other)

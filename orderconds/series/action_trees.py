@@ -21,10 +21,10 @@ from math import factorial, prod
 
 
 class _Node:
-    """The base class of the three kinds of nodes: number of copies of H, cost (difficulty for a reader),
-    canonical text.
+    """The base class of the three kinds of nodes. A node stores its number of copies of H, its cost (the
+    difficulty for a reader) and its canonical text.
 
-    The text is computed on demand, because most trees are only counted and compared.
+    The text is computed only when it is needed, because most trees are only counted and compared.
     """
 
     __slots__ = ("_key", "_text", "cost", "vertices")
@@ -157,8 +157,8 @@ def _inside(letters: str, momenta: Momenta) -> str:
 
 
 def mixing(word: Word) -> int:
-    """Return the cost of different letters in a word. A repetition of one letter costs nothing, because its
-    condition is a power of one sum.
+    """Return the cost that a word has because its letters differ. A word that repeats one letter costs
+    nothing, because its coefficient is a power of one sum.
 
     >>> mixing((velocity(), velocity())), mixing((velocity(), velocity((velocity(),))))
     (0, 5)
@@ -167,7 +167,8 @@ def mixing(word: Word) -> int:
 
 
 def force_cost(before: Word, after: Word) -> int:
-    """Return how difficult H(u * v) is to read, for u = ``before`` and v = ``after``, without its momenta.
+    """Return the cost of H(u * v | M) without the cost of the momenta M, where u is ``before`` and v is
+    ``after``.
 
     >>> force_cost((), ()), force_cost((velocity(),), ())
     (3, 9)
@@ -212,7 +213,8 @@ def canonical_force(before: Word, after: Word, momenta: Momenta) -> Force:
 
 @cache
 def transport(word: Word) -> Transport:
-    """Return the tree L(w), that is, the covector ``x -> <mu, ad t_1 ... ad t_k x>`` at the end of the step.
+    """Return the tree L(w). It denotes the covector ``x -> <mu, ad t_1 ... ad t_k x>``, where mu is the
+    momentum at the end of the step.
 
     >>> transport((velocity(),))
     L(o)

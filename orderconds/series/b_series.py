@@ -19,7 +19,8 @@ TreeT = TypeVar("TreeT", bound=Hashable)
 
 
 class StageAlgebra(Protocol):
-    """Vectors over the stages of one method. Each implementation chooses the representation of a vector."""
+    """The operations on vectors that have one entry for each stage of a method. A subclass defines the
+    representation of such a vector."""
 
     one: Element
     """The vector whose entries are all one."""
@@ -84,7 +85,7 @@ class ElementaryWeights(Generic[TreeT]):
 
 
 class StageVectors:
-    """Vectors over the stages, represented by one ring element for each stage.
+    """The operations on vectors over the stages. A vector is a sequence with one ring element for each stage.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -171,7 +172,7 @@ def _uncoloured_branches(tree: Tree) -> tuple[tuple[int, Tree], ...]:
 
 
 def sparse(ring: Ring, row: Sequence[Element]) -> tuple[tuple[int, Element], ...]:
-    """Return pairs (index, entry) of the entries of a row that are not proved to be zero.
+    """Return the pairs (index, entry) for all entries of a row except those that are proved to be zero.
 
     >>> from orderconds.ring import QQ
     >>> [(place, str(x)) for place, x in sparse(QQ, [QQ.zero, QQ.one])]

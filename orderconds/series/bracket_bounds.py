@@ -1,4 +1,5 @@
-"""A lower bound of the number of brackets in any program for given arguments, by linear algebra.
+"""A lower bound of the number of brackets, computed by linear algebra. It holds for every program that
+computes given arguments of exponentials.
 
 The argument u_i is computed before the stage value k_i. Hence brackets in u_i contain only the letters q_1,
 ..., q_(i-1). Call q_m, ..., q_(i-1) the new letters. Let N be the number of brackets, in any program for u_1,
@@ -7,14 +8,15 @@ Brackets without new letters, and single letters, contribute no such words to an
 part that consists of such words. N is at least the dimension of the space that these parts of all arguments
 span.
 
-The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain older letters
-only. The part of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where all P_n = d_n x -
-c_n y are Lie elements. Suppose that the parts of the arguments in which new letters occur once span d
+The first bracket with new letters is [x + sum c_n q_n, y + sum d_n q_n], where x and y contain no new
+letters. The part of this bracket in which new letters occur once is sum_n ad_(P_n) q_n, where all P_n = d_n x
+- c_n y are Lie elements. Suppose that the parts of the arguments in which new letters occur once span d
 dimensions. Suppose also that zero is the only element of the span for which all P_n are Lie elements. Then
 the corresponding part of the first bracket is not in the span, and N is at least d + 1.
 
-A bound for the brackets without new letters and a bound for the brackets with new letters count different
-brackets. Their sum is therefore a lower bound.
+A bracket either contains new letters or contains no new letters. Hence the sum of a lower bound for the
+brackets with new letters and a lower bound for the brackets without new letters is a lower bound for all
+brackets.
 """
 
 from __future__ import annotations
@@ -26,8 +28,8 @@ from orderconds.series.graded import GradedAlgebra, Polynomial, Word, solve
 
 
 def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomial]:
-    """Return P_n for n >= ``first``, where sum_n ad_(P_n) q_n is the part of x in which such letters q_n
-    occur once.
+    """Return P_n for all n >= ``first``, where sum_n ad_(P_n) q_n is the part of x in which letters q_n with
+    n >= ``first`` occur once.
 
     P_n is computed from the words of at least two letters that end in q_n.
 
@@ -42,8 +44,8 @@ def newest_factors(x: Mapping[Word, Element], first: int) -> dict[int, Polynomia
 
 
 def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
-    """Return x minus a Lie element, for x without constant term. The result is zero if and only if x is a Lie
-    element.
+    """Return the difference of x and a Lie element, for x without constant term. The difference is zero if
+    and only if x is a Lie element.
 
     The Lie element is computed by Dynkin's theorem: the map to right-normed brackets multiplies a Lie element
     of degree n by n.
@@ -65,8 +67,7 @@ def beyond_lie(algebra: GradedAlgebra, x: Mapping[Word, Element]) -> Polynomial:
 def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Element]]) -> int:
     """Return a lower bound for the number of brackets in any program for u_1, ..., u_s and u.
 
-    The arguments u_1, ..., u_s are truncated one grade below the largest grade of the algebra, and u at the
-    largest grade.
+    In the arguments u_1, ..., u_s, terms of the largest grade of the algebra are omitted. In u they are kept.
 
     >>> from orderconds.ring import QQ
     >>> algebra, q = GradedAlgebra(QQ, (1, 2, 3), 6), [{(n,): QQ.one} for n in range(3)]
@@ -84,8 +85,8 @@ def least_brackets(algebra: GradedAlgebra, arguments: Sequence[Mapping[Word, Ele
 
 
 def _needed(algebra: GradedAlgebra, span: Sequence[Mapping[Word, Element]], first: int) -> int:
-    """Return a lower bound for the number of brackets that contain letters with index ``first`` or higher and
-    that these elements require."""
+    """Return a lower bound for the number of brackets that any program for these elements needs. Only
+    brackets that contain a letter with index ``first`` or higher are counted."""
     ring, parts, beyond = algebra.ring, list[Polynomial](), list[Polynomial]()
     for x in span:
         factors = newest_factors(x, first)

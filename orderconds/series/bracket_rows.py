@@ -1,4 +1,5 @@
-"""Bracket programs with fewer terms. Terms are moved between brackets with equal left factors.
+"""Programs with equally many brackets but fewer terms. Terms are moved between brackets with equal left
+factors.
 
 If B = [x, y] and C = [x, z], then C + t B = [x, z + t y]. Hence a new bracket C + t B may replace C, and t B
 is subtracted in all rows that use C. The number of brackets does not change.
@@ -15,8 +16,8 @@ from orderconds.series.brackets import BracketProgram, Name, Row
 
 
 def with_fewer_terms(ring: Ring, program: BracketProgram) -> BracketProgram:
-    """Return a program that computes the same arguments with fewer terms. It results from moves of multiples
-    of brackets.
+    """Return a program that computes the same arguments with fewer terms. Multiples of brackets are moved as
+    long as this reduces the number of terms.
 
     The ring must be able to decide whether an element is zero, and to divide.
 

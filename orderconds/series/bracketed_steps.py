@@ -1,8 +1,8 @@
 """The Lie-Butcher series of a step whose arguments contain brackets, computed from the definition of the
 step.
 
-The first letter of a word acts first. In the product x y, y acts first. Hence the letters of y precede the
-letters of x.
+The first letter of a word acts first. In the product x y, the factor y acts first. Hence, in a word, the
+letters of y precede the letters of x.
 """
 
 from __future__ import annotations

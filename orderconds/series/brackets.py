@@ -1,4 +1,5 @@
-"""Runge-Kutta-Munthe-Kaas methods with few brackets: arguments simplified in a graded free Lie algebra.
+"""Runge-Kutta-Munthe-Kaas methods with few brackets. The arguments of the exponentials are simplified in a
+graded free Lie algebra.
 
 A linear combination of the stage values k_1, ..., k_s of an explicit method has grade g if h times the
 combination is of order h^g. q_j is the combination of k_j and earlier stage values that has the highest
@@ -6,7 +7,7 @@ grade. For order p, the arguments of the stages are required up to grade p - 1, 
 up to grade p (Munthe-Kaas and Owren, Phil. Trans. R. Soc. A 357 (1999) 957; Casas and Owren, BIT 43 (2003)
 723). One argument after another is then expressed by stage values, earlier brackets, and as few new brackets
 as possible. If a combination of two arguments needs fewer brackets than each of the two, the combination is
-computed first. For example, u_7 of Butcher's method of order 6 then needs no additional bracket.
+computed first. For example, in Butcher's method of order 6, u_7 then needs no additional bracket.
 """
 
 from __future__ import annotations
@@ -33,7 +34,8 @@ Row = dict[Name, Element]
 
 @dataclass(frozen=True)
 class BracketProgram:
-    """The arguments u_1, ..., u_s of the stages and u of the step, with their common brackets.
+    """A program that computes the arguments u_1, ..., u_s of the stages and u of the step. Several arguments
+    may use the same bracket.
 
     Stage i is k_i = f(exp(u_i) y0), and the step is exp(u) y0. ``brackets[r]`` contains the rows of x and y
     in B_r = [x, y], over stage values and earlier brackets; ``stages`` and ``update`` are rows of the same
@@ -152,12 +154,13 @@ def _limit(algebra: GradedAlgebra, arguments: Sequence[Polynomial], i: int) -> i
 
 
 def _shared(algebra: GradedAlgebra, arguments: Sequence[Polynomial]) -> dict[int, list[Polynomial]]:
-    """Return for each stage i the combinations u_j + c u_i with a later stage j that need only one bracket.
+    """Return, for each stage i, the combinations u_j + c u_i that need only one bracket, where stage j is
+    later than stage i.
 
-    Let q be the latest stage value in the brackets of u_i; it must also be the latest in the brackets of u_j.
-    Each of the two arguments needs two brackets with q. The combination needs only one bracket, because its
-    part that contains q is ad_P q with a Lie element P. The program computes u_j from this combination and
-    u_i.
+    Let q be the latest stage value in the brackets of u_i. The latest stage value in the brackets of u_j must
+    also be q. Each of the two arguments needs two brackets with q. The combination needs only one bracket,
+    because its part that contains q is ad_P q with a Lie element P. The program computes u_j from this
+    combination and u_i.
     """
     one, shared = algebra.ring.one, dict[int, list[Polynomial]]()
     stages = [algebra.cut(u, algebra.largest - 1) for u in arguments[:-1]]
@@ -178,8 +181,8 @@ class _Shape:
     """The shape of the new brackets in an argument: [q_1 + x, y + C_1] + sum_e [e, w_e] with C_n = [q_1, z_n
     + C_(n+1)].
 
-    The pool is the list of known elements. ``inner`` is the number of brackets C_n. ``leading`` fixes the
-    coefficient of the second pool element in y to one, so that the equations for x are linear. ``extra``
+    The pool is the list of known elements. ``inner`` is the number of brackets C_n. If ``leading`` is true,
+    the coefficient of the second pool element in y is one, so that the equations for x are linear. ``extra``
     contains the indices in the pool of the left factors e.
     """
 
@@ -281,7 +284,8 @@ class _Search:
         return None
 
     def _lightest_left(self) -> list[int]:
-        """Return the indices of the pool elements of least grade; the first two elements are excluded."""
+        """Return the indices of those pool elements that have the least grade. The first two elements of the
+        pool are excluded."""
         least = [min(map(self.algebra.grade, x)) for x, _ in self.pool]
         return [n for n, grade in enumerate(least) if n > 1 and grade == min(least[2:])]
 
@@ -302,8 +306,8 @@ class _Search:
         return self._any_solution(cut, algebra.cut(target, limit))
 
     def _any_solution(self, columns: Sequence[Polynomial], target: Polynomial) -> list[Element] | None:
-        """Return a solution. If a random generator is given, some unknowns may first be set to random
-        values."""
+        """Return a solution of the equations. If a random generator is given, some unknowns may be set to
+        random values before the equations are solved."""
         if self._random is None or self._random.random() < 0.4:
             return solve(self.ring, columns, target)
         moved = [self.ring.zero] * len(columns)
@@ -322,8 +326,8 @@ class _Search:
     def _columns(
         self, shape: _Shape, right: Polynomial, left: Mapping[int, Element]
     ) -> list[tuple[tuple[str, int, int], Polynomial]]:
-        """Return, for each unknown, the polynomial that it multiplies; ``right`` is y, and ``left`` is a part
-        of x."""
+        """Return, for each unknown, the polynomial by which the unknown is multiplied. ``right`` is y, and
+        ``left`` is a part of x."""
         bracket, pool = self.algebra.bracket, [x for x, _ in self.pool]
         columns = [(("linear", 0, n), x) for n, x in enumerate(pool)]
         if shape.outer:
@@ -344,7 +348,8 @@ class _Search:
     def _built(
         self, shape: _Shape, numbers: Mapping[tuple[str, int, int], Element]
     ) -> tuple[Row, Polynomial, Polynomial]:
-        """Add the brackets of a shape to the pool; return the row of the argument, its value, and y."""
+        """Add the brackets of a shape to the pool. Return three values: the row of the argument, the value of
+        the argument, and y."""
         one, size = self.ring.one, len(self.pool)
 
         def of(kind: str, depth: int, *more: tuple[Element, int]) -> list[tuple[Element, int]]:
@@ -370,7 +375,7 @@ class _Search:
         x, y = (self.algebra.combine(*((c, self.pool[n][0]) for c, n in side)) for side in (left, right))
         rows = self._row(left), self._row(right)
         if len(rows[0]) == 1:
-            rows[1].pop(next(iter(rows[0])), None)  # [k, k] is zero
+            rows[1].pop(next(iter(rows[0])), None)  # The bracket [k, k] is zero.
         self.brackets.append(rows)
         self.pool.append((self.algebra.bracket(x, y), {("B", len(self.brackets) - 1): self.ring.one}))
         return len(self.pool) - 1

@@ -1,9 +1,9 @@
 """Composition, inverse and adjoint of steps, given as B-series or Lie-Butcher series.
 
 A step is a character: its value on a forest of several components is the product of its values on the
-components, and its value on the empty forest is 1. A step is a function of canonical rooted trees (B-series,
-a(t) = sum_i b_i tau_t(i), so that y1 = y0 + sum h^|t| a(t)/sigma(t) F(t)) or of ordered forests (Lie-Butcher,
-see :mod:`orderconds.series.lie_butcher`).
+components, and its value on the empty forest is 1. A B-series is a function of canonical rooted trees: y1 =
+y0 + sum h^|t| a(t)/sigma(t) F(t) with a(t) = sum_i b_i tau_t(i). A Lie-Butcher series is a function of
+ordered forests (:mod:`orderconds.series.lie_butcher`).
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ ORDERED = TreeAlgebra(left_cuts, exact_value)
 
 
 class Character:
-    """A step of size h, given by its value in ``ring`` on each tree or forest.
+    """A step of size h. It is defined by its values on trees or forests, which are elements of ``ring``.
 
     >>> from orderconds.ring import QQ
     >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -85,8 +85,8 @@ class Character:
         return undone
 
     def adjoint(self) -> Character:
-        """Return the inverse of the step with -h in place of h (HLW II.3, Def. 3.1). A symmetric method is
-        equal to its adjoint.
+        """Return the adjoint of the step: the inverse of the step of size -h (HLW II.3, Def. 3.1). A
+        symmetric method is equal to its adjoint.
 
         >>> from orderconds.ring import QQ
         >>> euler = Character(QQ, ROOTED, lambda tree: QQ.rational(len(tree) == 1))
@@ -96,7 +96,7 @@ class Character:
         return self.inverse().scaled(self.ring.rational(-1))
 
     def scaled(self, factor: Element) -> Character:
-        """Return the step of this method with step size ``factor`` h in place of h."""
+        """Return the step of this method with the step size ``factor`` times h."""
 
         def value(forest: bytes) -> Element:
             power = self.ring.one
@@ -107,8 +107,8 @@ class Character:
         return Character(self.ring, self.algebra, value)
 
     def _sum(self, forest: bytes, other: Character, whole: bool) -> Element:
-        """Return the sum over cuts of this step's values on the components times the values of ``other`` on
-        the rest.
+        """Return the sum, over all cuts, of the values of this step on the components times the value of
+        ``other`` on the rest.
 
         If ``whole`` is false, the cut that removes the whole tree is omitted.
         """

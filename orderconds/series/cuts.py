@@ -1,9 +1,10 @@
-"""Admissible cuts of trees and forests: the series of two steps in sequence is a sum over all cuts.
+"""Admissible cuts of trees and forests. The series of a composition of two steps is a sum over all admissible
+cuts.
 
-A cut divides a tree or forest into a lower part, the rest, which contains the roots, and the components above
-it. For unordered trees, a cut is a set of edges, at most one on each path from the root (Connes and Kreimer
-1998; HLW III.1.4, ordered subtrees). For ordered forests, the branches that a cut removes at one vertex are
-the leftmost branches of this vertex, and they form one component. The same rule applies to the roots (left
+A cut divides a tree or forest into the rest, which contains the roots, and the components above the rest. For
+unordered trees, a cut is a set of edges, at most one on each path from the root (Connes and Kreimer 1998; HLW
+III.1.4, ordered subtrees). For ordered forests, the branches that a cut removes at one vertex are the
+leftmost branches of this vertex, and they form one component. The same rule applies to the roots (left
 admissible cuts: Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 

@@ -3,7 +3,8 @@
 The stage arguments are ``u_i = h sum_j a_ij dexpinv_{(r),u_j} k_j`` with ``k_j = f(exp(u_j) y0)``. The step
 is ``exp(h sum_j b_j dexpinv_{(r),u_j} k_j)``, where dexpinv_{(r),u} x = sum_{k<=r} B_k/k! ad_u^k x with B_1 =
 -1/2 (HLW IV.8.3). The letters of words are ordered trees. In a word the first letter acts first. In the
-product xy of two elements, y acts first. Hence the letters of y precede the letters of x.
+product xy of two elements, the factor y acts first. Hence, in a word, the letters of y precede the letters of
+x.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from orderconds.trees.levels import Forest, Tree, branches
 
 
 class DexpinvSeries:
-    """The Lie-Butcher series of RKMK with the tableau (A, b) over ``ring``; ``cutoff`` None means no
-    truncation.
+    """The Lie-Butcher series of RKMK with the tableau (A, b) over ``ring``. If ``cutoff`` is None, dexpinv is
+    not truncated.
 
-    The value of a word depends only on shorter words. Hence implicit tableaux need no iteration. The
-    coefficients of a word are computed for all stages in one operation.
+    The value of a word depends only on the values of shorter words. Hence implicit tableaux need no
+    iteration. One operation computes the coefficients of a word for all stages.
 
     >>> from orderconds.ring import QQ
     >>> midpoint = DexpinvSeries(QQ, [[QQ.rational(1, 2)]], [QQ.one])
@@ -102,8 +103,8 @@ class DexpinvSeries:
         return sums
 
     def _around(self, before: int, start: Forest, behind: int, end: Forest) -> list[Element] | None:
-        """Return the coefficient of k_j in dexpinv, with the given words before and after the letter k_j;
-        None means zero."""
+        """Return the coefficient of k_j in dexpinv, if the given words precede and follow the letter k_j. The
+        result None means zero."""
         values = None
         for q, m, n in self._present(before, behind):
             if m and n:

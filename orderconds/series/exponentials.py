@@ -1,4 +1,4 @@
-"""Coefficients of words in a product of exponentials, by one sweep over the factors, over any ring.
+"""Coefficients of words in a product of exponentials, over any ring. One loop over the factors computes them.
 
 In exp(X_m) ... exp(X_1) with X_J = sum_k x_J(k) k, the word k_1 ... k_n, in which k_1 acts first, has the
 coefficient
@@ -21,7 +21,7 @@ class ProductOfExponentials:
     """The coefficients of words in a product of ``count`` exponentials. ``letter(J, k)`` returns the
     coefficient of letter k in X_J.
 
-    If ``letter`` returns None, the coefficient is zero for every method of this form.
+    The function ``letter`` returns None for a coefficient that is zero for every method of this form.
 
     >>> from orderconds.ring import QQ
     >>> strang = [(1, QQ.rational(1, 2)), (0, QQ.one), (1, QQ.rational(1, 2))]
@@ -52,8 +52,8 @@ class ProductOfExponentials:
             values = [self._ring.zero]
             for J in range(self._count):
                 value, run = values[-1], None
-                # The last r letters come from this exponential, the letters before them from earlier
-                # exponentials.
+                # The last r letters of the word come from this exponential, and all other letters come from
+                # earlier exponentials.
                 for r, letter in enumerate(letters, start=1):
                     x = letter[J]
                     if x is None:

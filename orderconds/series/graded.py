@@ -1,7 +1,8 @@
 """Polynomials in non-commuting graded letters, truncated above a grade, and their brackets.
 
-A polynomial maps words of letters, numbered from 0, to coefficients; letters have grades, and products above
-a largest grade vanish. The product xy is the word xy; this module does not define which letter acts first.
+A polynomial is a map from words of letters to coefficients. The letters are numbered from 0, and each letter
+has a grade. Words above a largest grade are zero. The product xy is the word xy; this module does not define
+which letter acts first.
 """
 
 from __future__ import annotations
@@ -69,7 +70,7 @@ class GradedAlgebra:
         return result
 
     def cut(self, x: Mapping[Word, Element], limit: int) -> Polynomial:
-        """Return x without the words of a grade above ``limit``."""
+        """Return x without the words whose grade is above ``limit``."""
         return {word: value for word, value in x.items() if self.grade(word) <= limit}
 
 

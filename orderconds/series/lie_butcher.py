@@ -1,12 +1,12 @@
 """Lie-Butcher series: the values of products of exponentials and of the exact flow on ordered forests.
 
-A forest is a word of ordered trees, in which the first tree acts first. For g = exp(X_m) ... exp(X_1) with
-X_J a combination of trees, and k = f(g y0), the coefficient of a word is
+A forest is a word of ordered trees, in which the first tree acts first. Let g = exp(X_m) ... exp(X_1), where
+each X_J is a linear combination of trees, and let k = f(g y0). The coefficient of a word in g is
 
 sum over J_1 <= ... <= J_k of prod x_{J_l}(t_l) / prod (run lengths)!
 
-In the series of k, the tree whose branches form this word has the same value (Owren and Marthinsen, BIT 39
-(1999) 116; HLW IV.8).
+This number is also the value of the series of k on the tree whose branches form this word (Owren and
+Marthinsen, BIT 39 (1999) 116; HLW IV.8).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from orderconds.trees.levels import Forest, Tree, branches, trees_of
 from orderconds.trees.ordered import ordered_forests
 
 SparseRow = Sequence[tuple[int, Element]]
-"""The coefficients of the stages in one exponent; zero coefficients are omitted."""
+"""One exponent, as pairs of a stage and its coefficient. Zero coefficients are omitted."""
 
 
 class ForestSeries(Protocol):
@@ -35,11 +35,12 @@ class ForestSeries(Protocol):
 class ExponentialsSeries:
     """The series of a commutator-free method: products of exponentials of combinations of stage values.
 
-    ``stages[i]`` are the exponentials that lead from y0 to stage i, and ``update`` are the exponentials of
-    the step. Each exponential is a sparse row of coefficients over the stages; the first acts first. Stages
-    may depend on each other implicitly. Products that begin with the same rows (identical coefficient
-    objects) share partial products. Hence all partial products form one tree; in this module, a node of this
-    tree is called a place. The coefficient of a word at a place is its coefficient in the partial product.
+    ``stages[i]`` contains the exponentials that lead from y0 to stage i, and ``update`` contains the
+    exponentials of the step. Each exponential is a sparse row of coefficients over the stages. The first
+    exponential acts first. Stages may depend on each other implicitly. Products that begin with the same rows
+    (identical coefficient objects) share partial products. Hence all partial products form one tree; in this
+    module, a node of this tree is called a place. The coefficient of a word at a place is the coefficient of
+    the word in the partial product.
 
     >>> from orderconds.ring import QQ
     >>> one = ((0, QQ.one),)
@@ -122,8 +123,8 @@ class ExponentialsSeries:
         other places are set to zero."""
         starts = [place for place, level in enumerate(word) if level == 0]
         whole = len(starts)
-        # The last r letters of the word come from the last exponential, the letters before them from earlier
-        # exponentials.
+        # The last r letters of the word come from the last exponential, and all other letters come from
+        # earlier exponentials.
         heads = [self._word(word[:start]) for start in starts[:0:-1]]
         letters = [self._letter(tree) for tree in trees_of(word)[::-1]]
         factorials = [self._inverse_factorial(r) for r in range(whole + 1)]
@@ -141,7 +142,7 @@ class ExponentialsSeries:
         return values
 
     def _letter(self, tree: Tree) -> list[Element | None]:
-        """Return the coefficient of a tree in the exponent of each row; None means zero."""
+        """Return the coefficient of a tree in the exponent of each row. A coefficient None means zero."""
         coefficients = self._letters.get(tree)
         if coefficients is None:
             values, zero = self.stage_values(tree), self._ring.zero

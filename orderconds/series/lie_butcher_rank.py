@@ -1,10 +1,10 @@
 """Selection of independent conditions on ordered forests in a family, by ranks at random methods.
 
-A condition is superfluous if its left-hand side, for every method of the family, is a fixed combination of
-simpler left-hand sides of the same order and of products of left-hand sides of lower order, **and** the
-values of the exact flow satisfy the same relation. The exact flow is therefore one of the samples. If the
-exact flow violates the relation (RKMK(0) at order 3), no method satisfies the condition, and the condition is
-not removed.
+A condition is superfluous under two requirements. First, for every method of the family, its left-hand side
+is the same linear combination of simpler left-hand sides of the same order and of products of left-hand sides
+of lower order. Second, the values of the exact flow satisfy this relation. The exact flow is therefore one of
+the samples. If the exact flow violates the relation (RKMK(0) at order 3), no method satisfies the condition,
+and the condition is not removed.
 """
 
 from __future__ import annotations

@@ -31,11 +31,11 @@ constant terms."""
 
 
 def product_logarithm(ring: Ring, exponents: Sequence[Values], transform: str = "exp") -> Values:
-    """Return the values on words of Omega, where exp(Omega) is the product of the exponentials of
-    ``exponents``; the first acts first.
+    """Return the values of Omega on words, where exp(Omega) is the product of the exponentials of
+    ``exponents``. The exponential of the first exponent acts first.
 
-    If ``transform`` is ``cay``, cay(x) = (1 - x/2)^-1 (1 + x/2) replaces exp on both sides. If there is only
-    one exponent, Omega is equal to it.
+    If ``transform`` is ``cay``, the map cay(x) = (1 - x/2)^-1 (1 + x/2) replaces exp in both places. If there
+    is only one exponent, Omega is equal to this exponent.
 
     >>> from orderconds.ring import QQ
     >>> A, B = ({(k,): QQ.one}.get for k in (1, 2))

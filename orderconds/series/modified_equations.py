@@ -1,8 +1,9 @@
 """Backward error analysis: the differential equation that a method solves exactly, and its Hamiltonian.
 
-A step with values a is the flow over h of a field f~ = f + h f_2 + ... with values b. The values are related
-by a = exp(b) with respect to composition: a = sum_j (1/j!) L^(j-1) b, where L is a sum over cuts with one
-component (HLW IX.9.1; on ordered forests Lundervold and Munthe-Kaas, Contemp. Math. 539 (2011) 295).
+A step whose series has the values a is the flow, over the time h, of a vector field f~ = f + h f_2 + ...
+whose series has the values b. The values are related by a = exp(b) with respect to composition: a = sum_j
+(1/j!) L^(j-1) b, where L is a sum over cuts with one component (HLW IX.9.1; on ordered forests Lundervold and
+Munthe-Kaas, Contemp. Math. 539 (2011) 295).
 """
 
 from __future__ import annotations
@@ -38,8 +39,8 @@ class VectorField:
         self._powers: dict[tuple[int, bytes], Element] = {}
 
     def define(self, value: Callable[[bytes], Element]) -> None:
-        """Set the function that computes the values of the field. The function may use values of the field on
-        smaller trees."""
+        """Set the function that computes the values of the field. This function may call the field on smaller
+        trees."""
         self._value = value
 
     def __call__(self, forest: bytes) -> Element:
@@ -59,8 +60,8 @@ class VectorField:
         return Character(self.ring, self.algebra, lambda forest: self(forest) + self.beyond_first(forest))
 
     def beyond_first(self, forest: bytes) -> Element:
-        """Return the value of the flow minus the value of the field; this difference depends only on smaller
-        trees."""
+        """Return the value of the flow minus the value of the field on a tree or forest. This difference
+        depends only on the values on smaller trees."""
         result = self.ring.zero
         for n in range(2, len(forest) + 1):
             result = result + self._power(n, forest) * self.ring.rational(1, factorial(n))

@@ -1,5 +1,5 @@
-"""Products of graded generators. If all conditions of lower order hold, the method and the exact flow have
-equal values of these products."""
+"""Products of graded generators, which are left-hand sides of conditions of lower order. If these conditions
+hold, the products have the same values for the method and for the exact flow."""
 
 from __future__ import annotations
 

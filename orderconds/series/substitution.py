@@ -1,4 +1,5 @@
-"""Substitution: the series of a step if another field, which is itself a series in f, replaces the field f.
+"""Substitution: the series of a step if the vector field f is replaced by another vector field, which is
+itself a series in f.
 
 For B-series, the value on a tree is a sum over all divisions of the tree into connected components. Each
 summand is the product of the values of the field on the components and the value of the step on the quotient
@@ -88,7 +89,7 @@ def modifying_field(step: Character) -> VectorField:
 
 
 def _by_partitions(field: VectorField, step: Character, tree: Tree, *, whole: bool = True) -> Element:
-    """Return the sum that defines the substitution, over the partitions of a tree into components. If
+    """Return the sum over the partitions of a tree into components that defines the substitution. If
     ``whole`` is false, the partition into one component is omitted."""
     result = field.ring.zero
     for components, skeleton in partitions(tree):
@@ -117,8 +118,8 @@ def partitions(tree: Tree) -> tuple[tuple[tuple[Tree, ...], Tree], ...]:
 
 
 def _parted(tree: Tree, cut: tuple[bool, ...]) -> tuple[Tree, list[Tree], Tree, tuple[bool, ...]]:
-    """Return the component of the root, the other components, and the skeleton; ``cut`` flags the cut edges
-    in preorder."""
+    """Return the component of the root, all other components, and the skeleton (quotient tree). ``cut``
+    contains a flag for each edge, in preorder, that is true if the edge is cut."""
     attached: list[Tree] = []
     components: list[Tree] = []
     skeletons: list[Tree] = []

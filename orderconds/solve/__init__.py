@@ -1,1 +1,2 @@
-"""The search for methods: numerical search, certification, closed forms, and proofs that no method exists."""
+"""The search for methods: numerical search, certification of the solutions, closed forms of coefficients, and
+proofs that no method exists."""

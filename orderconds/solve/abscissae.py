@@ -6,11 +6,11 @@ on the momentum, and m_i for the transport of the momentum by Ad* through the up
     1 - m_i = (1/b_i) sum_J beta_J^i (y_J/2 + sum_{K > J} y_K),   y_J = sum_j beta_J^j.
 
 For Crouch-Grossman methods m_i = b_1 + ... + b_{i-1} + b_i/2. The conditions of order three contain sum_i b_i
-x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0, and likewise for
-chat. If the weights are positive, the three abscissae are equal. In practice the three abscissae are also
-equal in solutions with negative weights. For a given update, sum_j a_ij = m_i then holds for each row i, and
-sum_i b_i a_ij = b_j (1 - m_j) for each column j. This transport problem is solved along a spanning tree of
-the free entries.
+x_i y_i = 1/3 for any two abscissae x, y among c, chat, m. Hence sum_i b_i (c_i - m_i)^2 = 0 and sum_i b_i
+(chat_i - m_i)^2 = 0. If the weights are positive, the three abscissae are equal. In practice the three
+abscissae are also equal in solutions with negative weights. For a given update, sum_j a_ij = m_i then holds
+for each row i, and sum_i b_i a_ij = b_j (1 - m_j) for each column j. This transport problem is solved along a
+spanning tree of the free entries.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ WHERE = "structure abscissae"
 
 
 def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
-    """Return formulas of m_1, ..., m_s in the weights.
+    """Return formulas for m_1, ..., m_s in terms of the weights.
 
     >>> crouch_grossman_times(["b1", "b2"])
     {'m1': '1/2*b1', 'm2': 'b1 + 1/2*b2'}
@@ -32,7 +32,8 @@ def crouch_grossman_times(b: Sequence[str]) -> dict[str, str]:
 
 
 def commutator_free_times(update: Sequence[Sequence[str]], b: Sequence[str]) -> dict[str, str]:
-    """Return formulas of b_i, y_J and m_i in the coefficients of an update of several exponentials.
+    """Return formulas for b_i, y_J and m_i in terms of the coefficients of an update with several
+    exponentials.
 
     >>> commutator_free_times([["x"], ["y"]], ["b1"])
     {'b1': 'x + y', 'y1': 'x', 'y2': 'y', 'm1': '1 - (x*(1/2*y1 + y2) + y*(1/2*y2))/b1'}
@@ -55,10 +56,11 @@ def _sum(row: Sequence[str]) -> str:
 
 
 def transport(A: Sequence[Sequence[str]], b: Sequence[str], fixed: Mapping[str, str]) -> dict[str, str]:
-    """Return the entries of A that its row sums m_i and weighted column sums b_j (1 - m_j) determine.
+    """Return the entries of A that are determined by the row sums m_i and the weighted column sums b_j (1 -
+    m_j).
 
-    ``b`` are the texts of the weights. ``fixed`` maps the entries with known values to these values. Raises
-    :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.
+    ``b`` contains the texts of the weights. ``fixed`` maps the entries with known values to these values.
+    Raises :class:`~orderconds.errors.InputError` if the free entries do not connect all rows and columns.
 
     >>> transport([["a11", "a12"], ["a21", "a22"]], ["b1", "b2"], {})
     {'a12': 'm1 - a11', 'a21': '(b1*(1 - m1) - b1*a11)/b2', 'a22': 'm2 - a21'}
@@ -101,8 +103,8 @@ def _spanning_tree(edges: Sequence[tuple[int, int]], s: int) -> list[tuple[int, 
 
 
 def _leaf(unknown: set[tuple[int, int]]) -> tuple[int, int, bool]:
-    """Return an entry that is the only entry in its row. If there is no such entry, return an entry that is
-    the only entry in its column.
+    """Return an entry that is the only free entry in its row. If there is no such entry, return an entry that
+    is the only free entry in its column.
     """
     for alone, by_row in ((0, True), (1, False)):
         for entry in sorted(unknown):
@@ -116,11 +118,12 @@ def symmetric_transport(
 ) -> dict[str, str]:
     """Return formulas for those entries x_ij of sums of exponents that the abscissae determine.
 
-    The method is symmetric (:mod:`orderconds.solve.paths`). x_ij is the sum of the j-th entries of the
-    exponents of stage i after it branches off the update; ``own`` are the rows x_i of the stages before the
-    middle. Stage i branches off ``update`` after ``leave[i]`` exponentials. ``middle`` is the row of a middle
-    stage, if there is one. Let j' = s + 1 - j. The equation of column j is sum_i b_i (x_ij - x_ij') = C_j; it
-    is solved for the last row of ``own``. Each row equation is solved for one entry.
+    The method is symmetric (:mod:`orderconds.solve.paths`). Stage i consists of the first ``leave[i]``
+    exponentials of ``update``, followed by exponentials of its own. x_ij is the sum of the j-th entries of
+    the exponents that only stage i contains. ``own`` contains the rows x_i of the stages before the middle.
+    ``middle`` is the row of a middle stage, if there is one. Let j' = s + 1 - j. The equation of column j is
+    sum_i b_i (x_ij - x_ij') = C_j; it is solved for the last row of ``own``. Each row equation is solved for
+    one entry.
 
     >>> last = symmetric_transport([["x11", "x12"]], [1], [["p", "q"], ["q", "p"]], [])
     >>> last["x12"], last["x11"]

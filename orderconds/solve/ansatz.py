@@ -1,8 +1,9 @@
 """An ansatz: a tableau file whose decimals are the unknowns of a search.
 
-The file contains the coefficients of a method with a given number of stages, named a21, b1, ... and related
-by constraints. The file is evaluated over recorded programs for the search, modulo primes for ranks of
-conditions, and over balls for the proof.
+The file contains the coefficients of a method with a given number of stages. The coefficients have the names
+a21, b1, ... and satisfy constraints. The coefficients are evaluated in three rings: traces, which record a
+program for the numerical search; residues modulo primes, for the ranks of conditions; and balls, for the
+proof.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from orderconds.tableau.unknowns import RootedRing, SymbolicCoefficients
 
 @dataclass(frozen=True)
 class Ansatz:
-    """The text of a tableau file in which the values of the free coefficients are missing. ``free`` are the
-    names of the unknowns, ``numbers`` the formulas of dependent coefficients by name, ``body`` the other
-    lines. ``cells`` are the names of the coefficients that are not constants.
+    """The text of a tableau file in which the values of the free coefficients are missing. ``free`` contains
+    the names of the unknowns, ``numbers`` the formulas of dependent coefficients by name, and ``body`` all
+    other lines. ``cells`` contains the names of the coefficients that are not constants.
     """
 
     family: str
@@ -60,7 +61,7 @@ class Ansatz:
         return symbolic.method(ring, known)[0]
 
     def _sorted(self, values: Sequence[Element]) -> list[Element]:
-        """Return the values in the order in which the file names them."""
+        """Return the values of the free coefficients in the order in which the file names them."""
         return [x for _, x in sorted(zip(self.free, values, strict=True), key=lambda pair: _place(pair[0]))]
 
     @cached_property

@@ -1,10 +1,11 @@
 """Certify a solution that was computed in double precision, and write it as a tableau file.
 
-Coefficients that the equations do not determine are first rounded to short decimals. The other coefficients
-are computed again to high precision by Newton's method in balls. If lattice reduction recognises them as
-algebraic numbers of one field, the file has closed forms and its order is checked exactly. Otherwise the
-decimals in the file are unknowns of the conditions that are independent for the ansatz (reduction
-``spelling``). Interval arithmetic then proves that these conditions have a solution near the decimals.
+Coefficients that the equations do not determine are first rounded to short decimals. All other coefficients
+are then computed to high precision by Newton's method in balls. If lattice reduction recognises them as
+algebraic numbers of one field, the file has closed forms and its order is checked exactly. Otherwise the file
+contains rounded decimals. They are unknowns of those conditions that are independent for the ansatz
+(reduction ``spelling``). Interval arithmetic then proves that these conditions have a solution near the
+decimals.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ DIGITS = 50
 """Decimal places of a coefficient in the file."""
 
 BITS = 1400
-"""Working precision of Newton's method in bits; lattice reduction needs this precision."""
+"""The working precision of Newton's method in bits. Lattice reduction needs numbers of this precision."""
 
 WORSE = 1.5
 """The factor by which rounding may increase the largest coefficient and the principal error."""
@@ -67,7 +68,7 @@ WORSE = 1.5
 
 @dataclass(frozen=True)
 class Solution:
-    """A method with its file: ``certificate`` is ``exact`` or ``ball``."""
+    """A method with its tableau file. The certificate of its order is ``exact`` or ``ball``."""
 
     tableau: Tableau
     text: str
@@ -78,7 +79,7 @@ class Solution:
 def certify_solution(
     problem: Problem, point: Sequence[float], name: str, source: str, *, minimised: bool = False
 ) -> Solution:
-    """Return the file of a solution near ``point``; raises NotProved if no order can be proved.
+    """Return the tableau file of a solution near ``point``. Raises NotProved if no order can be proved.
 
     >>> from orderconds.solve.spec import Spec
     >>> from orderconds.solve.problem import find_problem
@@ -150,7 +151,8 @@ def _quality(problem: Problem, point: Floats) -> tuple[float, ...]:
 
 
 def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
-    """Whether the equations determine the unknowns well: no singular value is tiny."""
+    """Return True if the smallest singular value of the Jacobian is not close to zero. Then the equations
+    determine the unknowns well."""
     if not solved:
         return True
     _, slopes = problem.tape.jacobians(point[None])
@@ -159,7 +161,7 @@ def _regular(problem: Problem, point: Floats, solved: Sequence[int]) -> bool:
 
 
 def determined(slopes: Floats) -> list[int]:
-    """Return the indices of the unknowns that elimination with complete pivoting selects, in rising order.
+    """Return the indices of the unknowns that elimination with complete pivoting selects, in ascending order.
 
     >>> determined(np.array([[0.0, 2.0, 1.0], [0.0, 4.0, 2.0]]))
     [1]
@@ -182,7 +184,8 @@ def determined(slopes: Floats) -> list[int]:
 def _newton(
     problem: Problem, point: Floats, pinned: dict[int, Fraction], solved: Sequence[int]
 ) -> dict[int, arb]:
-    """Return the unknowns to nearly :data:`BITS` bits, by Newton's method on an equal number of equations.
+    """Return the unknowns to nearly :data:`BITS` bits. Newton's method is applied to a system with as many
+    equations as unknowns.
 
     Raises NotProved if Newton's method does not converge.
     """
@@ -248,7 +251,7 @@ def _exact(problem: Problem, text: str, source: str) -> Solution | None:
     label = problem.ansatz.family
     try:
         report = check(tableau, label, problem.order)
-    except ZeroWeight:  # one weight is zero, and the formulas of the family divide by the weights
+    except ZeroWeight:  # A weight is zero, and the formulas of the family divide by the weights.
         return None
     if report.verdict != "holds" or report.orders[0].certificate != "exact":
         return None
@@ -297,7 +300,7 @@ def _signed(x: arb, places: int) -> str:
 
 
 def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
-    """Return the solution with a claim for each proved order and property."""
+    """Return the solution. Its tableau file claims each proved order and property."""
     if not exact:
         certify(tableau)
     claims: list[OrderClaim] = []
@@ -323,7 +326,8 @@ def _claimed(problem: Problem, tableau: Tableau, *, exact: bool) -> Solution:
     claimed = replace(tableau, claims=Claims(tuple(claims), held))
     written = dumps(claimed)
     if exact:
-        # Choose the shorter of two texts: with each coefficient in full, or with names for repeated numbers.
+        # There are two texts of the file: one contains each coefficient in full, the other contains names for
+        # repeated numbers. The shorter text is used.
         written = min(toml_text(without_names(claimed)), written, key=len)
     error = principal_error(claimed, problem.ansatz.family, problem.order + 1)
     return Solution(Tableau.loads(written), written, certificate, error)

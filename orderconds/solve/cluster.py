@@ -1,4 +1,4 @@
-"""Run jobs on a dask cluster and return the results in the order of the jobs."""
+"""The execution of jobs on a dask cluster."""
 
 from __future__ import annotations
 
@@ -18,12 +18,14 @@ connection."""
 
 
 def on_cluster(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -> Iterator[Result]:
-    """Yield ``work(job)`` for each job, in order; ``address`` is the address of the scheduler.
+    """Yield ``work(job)`` for each job, in the order of the jobs. ``address`` is the address of the
+    scheduler.
 
-    If a worker dies, another worker repeats its job. Raises InputError if the scheduler does not answer.
+    If a worker dies, another worker repeats its job. Raises InputError if there is no connection to the
+    scheduler.
     """
     level = logging.root.manager.disable
-    logging.disable(logging.CRITICAL)  # dask logs a traceback for each connection that breaks
+    logging.disable(logging.CRITICAL)  # otherwise dask logs a traceback for each lost connection
     try:
         yield from _results(work, jobs, address)
     finally:
@@ -45,12 +47,12 @@ def _results(work: Callable[[Job], Result], jobs: Sequence[Job], address: str) -
                 raise InputError(
                     "workers of the cluster died" if killed else "the scheduler no longer answers",
                     where=f"--dask {address}",
-                    expected="a cluster that runs until the end",
+                    expected="a cluster that runs until the search ends",
                     hint="restart the cluster and repeat the command; a checkpoint file saves the finished "
                     "batches of random starts",
                 ) from None
     finally:
-        with suppress(Exception):  # closing fails if the scheduler no longer exists
+        with suppress(Exception):  # The call of close fails if the scheduler no longer exists.
             client.close(timeout=TIMEOUT)
 
 
@@ -67,7 +69,7 @@ def _client(address: str) -> Any:
     try:
         return Client(address, timeout=TIMEOUT)
     except (OSError, ValueError, TimeoutError, TypeError) as problem:
-        # dask raises TypeError for a tls address without a certificate
+        # dask raises TypeError for a tls address without a certificate.
         raise InputError(
             f"no cluster answers ({_words(problem)})",
             where=f"--dask {address}",

@@ -1,4 +1,4 @@
-"""Proofs by exact elimination that no method exists: its order conditions contradict each other.
+"""Proofs that no method exists. Exact elimination shows that the order conditions contradict each other.
 
 Compute a Groebner basis of the conditions that involve few coefficients. If the basis contains 1, there is no
 method, real or complex. If it contains a polynomial in one coefficient without real roots, counted by Sturm's
@@ -27,14 +27,14 @@ if TYPE_CHECKING:
     from orderconds.tableau.unknowns import RootedRing
 
 Member = tuple[OrderCondition, fmpq_mpoly]
-"""A condition and its left-hand side minus its right-hand side."""
+"""A condition, and the polynomial that is its left-hand side minus its right-hand side."""
 
 MAX_VARIABLES = 3
 """The largest number of coefficients in a condition that is used for elimination."""
 
 MAX_UNKNOWNS, MAX_ORDER = 16, 5
-"""Limits on unknowns and order; beyond them expansion would give too many terms in the polynomials of the
-conditions."""
+"""The limits on the number of unknowns and on the order. Beyond these limits the polynomials of the
+conditions would have too many terms."""
 
 MAX_DEGREE = 8
 """The highest degree of the multipliers in a certificate."""
@@ -62,7 +62,7 @@ class Infeasible:
         return f"{self.consequence} = 0 has no real root (Sturm)"
 
     def as_json(self) -> dict[str, object]:
-        """Return the proof as plain data."""
+        """Return the proof as data that JSON can represent."""
         return {
             "conditions": [{"order": c.order, "tree": c.tree, "expression": str(c)} for c in self.conditions],
             "equations": list(self.equations),
@@ -92,7 +92,12 @@ def infeasible(problem: Problem) -> Infeasible | None:
     ring = LaurentPolynomials(names) if divides else Polynomials(names)
     try:
         values = problem.residuals(ring.generators, cast("RootedRing", ring), _conditions(problem))
-    except (AttributeError, ArithmeticError, TypeError, ValueError):  # no Laurent polynomials
+    except (
+        AttributeError,
+        ArithmeticError,
+        TypeError,
+        ValueError,
+    ):  # the residuals are not Laurent polynomials
         return None
     plain = Polynomials(names)
     system = [(c, _numerator(x, plain)) for c, x in zip(_conditions(problem), values, strict=True)]
@@ -122,7 +127,8 @@ def _support(x: fmpq_mpoly) -> frozenset[int]:
 def _subsystems(
     system: Sequence[Member], plain: Polynomials
 ) -> Iterator[tuple[tuple[int, ...], list[Member]]]:
-    """Yield small sets of variables, smallest first, each with the conditions in these variables only."""
+    """Yield small sets of variables, smallest first. With each set, yield the conditions that contain only
+    these variables."""
     supports = sorted({_support(x) for _, x in system if len(_support(x)) <= MAX_VARIABLES}, key=sorted)
     wanted = {*supports, *(x | y for x, y in combinations(supports, 2) if len(x | y) <= MAX_VARIABLES)}
     for variables in sorted(wanted, key=lambda x: (len(x), sorted(x))):
@@ -134,7 +140,7 @@ def _subsystems(
 def _consequence(
     problem: Problem, variables: Sequence[int], members: Sequence[fmpq_mpoly], plain: Polynomials
 ) -> fmpq_mpoly | None:
-    """Return a polynomial of the ideal without admissible real roots, or None."""
+    """Return a polynomial that belongs to the ideal and has no admissible real root, or None."""
     import sympy
 
     symbols = [sympy.Symbol(plain.names[k]) for k in variables]
@@ -183,7 +189,8 @@ def _certificate(
     consequence: fmpq_mpoly,
     plain: Polynomials,
 ) -> Infeasible | None:
-    """Return multipliers for the consequence, by linear algebra; None if their degree would be too large."""
+    """Return the multipliers with which the equations add up to the consequence. They are computed by linear
+    algebra. Return None if their degree would be too large."""
     for degree in range(MAX_DEGREE):
         multipliers = _multipliers(variables, [x for _, x in members], consequence, degree, plain)
         if multipliers is not None:

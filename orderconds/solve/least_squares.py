@@ -1,4 +1,4 @@
-"""Damped least squares for many starts at once (Levenberg 1944; Marquardt 1963).
+"""Damped least squares (Levenberg 1944; Marquardt 1963), computed for many starting points together.
 
 The damping is the norm of the residual times a factor that shrinks after each success. The method therefore
 converges quadratically near solutions, isolated or not (Yamashita and Fukushima 2001).
@@ -65,13 +65,13 @@ def _squares(values: Floats) -> Floats:
 def _solved(normal: Floats, right: Floats) -> Floats:
     try:
         return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
-    except np.linalg.LinAlgError:  # a matrix is singular: add damping at all points
+    except np.linalg.LinAlgError:  # At least one matrix is singular. The damping is increased at all points.
         eye = np.eye(normal.shape[1]) * 1e-9 * (1 + np.trace(normal, axis1=1, axis2=2))[:, None, None]
         return np.asarray(np.linalg.solve(normal + eye, right), dtype=np.float64)
 
 
 def rank(jacobian: Floats, tolerance: float = 1e-7) -> int:
-    """Return the numerical rank of one Jacobian after its rows are scaled to length one.
+    """Return the numerical rank of one Jacobian. The rows are first scaled to length one.
 
     >>> rank(np.array([[1.0, 0.0], [1e6, 0.0]]))
     1

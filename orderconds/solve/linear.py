@@ -1,6 +1,6 @@
-"""Linear constraints on the coefficients of a tableau, eliminated exactly, one after another. If a constraint
-contradicts earlier constraints, the error message names this constraint. The result is a set of free
-coefficients; all other coefficients are affine functions of the free coefficients.
+"""Linear constraints on the coefficients of a tableau. Exact elimination processes the constraints one after
+another. If a constraint contradicts earlier constraints, the error message names this constraint. The result
+is a set of free coefficients; all other coefficients are affine functions of the free coefficients.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ from orderconds.errors import InputError, TableauError
 from orderconds.tableau.grammar import Chain, Constant, Expression, Name, parse
 
 Affine = Mapping[str, Fraction]
-"""An affine function: its coefficients by the name of the variable; the constant has the empty name."""
+"""An affine function: a map from the names of variables to coefficients. The constant term has the empty
+name."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,8 @@ class Constraint:
     form: Affine
 
     def expanded(self, sums: Mapping[str, Sequence[str]]) -> Constraint:
-        """Return the constraint with each name in ``sums`` replaced by the sum of the listed names."""
+        """Return the constraint in which each name in ``sums`` is replaced by the sum of the names listed for
+        it."""
         form: dict[str, Fraction] = {}
         for name, factor in self.form.items():
             for summand in sums.get(name, (name,)):
@@ -56,8 +58,8 @@ class Elimination:
         return self.solved.get(name, {name: Fraction(1)})
 
     def impose(self, constraints: Iterable[Constraint]) -> None:
-        """Add constraints; raises :class:`~orderconds.errors.InputError` for a constraint that contradicts
-        the other constraints.
+        """Add constraints. Raises :class:`~orderconds.errors.InputError` for a constraint that contradicts
+        earlier constraints.
         """
         rank = {name: place for place, name in enumerate(self.names)}
         for constraint in constraints:
@@ -141,7 +143,7 @@ def _affine(x: Expression) -> Affine:
 
 
 def zero(name: str, why: str) -> Constraint:
-    """Return the constraint that a coefficient vanishes.
+    """Return the constraint that a coefficient is zero.
 
     >>> zero("a11", "--explicit").text
     '--explicit (a11 = 0)'
@@ -150,7 +152,7 @@ def zero(name: str, why: str) -> Constraint:
 
 
 def equal(why: str, *terms: tuple[int, str]) -> Constraint:
-    """Return the constraint that a sum of multiples of coefficients vanishes.
+    """Return the constraint that a linear combination of coefficients is zero.
 
     >>> {name: str(x) for name, x in equal("--symmetric", (1, "b1"), (-1, "b3")).form.items()}
     {'b1': '1', 'b3': '-1'}
@@ -171,7 +173,7 @@ def sum_to_one(names: Sequence[str]) -> Constraint:
 
 
 def spell(form: Affine) -> str:
-    """Return an affine function in the grammar of tableau files.
+    """Return an affine function as text in the grammar of tableau files.
 
     >>> spell({"": Fraction(1, 2), "b1": Fraction(-1), "b2": Fraction(3, 2)})
     '1/2 - b1 + 3/2*b2'
@@ -186,7 +188,8 @@ def spell(form: Affine) -> str:
 
 
 def named(letter: str, *indices: int) -> str:
-    """Return the name of a coefficient: indices are joined by _ if one has two digits.
+    """Return the name of a coefficient, such as a21. The indices are joined by _, as in a10_1, if an index
+    has two digits or there are more than two indices.
 
     >>> named("a", 2, 1), named("a", 10, 1)
     ('a21', 'a10_1')

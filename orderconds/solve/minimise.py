@@ -1,9 +1,10 @@
-"""Minimise the principal error over a family of solutions, by Gauss-Newton steps in the tangent space.
+"""Minimisation of the principal error over a manifold of solutions, by Gauss-Newton steps in the tangent
+space.
 
 Each step p solves the linearised conditions, F + F' p = 0. Here F are the residuals of the conditions and E
-is the vector whose norm is the principal error. Among these solutions the step minimises |E + E' p|^2 +
-damping |p|^2. A few Newton steps then lead back to a solution. This is sequential quadratic programming with
-the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*, Section 18.4).
+is the vector whose norm is the principal error. Among all solutions p of this system, the step minimises |E +
+E' p|^2 + damping |p|^2. A few Newton steps then lead back to a solution. This is sequential quadratic
+programming with the Gauss-Newton Hessian (Nocedal and Wright, *Numerical Optimization*, Section 18.4).
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ PATIENCE = 12
 
 
 def minimise(problem: Problem, point: Floats, steps: int = MAX_STEPS) -> tuple[Floats, float]:
-    """Return a solution near ``point`` with least principal error, and the principal error of this solution.
+    """Return a solution near ``point`` whose principal error is a local minimum, and this principal error.
     The argument ``point`` must solve the conditions.
 
     >>> from orderconds.solve.spec import Spec

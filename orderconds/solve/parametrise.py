@@ -22,13 +22,13 @@ from orderconds.solve.linear import Constraint, Elimination, equal, equality, na
 from orderconds.solve.spec import Spec, refuse
 
 Nodes = Mapping[str, Sequence[str]]
-"""The coefficients of a stage by the name of its node, which is their sum."""
+"""For the name of each node, the names of the coefficients whose sum is the node."""
 
 
 def _eliminated(
     names: Sequence[str], spec: Spec, constraints: Sequence[Constraint], nodes: Nodes | None = None
 ) -> Elimination:
-    """Return the coefficients after elimination of all constraints; those of ``--fix`` may have nodes."""
+    """Return the coefficients after elimination of all constraints; ``--fix`` may refer to nodes."""
     elimination = Elimination(tuple(names))
     fixed = [equality(text).expanded(nodes or {}) for text in spec.fix]
     for constraint in fixed:
@@ -45,7 +45,7 @@ def _eliminated(
 
 @dataclass(frozen=True)
 class _Cells:
-    """Coefficients after elimination: the text of each coefficient in the file, and the formulas of named
+    """The text of each coefficient after elimination of the constraints, and the formulas of named
     numbers."""
 
     elimination: Elimination
@@ -138,10 +138,11 @@ def runge_kutta(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
 def _symplectic(
     A: Sequence[Sequence[str]], b: Sequence[str], elimination: Elimination, symmetric: bool
 ) -> dict[str, str]:
-    """Return the formula of one entry of each pair a_ij, a_ji such that b_i a_ij + b_j a_ji = b_i b_j.
+    """Return formulas that express one entry of each pair a_ij, a_ji in terms of the other entry, by the
+    relation b_i a_ij + b_j a_ji = b_i b_j.
 
-    If the method is ``symmetric``, the relation of a pair implies the relation of the mirrored pair, and a
-    pair that is its own mirror image satisfies the relation already.
+    If the method is ``symmetric``, the relation of a pair implies the relation of the mirrored pair. A pair
+    that is equal to its mirrored pair always satisfies the relation.
     """
     cells, last = _Cells(elimination), len(b) - 1
     formulas: dict[str, str] = {}
@@ -158,8 +159,8 @@ def _symplectic(
                 raise InputError(
                     f"the constraints fix both {A[i][j]} and {A[j][i]}",
                     where="constraints",
-                    expected="constraints that fix at most one of the two, because in a symplectic method "
-                    "one determines the other",
+                    expected="constraints that fix at most one of these entries, because in a symplectic "
+                    "method each of them determines the other",
                 )
             row, column = chosen
             weight, other = cells.written(b[column]), cells.written(A[column][row])
@@ -169,7 +170,7 @@ def _symplectic(
 
 
 def _is_symplectic(elimination: Elimination, entries: tuple[str, str], weights: tuple[str, str]) -> bool:
-    """Whether b_i a_ij + b_j a_ji = b_i b_j is an identity in the free coefficients."""
+    """Return True if b_i a_ij + b_j a_ji = b_i b_j is an identity in the free coefficients."""
     (a, mirrored), (b, c) = map(elimination.cell, entries), map(elimination.cell, weights)
     total: dict[tuple[str, ...], Fraction] = {}
     for sign, left, right in ((1, b, a), (1, c, mirrored), (-1, b, c)):
@@ -202,7 +203,7 @@ def _matrix(rows: Sequence[str]) -> list[str]:
 
 
 def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
-    """Return the ansatz of commutator-free methods: stages and update are products of exponentials.
+    """Return the ansatz of commutator-free methods, whose steps are products of exponentials.
 
     >>> from orderconds.families import get
     >>> commutator_free(get("cf"), Spec(stages=1, exponentials=1, inner=1), "full", "m").free
@@ -242,8 +243,8 @@ def commutator_free(family: Family, spec: Spec, structure: str, name: str) -> An
 def _abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums a_ij of each stage's exponents that give the required abscissae, and for
-    the last exponents of the stages."""
+    """Return formulas for the sums a_ij of the exponents of each stage, and for the last exponent of each
+    stage. The formulas give the stages the required abscissae."""
     every = range(1, len(stages) + 1)
     for name in (x for path in stages for line in path for x in line):
         if name in elimination.solved:
@@ -265,7 +266,7 @@ def _abscissae(
 
 
 def _gauss(s: int) -> dict[str, str]:
-    """Return the Gauss tableau as text: the sums of the exponents of each stage, and the weights."""
+    """Return A and b of the Gauss tableau as text. Row i of A is the sum of the exponents of stage i."""
     from orderconds.tableau.collocation import construct
 
     tableau = construct("gauss", s)
@@ -277,7 +278,7 @@ def _gauss(s: int) -> dict[str, str]:
 def _totals(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], totals: Mapping[str, str]
 ) -> list[Constraint]:
-    """Return the constraints that exponents sum to the Gauss tableau."""
+    """Return the constraints that the exponents add up to the rows of the Gauss tableau."""
     why, every = "Gauss's tableau", range(len(stages))
     constraints = [equal(why, (-1, f"w{j + 1}"), *((1, line[j]) for line in update)) for j in every]
     constraints += [
@@ -291,8 +292,8 @@ def _totals(
 def _symmetric_abscissae(
     stages: Sequence[Sequence[Sequence[str]]], update: Sequence[Sequence[str]], elimination: Elimination
 ) -> dict[str, str]:
-    """Return formulas for the sums x_ij of each stage's exponents that give the required abscissae, and for
-    the last exponents of the stages."""
+    """Return formulas for the sums x_ij of the exponents of each stage, and for the last exponent of each
+    stage. The formulas give the stages the required abscissae."""
     s, half = len(stages), len(stages) // 2
     if half == 0:
         raise InputError("one stage", where=WHERE, expected="at least two stages")
@@ -349,8 +350,7 @@ def composition(family: Family, spec: Spec, structure: str, name: str) -> Ansatz
     mirrored = [
         equal("a symmetric composition", (1, gamma[s - 1 - i]), (-1, gamma[i])) for i in range(s // 2)
     ]
-    # The middle step comes last in this order, so that the constraint on the sum of the steps determines the
-    # middle step.
+    # The middle step is the last name, so that the constraint on the sum of the steps determines it.
     order = sorted(gamma, key=lambda x: -abs(2 * int(x[1:]) - s - 1))
     elimination = Elimination(tuple(order))
     elimination.impose(mirrored)
@@ -408,7 +408,7 @@ def splitting(family: Family, spec: Spec, structure: str, name: str) -> Ansatz:
 
 
 def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures that a search for tableaux (A, b) tries, the most promising first.
+    """Return the structures that a search for tableaux (A, b) tries, in the order in which they are tried.
 
     >>> from orderconds.families import get
     >>> [tableau_structures(get(name), Spec(stages=3)) for name in ("vcg", "cg")]
@@ -418,7 +418,7 @@ def tableau_structures(family: Family, spec: Spec) -> tuple[str, ...]:
 
 
 def path_structures(family: Family, spec: Spec) -> tuple[str, ...]:
-    """Return the structures that a search for commutator-free methods tries, the most promising first.
+    """Return the structures that a search for commutator-free methods tries, in the order of the trials.
 
     >>> from orderconds.families import get
     >>> path_structures(get("vcf"), Spec(stages=3, symmetric=True))
@@ -458,7 +458,8 @@ LAYOUTS = {
     "composition": Layout(composition, one_structure),
     "splitting": Layout(splitting, one_structure),
 }
-"""The layout of each tableau format; :attr:`orderconds.families.Family.unknowns` is a key of this table."""
+"""The parametrisation of each tableau format. The keys are the values of
+:attr:`orderconds.families.Family.unknowns`."""
 
 
 def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found") -> Ansatz:
@@ -479,7 +480,7 @@ def ansatz(family: str, spec: Spec, structure: str = "full", name: str = "found"
 
 
 def structures(family: str, spec: Spec) -> tuple[str, ...]:
-    """Return the structures that a search in this family tries, the most promising first.
+    """Return the structures that a search in this family tries, in the order in which they are tried.
 
     >>> structures("vcg", Spec(stages=3)), structures("cg", Spec(stages=3))
     (('abscissae', 'full'), ('full',))

@@ -1,4 +1,5 @@
-"""The exponentials of commutator-free methods, with all coefficients free or with the symmetric form.
+"""The exponentials of commutator-free methods in a search. Either all coefficients are free, or the method
+has a symmetric form.
 
 Let a method have s stages and m exponentials in the update, and let bar exchange stages j and s + 1 - j. The
 method is symmetric under two conditions. First, reversing the order of the exponentials and applying bar does
@@ -26,7 +27,8 @@ Paths = tuple[list[Path], Path, list[str], list[Constraint]]
 
 
 def full_paths(spec: Spec) -> Paths:
-    """Return stages and update with every coefficient free; the first stage of an explicit method is y0.
+    """Return stages and an update in which every coefficient is free. The first stage of an explicit method
+    is y0.
 
     >>> stages, update, names, _ = full_paths(Spec(stages=2, explicit=True, exponentials=1, inner=1))
     >>> stages, update
@@ -73,7 +75,7 @@ def symmetric_paths(spec: Spec) -> Paths:
     ]
     stages: list[Path] = []
     for i in every:
-        # Stage i branches off the update after about i/s of its exponentials.
+        # Stage i contains about the first i/s of the exponentials of the update.
         middle = 2 * i == s + 1
         share = ceil((min(i, s + 1 - i) - Fraction(1, 2)) * m / s)
         whole = m // 2 if middle else share if 2 * i <= s else m - share
@@ -83,7 +85,7 @@ def symmetric_paths(spec: Spec) -> Paths:
             half = [named("a", i, whole + 1, j) for j in every]
             names += half
             constraints += [
-                equal("half of the middle exponential", (2, x), (-1, y))
+                equal("two equal halves of the middle exponential", (2, x), (-1, y))
                 for x, y in zip(half, update[whole], strict=True)
             ]
             path = [*path, half]

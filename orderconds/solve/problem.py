@@ -28,7 +28,7 @@ SMALLEST = 0.01
 
 @dataclass(frozen=True)
 class Problem:
-    """The equations of one search. Equal problems in one process share their compiled programs.
+    """The equations of one search. Equal problems in one process use the same compiled programs.
 
     >>> problem = find_problem("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> problem.ansatz.free, problem.tape.size
@@ -42,7 +42,7 @@ class Problem:
 
     @cached_property
     def ansatz(self) -> Ansatz:
-        """Return the coefficients as a file with unknowns."""
+        """Return the ansatz of the search: a tableau file with unknowns."""
         return ansatz(self.label, self.spec, self.structure)
 
     @cached_property
@@ -54,7 +54,8 @@ class Problem:
     def conditions(self) -> tuple[OrderCondition, ...]:
         """Return the conditions up to the order that are independent for the ansatz.
 
-        The order of a symmetric method is even (HLW II.3.2), so conditions of even order are left out.
+        Conditions of even order are omitted for a symmetric method, because the order of a symmetric method
+        is even (HLW II.3.2).
         """
         symmetric = self.structure.startswith("symmetric")
         highest = self.order - 1 if symmetric and self.order % 2 == 0 else self.order
@@ -66,7 +67,8 @@ class Problem:
         return Tape(self.trace(), len(self.ansatz.free))
 
     def trace(self) -> list[Trace]:
-        """Return the residuals as elements of a ring of traces."""
+        """Return the residuals as elements of a ring of traces, which record the operations that compute the
+        residuals."""
         ring = Traces(len(self.ansatz.free))
         return list(self.residuals(ring.inputs, ring, self.conditions))
 
@@ -79,7 +81,8 @@ class Problem:
 
     @cached_property
     def error(self) -> Tape:
-        """Return a program for the residuals of the next order; their 2-norm is the principal error."""
+        """Return a program for the residuals of the order after the order of the search. The 2-norm of these
+        residuals is the principal error."""
         ring = Traces(len(self.ansatz.free))
         method = self.ansatz.method(ring.inputs, ring)
         return Tape(self.family.principal_residuals(method, ring, self.order + 1), len(self.ansatz.free))
@@ -142,7 +145,7 @@ class Problem:
 
 @lru_cache(maxsize=8)
 def find_problem(label: str, order: int, spec: Spec, structure: str) -> Problem:
-    """Return the problem; equal arguments in one process return the same object.
+    """Return the problem. In one process, calls with equal arguments return the same object.
 
     >>> spec = Spec(stages=2)
     >>> find_problem("rk", 2, spec, "full") is find_problem("rk", 2, spec, "full")

@@ -34,8 +34,8 @@ from orderconds.tableau import Tableau
 
 @dataclass(frozen=True, repr=False)
 class SearchResult:
-    """The result of a search: ``tableau`` with its ``certificate``; or ``impossible``, a proof that there is
-    no such method; or neither.
+    """The result of a search. Either ``tableau`` is a method and ``certificate`` its certificate, or
+    ``impossible`` is a proof that there is no such method, or all three are empty.
 
     ``best_residual`` is the least norm of the residuals of all starts, ``tried`` has one line for each
     structure that was tried. The truth value of a result is True if a tableau was found.
@@ -105,7 +105,7 @@ def solve(
     """Find a method of ``family`` with this number of stages and order, and prove its order.
 
     The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
-    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` receives lines on the progress.
+    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` is called with lines of text.
 
     >>> heun = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
     >>> heun.tableau.b, heun.certificate
@@ -148,7 +148,7 @@ def _minimised(minimise: object) -> bool:
 
 
 def _size(size: object) -> Fraction | None:
-    """Return a bound on coefficients; None for None."""
+    """Return the upper bound for the coefficients as a fraction. For None, return None."""
     if size is None:
         return None
     try:

@@ -1,9 +1,10 @@
-"""Search from many random starts. The starts form batches, each with its own seed, which run in one process,
-in several processes, or on a cluster.
+"""Search from many random starting points. The starting points form batches. Each batch has its own seed; the
+batches run in one process, in several processes, or on a cluster.
 
 The result of a batch depends only on the problem, the seed and the number of the batch, and batches are
-evaluated in the order of their numbers. Therefore neither the number of processes nor an interruption changes
-the result. A worker process receives only strings and numbers, and compiles the programs itself.
+evaluated in the order of their numbers. Therefore the result does not depend on the number of processes, and
+an interruption does not change it. A worker process receives only strings and numbers, and compiles the
+programs itself.
 """
 
 from __future__ import annotations
@@ -34,18 +35,18 @@ POLISHED = 1e-11
 """A residual norm below which a point counts as a solution."""
 
 KEPT = 4
-"""The number of solutions of one batch that are kept, and the number of solutions of one batch whose
+"""Two numbers: how many solutions of one batch are kept, and for how many solutions of one batch the
 principal error is minimised.
 """
 
 
 CHEAP = 4
-"""Up to this order the principal error of every solution is computed."""
+"""The highest order for which the principal error of every solution is computed."""
 
 
 SINGULAR = 1e6
-"""A number that is added to the score of singular solutions, at which the gradients of the conditions are
-linearly dependent."""
+"""The amount by which the score of a singular solution is increased. At a singular solution the gradients of
+the conditions are linearly dependent."""
 
 
 @dataclass(frozen=True)
@@ -60,19 +61,21 @@ class Search:
     minimised: bool = False
 
     def described(self) -> dict[str, object]:
-        """Return the search as plain data for a checkpoint."""
+        """Return the search as data that a checkpoint file in JSON can store."""
         record = asdict(self)
         record["spec"] = {key: str(x) if key == "size" else x for key, x in record["spec"].items()}
         return dict(json.loads(json.dumps(record)))
 
 
 BatchRecord = tuple[int, str, list[tuple[str, list[str]]]]
-"""A batch as plain data: number, least norm, solutions. Floating-point numbers are hexadecimal text."""
+"""A batch as data that JSON can represent: its number, the least residual norm and the solutions.
+Floating-point numbers are hexadecimal texts."""
 
 
 @dataclass(frozen=True)
 class Batch:
-    """The result of a batch: ``solutions`` as (score, free coefficients), the best first.
+    """The result of a batch. ``solutions`` contains pairs (score, free coefficients), the best solution
+    first.
 
     The score is the principal error or, if the error costs too much to compute, the largest coefficient.
     ``best`` is the least residual norm of all starts.
@@ -83,7 +86,8 @@ class Batch:
     solutions: tuple[tuple[float, tuple[float, ...]], ...] = ()
 
     def as_json(self) -> BatchRecord:
-        """Return plain data that represent floating-point numbers exactly."""
+        """Return the batch as data that JSON can represent. Floating-point numbers are represented
+        exactly."""
         solutions = [(s.hex(), [x.hex() for x in p]) for s, p in self.solutions]
         return self.number, self.best.hex(), solutions
 
@@ -110,8 +114,8 @@ def run_batch(search: Search, number: int) -> Batch:
     regular = [
         i for i in solved if rank(problem.tape.jacobians(points[i : i + 1])[1][0]) == problem.tape.size
     ]
-    # If every solution is singular, singular solutions are kept, because a closed form may still give a
-    # proof.
+    # If all solutions are singular, they are kept, because a proof with exact coefficients may still be
+    # possible.
     late = 0.0 if regular else SINGULAR
     chosen = [(late + _score(problem, points[i]), points[i]) for i in regular or solved]
     if search.minimised:
@@ -131,15 +135,16 @@ def _score(problem: Problem, point: Floats) -> float:
 
 @dataclass
 class Checkpoint:
-    """Finished batches on disk, written atomically. If the path is None, nothing is written."""
+    """The checkpoint file, which contains the finished batches and is written atomically. If the path is
+    None, nothing is written."""
 
     path: Path | None
     search: Search
     batches: dict[int, Batch] = field(default_factory=dict)
 
     def load(self) -> None:
-        """Read the batches of an interrupted search; raises InputError if the file belongs to another
-        search."""
+        """Read the batches of an interrupted search. Raises InputError if the checkpoint file belongs to
+        another search."""
         if self.path is None or not self.path.exists():
             return
         try:
@@ -150,7 +155,7 @@ class Checkpoint:
             raise InputError(
                 f"a checkpoint that cannot be used: {reason(problem)}",
                 where=str(self.path),
-                expected="a checkpoint file that belongs to you",
+                expected="a checkpoint file that the user owns",
                 hint="delete this file, or name another file",
             ) from None
         except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
@@ -179,13 +184,14 @@ class Checkpoint:
             write_whole(self.path, json.dumps(record) + "\n")
 
     def remove(self) -> None:
-        """Delete the file of a search that is over."""
+        """Delete the checkpoint file after the search has ended."""
         if self.path is not None:
             self.path.unlink(missing_ok=True)
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a file under another name and rename it, so that no incomplete file is visible.
+    """Write a file under a temporary name and then rename it. Therefore no other program can read an
+    incomplete file.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -204,11 +210,12 @@ def write_whole(path: Path, text: str) -> None:
 def batches(
     search: Search, count: int, checkpoint: Checkpoint, processes: int = 1, cluster: str | None = None
 ) -> Iterator[Batch]:
-    """Yield ``count`` batches 0, 1, ... in order; batches in the checkpoint are not computed again.
+    """Yield the batches 0, 1, ..., ``count`` - 1 in this order. Batches in the checkpoint are not computed
+    again.
 
     With several processes, the first new batch runs in this process, and all other batches run in further
     processes. With ``cluster``, all new batches run on the dask cluster at this address. Raises
-    :class:`~orderconds.errors.InputError` for a cluster that does not answer.
+    :class:`~orderconds.errors.InputError` if there is no connection to the cluster.
 
     >>> search = Search("rk", 2, Spec(stages=2, explicit=True), "full")
     >>> [batch.number for batch in batches(search, 2, Checkpoint(None, search))]

@@ -1,4 +1,5 @@
-"""Prove that no method exists, or search for methods and return the best one with a proof."""
+"""The steps of ``orderconds solve``: try to prove that no method exists; otherwise search for methods, and
+return the best method with a proof of its order."""
 
 from __future__ import annotations
 
@@ -18,12 +19,13 @@ from orderconds.solve.search import BATCH, Batch, Checkpoint, Search, batches
 from orderconds.solve.spec import Spec
 
 PLAIN, MINIMISED = 4096, 1024
-"""The number of starts for each structure, without and with minimisation of the principal error."""
+"""The default number of random starts for each structure: first for a search without, then for a search with
+minimisation of the principal error."""
 
 
 @dataclass
 class Outcome:
-    """The outcome of a search: a method, a proof that there is none, or neither.
+    """The outcome of a search: a method, a proof that no method exists, or neither of these.
 
     ``best`` is the least residual norm of all starts. ``tried`` contains one line of text about each
     structure that was tried.
@@ -75,7 +77,8 @@ class Order:
 
 
 def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
-    """Return the outcome; ``report`` receives lines about the progress.
+    """Return the outcome of a search. The function ``report`` is called with lines of text about the
+    progress.
 
     Raises :class:`~orderconds.errors.InputError` for contradictory options.
 
@@ -98,7 +101,8 @@ def solve(order: Order, report: Callable[[str], object] = str) -> Outcome:
 
 
 def _applicable(order: Order) -> list[str]:
-    """Return the structures that the specification allows; raises InputError if it allows none."""
+    """Return the structures that satisfy the specification. Raises InputError if there is no such
+    structure."""
     applicable, refusal = [], None
     for structure in structures(order.family, order.spec):
         try:
@@ -149,7 +153,7 @@ def _search(order: Order, structure: str, outcome: Outcome, report: Callable[[st
         + (f"; solutions not proved: {refused}" if refused else "")
     )
     outcome.structure = structure
-    checkpoint.remove()  # the search has ended, with or without a solution, so its checkpoint is not needed
+    checkpoint.remove()  # the search has ended, with or without a solution
 
 
 def _finished(
@@ -161,7 +165,7 @@ def _finished(
     for _, point in solutions[:8]:
         try:
             return certify_solution(problem, point, order.name, source, minimised=order.minimised), refused
-        # a weight may be zero, and the formulas of some families divide by weights
+        # A weight may be zero, and the formulas of some families divide by weights.
         except (NotProved, ZeroWeight) as problem_met:
             refused = str(problem_met)
     return None, refused

@@ -1,4 +1,4 @@
-"""The specification of a method for the search."""
+"""The specification of the method that a search must find."""
 
 from __future__ import annotations
 
@@ -13,9 +13,10 @@ from orderconds.errors import InputError
 class Spec:
     """The specification of a method: the options of ``orderconds solve``.
 
-    ``exponentials`` is the number of exponentials in the update of a commutator-free method, ``inner`` the
-    number in each stage. ``positive`` are names of coefficients that must be positive; ``b`` means all
-    weights. ``size`` is a bound on the absolute values of all coefficients.
+    ``exponentials`` is the number of exponentials in the update of a commutator-free method, and ``inner`` is
+    the number of exponentials in each stage. ``positive`` contains the names of coefficients that must be
+    positive; the name ``b`` denotes all weights. ``size`` is a bound on the absolute values of all
+    coefficients.
     """
 
     stages: int

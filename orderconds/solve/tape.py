@@ -1,4 +1,5 @@
-"""A recorded program compiled for numpy: values and exact Jacobians at many points together.
+"""A recorded program that is compiled for numpy. It computes values and exact Jacobians at many points
+together.
 
 The operations that the outputs need are sorted into levels; the operations of a level depend on earlier
 levels only. A few calls of numpy evaluate all operations of a level. The Jacobian is computed by forward
@@ -16,7 +17,8 @@ from numpy.typing import NDArray
 from orderconds.ring.traces import ADD, CONSTANT, DIVIDE, INPUT, MULTIPLY, ROOT, Operation, Trace
 
 MOST_SLOPES = 1 << 24
-"""The largest number of derivatives stored at once (128 MiB); more points are evaluated in several parts."""
+"""The largest number of derivatives in memory at one time (128 MiB). If there are more points, they are
+evaluated in several parts."""
 
 Floats = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -24,7 +26,8 @@ Places = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class _Level:
-    """Operations of one kind on rows of earlier levels; their results are the rows ``start`` to ``stop``."""
+    """Operations of one kind whose arguments are rows of earlier levels. The results are the rows ``start``
+    to ``stop`` - 1."""
 
     kind: int
     start: int
@@ -53,7 +56,7 @@ class Tape:
     def __init__(self, outputs: Sequence[Trace], width: int) -> None:
         self.width, self.size = width, len(outputs)
         operations = outputs[0].ring.operations if outputs else []
-        # placed() appends the constants among the outputs to the recorded operations.
+        # The function placed() appends the constants among the outputs to the recorded operations.
         wanted = [x.placed() for x in outputs]
         rows = _order(operations, wanted, width) if outputs else []
         self._levels = _levels(operations, rows)
@@ -77,7 +80,7 @@ class Tape:
 
     def _forward(self, points: Floats) -> Floats:
         values = self._start(points)
-        with np.errstate(all="ignore"):  # a search may diverge; its residuals are then infinite
+        with np.errstate(all="ignore"):  # If a search diverges, its residuals are infinite.
             for level in self._levels:
                 out = values[level.start : level.stop]
                 if level.kind == ROOT:
@@ -88,11 +91,11 @@ class Tape:
         return values
 
     def values(self, points: Floats) -> Floats:
-        """Return the outputs, points x outputs, at ``points`` (points x inputs)."""
+        """Return the outputs at ``points`` (an array points x inputs) as an array points x outputs."""
         return np.ascontiguousarray(self._forward(points)[self._outputs].T)
 
     def jacobians(self, points: Floats) -> tuple[Floats, Floats]:
-        """Return the outputs and their Jacobians, points x outputs x inputs."""
+        """Return the outputs, and their Jacobians as an array points x outputs x inputs."""
         part = max(1, MOST_SLOPES // max(1, self.length * self.width))
         if len(points) <= part:
             return self._jacobians(points)
@@ -133,7 +136,8 @@ _UFUNC = {ADD: np.add, MULTIPLY: np.multiply, DIVIDE: np.divide}
 
 
 def _order(operations: Sequence[Operation], wanted: Sequence[int], width: int) -> list[int]:
-    """Return the operations that the outputs need, by level and kind; inputs and constants first."""
+    """Return the operations that the outputs need, sorted by level and kind. Inputs and constants come
+    first."""
     needed: set[int] = set(range(width))
     waiting = list(wanted)
     while waiting:

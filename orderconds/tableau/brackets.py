@@ -1,7 +1,8 @@
 """The text of Lie algebra elements over numbered nodes: ``"[2,1]"``, ``"[a, [1, b]]"``, ``"S*S*S"``.
 
-The number i denotes the field at node i, and a name denotes a Lie element defined earlier. The
-commutator is ``[x,y] = x y - y x``. Products are allowed only in methods for quadratic groups (Cayley).
+The number i denotes the vector field at node i. A name denotes a Lie element that the file defines before the
+text. The commutator is ``[x,y] = x y - y x``. Products are allowed only in methods for quadratic groups
+(Cayley).
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from orderconds.ring.protocol import Element, Ring
 
 Nodes = tuple[int, ...]
 NodeSeries = dict[Nodes, Element]
-"""Coefficients of words of nodes in the order of action: (i, j) is the product A_j A_i."""
+"""A map from words of nodes to coefficients. The nodes of a word are in the order of action: (i, j) denotes
+the product A_j A_i."""
 
 MAX_DEPTH = 12
 _TOKEN = re.compile(r"\s*(?:([0-9]{1,3})|([A-Za-z_]\w*)|([\[\],*]))", re.ASCII)
@@ -35,7 +37,7 @@ class Bracket(Struct, frozen=True):
 
 
 class Product(Struct, frozen=True):
-    """The product of two or more terms, in which the last term acts first.
+    """The product of two or more terms. The last term acts first.
 
     >>> spell(Product((0, "a", 0)))
     '1*a*1'
@@ -47,7 +49,7 @@ class Product(Struct, frozen=True):
 Term = int | str | Bracket | Product
 """A node (counted from 0), a named element, a bracket or a product."""
 Combination = tuple[tuple[Term, Element], ...]
-"""Terms, each with its coefficient."""
+"""A linear combination: pairs of a term and its coefficient."""
 
 
 def parse(text: str, where: str) -> Term:
@@ -64,7 +66,7 @@ def parse(text: str, where: str) -> Term:
 
 
 def spell(term: Term) -> str:
-    """Return the text of a term, as :func:`parse` reads it.
+    """Return the text of a term. The function :func:`parse` reads this text as the same term.
 
     >>> spell(parse("[ 2, [1,a] ]", ""))
     '[2,[1,a]]'
@@ -93,7 +95,7 @@ def leaves(term: Term) -> Iterator[int | str]:
 
 
 def has_product(term: Term) -> bool:
-    """Whether a term contains a product.
+    """Return True if a term of a linear combination contains a product.
 
     >>> has_product(parse("[1,2]", "")), has_product(parse("[1,2*3]", ""))
     (False, True)
@@ -124,18 +126,20 @@ def extents(elements: Mapping[str, Combination]) -> Callable[[Term], tuple[int, 
 
 
 def extent_of_sum(combination: Combination, extent: Callable[[Term], tuple[int, int]]) -> tuple[int, int]:
-    """Return the least and the greatest number of nodes in the products of a combination.
+    """Return the least and the greatest number of nodes in the products to which a linear combination
+    expands.
 
     >>> extent_of_sum(((0, 1), (Bracket(0, 1), 1)), extents({}))
     (1, 2)
     """
-    # The empty sum is zero, which counts as a product of any length.
+    # The empty sum is zero. Zero is a product of any length.
     extents = [extent(term) for term, _ in combination] or [(1, 1)]
     return min(least for least, _ in extents), max(most for _, most in extents)
 
 
 def expand(combination: Combination, named: Mapping[str, NodeSeries], ring: Ring) -> NodeSeries:
-    """Return a combination of terms as words of nodes in the order of action, without zero coefficients.
+    """Return the coefficients of a linear combination of terms, expanded in words of nodes in the order of
+    action. Words with coefficient zero are omitted.
 
     >>> from orderconds.ring import QQ
     >>> expand(((parse("[2,1]", ""), QQ.one),), {}, QQ)

@@ -1,4 +1,5 @@
-r"""A tableau as a paper prints it: a Butcher array in LaTeX and in HTML, other methods as named rows."""
+r"""Tableaux in the notation of publications. A Butcher tableau is written as an array in LaTeX or HTML; other
+methods are written as rows of coefficients with names."""
 
 from __future__ import annotations
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from orderconds.tableau.record import Tableau
 
 WIDEST = 12
-"""Tableaux with more stages than this are printed without their coefficients."""
+"""The largest number of stages for which the coefficients of a tableau are printed."""
 
 SHORT = 10
 """Rounded decimals are printed with this number of digits."""
@@ -28,7 +29,7 @@ CELL = "border:none;padding:2px 8px;text-align:center;background:none"
 
 
 def tableau_latex(tableau: Tableau) -> str:
-    r"""Return a displayed formula: a Butcher array, or the coefficients by name.
+    r"""Return a displayed LaTeX formula that contains the Butcher array, or each coefficient with its name.
 
     >>> from orderconds.tableau import Tableau
     >>> print(tableau_latex(Tableau.rk([[0, 0], [1, 0]], ["1/2", "1/2"])))
@@ -86,7 +87,8 @@ def _product(rows: Sequence[Row], tableau: Tableau) -> str:
 
 
 def _exponent(row: Row, tableau: Tableau) -> str:
-    """Return an exponent: h times a linear combination, without brackets if it has one term."""
+    """Return an exponent in LaTeX: h times a linear combination. A linear combination of one term is printed
+    without brackets."""
     text = _combination(row, tableau).replace(r"\frac", r"\tfrac")
     if text.count("k_") == 1:
         factor, _, index = text.rpartition("k_")
@@ -139,8 +141,8 @@ def _html(text: str) -> str:
 
 
 def _butcher(tableau: Tableau) -> tuple[list[list[str]], list[list[str]]] | None:
-    """Return the rows c, A and the rows of weights as texts, with blanks for the zeros above the last entry;
-    None for a method that is no Butcher array."""
+    """Return the texts of the rows of a Butcher array: c_i and a_ij for each stage, then the rows of weights.
+    Zeros at the end of a row of A are blank. Return None for a method without a Butcher array."""
     method = tableau.method
     if not isinstance(method, RungeKutta) or method.s > WIDEST:
         return None

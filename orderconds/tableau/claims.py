@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class OrderClaim:
-    """The claim that the method has exactly this order in ``family``; ``cutoff`` is None for a family without
-    a cut-off."""
+    """The claim that the method has exactly this order in ``family``. ``cutoff`` is None for a family without
+    the option ``cutoff``."""
 
     family: str
     cutoff: int | None

@@ -52,13 +52,13 @@ def _latex(x: Expression, tight: int) -> str:
 
 
 def _ends_in_a_factor(x: Expression) -> bool:
-    """Whether x is printed as a product and not as one fraction. The factors are not regrouped into one
-    fraction, because this would change the value if it is a ball."""
+    """Return True if x is printed as a product and not as one fraction. A product that contains a rounded
+    decimal is not rewritten as one fraction, because rewriting would change the ball that it denotes."""
     return isinstance(x, Chain) and x.operators[-1] == "*"
 
 
 def with_fractions(x: Expression) -> Expression:
-    """Join quotients of integers into one constant, so that they print as one number.
+    """Replace each quotient of integers by one constant, which is printed as one number.
 
     >>> with_fractions(parse("1/2"))
     Constant(value=Fraction(1, 2), unit=Fraction(0, 1))

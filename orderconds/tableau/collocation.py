@@ -11,11 +11,11 @@ first, last column  C(s - 1), with a_i1 = b_1 (IIIC) or a_is = 0 (IIIC*, Butcher
 mean                the mean of two such matrices (IIID: IIIC and IIIC*; IIIE: IIIA and IIIB)
 ==================  ======================================================================================
 
-Two kinds have an embedded row for step-size control. The row is the quadrature of order s - 1 on all nodes
-but one. The omitted node is the last node for Radau IIA, the (first) middle node for Lobatto IIIA. The update
-and the embedded update differ by a multiple of the divided difference of the stages. The stages of
-collocation methods stay accurate for stiff equations, and so does this error estimate. The stages of methods
-of low stage order lose accuracy.
+Two kinds, Radau IIA and Lobatto IIIA, have an embedded row for step-size control. The row is the quadrature
+of order s - 1 on all nodes except one. The omitted node is the last node for Radau IIA and the (first) middle
+node for Lobatto IIIA. The update and the embedded update differ by a multiple of the divided difference of
+the stages. Radau IIA and Lobatto IIIA are collocation methods. Their stages, and therefore this error
+estimate, stay accurate for stiff equations. The stages of methods of low stage order lose accuracy.
 
 All coefficients are computed: the nodes are algebraic numbers, and the other coefficients follow from them by
 rational arithmetic.
@@ -86,7 +86,8 @@ class Nodes:
         return result
 
     def without(self, left_out: int) -> list[Algebraic]:
-        """Return the weights of the quadrature on the other nodes, with zero for the node left out.
+        """Return the weights of the quadrature on all nodes except one. The weight of the omitted node is
+        zero.
 
         These weights differ from b by a multiple of the leading coefficients of l_1, ..., l_s.
 
@@ -136,7 +137,8 @@ def last(s: int) -> int:
 
 
 def middle(s: int) -> int:
-    """Return the index of the middle node, for even s the first of the two middle nodes.
+    """Return the index of the middle node. For even s there are two middle nodes, and the index of the first
+    is returned.
 
     >>> middle(3), middle(4)
     (1, 1)
@@ -162,7 +164,7 @@ def mean(one: Callable[[Nodes], Matrix], other: Callable[[Nodes], Matrix]) -> Ca
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of method: whether 0 and 1 are nodes, the rule for A, and the name.
+    """A kind of method. The data state if 0 and 1 are nodes, and contain the rule for A and the name.
 
     The order is 2s minus the number of ends that are nodes. ``left_out`` is a function that maps the number
     of stages to the node that the embedded row leaves out.
@@ -202,7 +204,8 @@ LEAST_WITH_ROW = 3
 
 
 def construct(kind: str, stages: int) -> Tableau:
-    """Return the method of this kind with this number of stages, its coefficients in the field of its nodes.
+    """Return the method of this kind with this number of stages. The coefficients are elements of the field
+    of the nodes.
 
     Raises :class:`UnknownName` for another kind and :class:`InputError` for too few stages, or for nodes
     whose field has a degree above :data:`orderconds.ring.tower.MAX_DEGREE`.
@@ -244,9 +247,10 @@ def nodal_polynomial(s: int, left: bool, right: bool) -> fmpq_poly:
 
 
 def roots(polynomial: fmpq_poly, tower: Tower) -> list[Algebraic]:
-    """Return the roots of a polynomial that has only real roots, by square roots where these suffice.
+    """Return the roots of a polynomial that has only real roots. The roots are expressed by square roots if
+    possible.
 
-    Roots that square roots do not express are named c1, c2, ... in ascending order.
+    Roots that cannot be expressed by square roots have the names c1, c2, ... in ascending order.
 
     >>> roots(fmpq_poly([0, -2, 0, 1]), Tower())
     [Algebraic(0), Algebraic(-sqrt(2)), Algebraic(sqrt(2))]

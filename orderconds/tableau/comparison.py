@@ -16,10 +16,11 @@ COMPARED = 160
 
 
 def equal_coefficients(one: Tableau, other: Tableau) -> bool:
-    """Whether the coefficients agree in number and value, embedded rows included.
+    """Return True if two tableaux have equally many coefficients with equal values, also in the embedded
+    rows.
 
-    Two balls agree if they intersect and neither is much wider than the other. They need not be equal,
-    because a ball may be rounded when it is written to a file.
+    Two balls agree if they intersect and neither is much wider than the other. Equal balls are not required,
+    because the centre and the radius of a ball may be rounded when the ball is written to a file.
 
     >>> from orderconds.tableau import find
     >>> rk4, heun = (Tableau.load(find(name)) for name in ("rk4", "heun"))
@@ -31,7 +32,7 @@ def equal_coefficients(one: Tableau, other: Tableau) -> bool:
 
 
 def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
-    """Return enclosures of all coefficients; the embedded row comes last."""
+    """Return enclosures of all coefficients. The coefficients of the embedded row come last."""
     enclosures: list[tuple[fmpq, fmpq]] = []
     ring = cast("Rationals | NumberField | Balls", tableau.ring)
 
@@ -46,7 +47,7 @@ def _coefficients(tableau: Tableau) -> list[tuple[fmpq, fmpq]]:
 
 
 def _agree(one: tuple[fmpq, fmpq], other: tuple[fmpq, fmpq]) -> bool:
-    """Whether two enclosures intersect, and neither is much wider than the other."""
+    """Return True if two enclosures intersect, and neither is much wider than the other."""
     widths = sorted(high - low for low, high in (one, other))
     meet = one[0] <= other[1] and other[0] <= one[1]
     return bool(meet and widths[1] <= 4 * widths[0] + fmpq(1, 2**100))

@@ -1,4 +1,5 @@
-"""The keys of a tableau file from arrays of numbers: the constructors of :class:`Tableau` in Python."""
+"""The constructors of :class:`Tableau` in Python. They convert arrays of numbers to the keys of a tableau
+file."""
 
 from __future__ import annotations
 
@@ -12,15 +13,16 @@ from orderconds.tableau.file_format import Coefficient, Data
 from orderconds.tableau.python_numbers import matrix, row
 
 Claimed = Mapping[str, int | bool] | int | None
-"""Claims in Python: orders by family (``{"rk": 4, "rkmk(1)": 3}``) and properties (``{"explicit": True}``);
-one integer is the order in the family of the format."""
+"""Claims in Python: orders by family (``{"rk": 4, "rkmk(1)": 3}``) and properties (``{"explicit": True}``); a
+single integer is the order in the family that has the name of the format."""
 
 
 def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> Data:
-    """Return the keys of a Butcher tableau: rows of A, weights, and perhaps abscissae and embedded weights.
+    """Return the keys of a Butcher tableau: the rows of A and the weights, with abscissae and embedded
+    weights if they are given.
 
-    Rows have one entry for each stage. In a triangular array, the zeros at the end of all rows may be left
-    out. :class:`~orderconds.errors.TableauError` names the wrong entry.
+    Each row has one entry for each stage. In a triangular array, the zeros at the end of all rows may be left
+    out. Raises :class:`~orderconds.errors.TableauError`, whose message names the wrong entry.
 
     >>> runge_kutta([[], [0.5]], [0, 1])
     {'family': 'rk', 'A': [[], ['0.5']], 'b': [0, 1]}
@@ -42,7 +44,7 @@ def runge_kutta(A: object, b: object, c: object = None, bhat: object = None) -> 
 
 
 def _require_triangular_or_full(rows: list[list[Coefficient]], stages: int) -> None:
-    """Raise an error unless all rows have the same full length, or the lengths of the rows of a triangular
+    """Raise an error unless all rows have the full length, or all rows have the lengths of a triangular
     array.
     """
     lengths = [len(x) for x in rows]
@@ -70,10 +72,10 @@ def commutator_free(
 ) -> Data:
     """Return the keys of a commutator-free method.
 
-    ``stages`` has one list of exponentials for each stage, and ``update`` is such a list; the first
-    exponential of a list acts first. An exponential is a row of coefficients, one for each stage; zeros at
-    its end may be left out. ``starts`` maps a stage to the earlier stage from which its product starts; both
-    are counted from 1. ``embedded`` is a second update.
+    ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials; the
+    first exponential of a list acts first. An exponential is a row of coefficients, one for each stage; zeros
+    at the end of a row may be left out. ``starts`` maps a stage to the earlier stage from which its product
+    starts; both are counted from 1. ``embedded`` is a second update.
 
     >>> commutator_free([[], [[0.5]]], [[[0, 1]]])
     Traceback (most recent call last):
@@ -130,7 +132,7 @@ def _product(rows: object, where: str) -> Data:
 
 
 def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
-    """Return the keys with name, source and claims.
+    """Return the given keys, together with the keys for the name, the source and the claims.
 
     >>> named({"family": "rk"}, "m", "", {"rkmk(1)": 3, "explicit": True})["claims"]
     {'rkmk': [{'cutoff': 1, 'order': 3}], 'explicit': True}
@@ -154,7 +156,8 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
 
 
 def _claimed(claims: object, family: str) -> dict[str, int | bool]:
-    """Return claims by label, each with its order, or whether the method has a property."""
+    """Return the claims by label. The value of a label is the claimed order in a family, or the truth value
+    of a property."""
     if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
         claims = {family: claims}
     if not isinstance(claims, Mapping):

@@ -1,10 +1,11 @@
 """Coefficients that are given as binary floating-point numbers (doubles).
 
-A double is rarely the coefficient that its author means: 0.3333333333333333 is close to 1/3 and not equal to
-it. The text of such a coefficient ends with ``d``, as in ``0.3333333333333333d``. It denotes a ball: its
-centre is exactly the double x, its radius is ``UNITS * 2^-53 * max(1, |x|)``. Rounding a number once changes
-it by at most ``2^-53 |x|``. The factor ``UNITS`` and the bound 1 leave room for a coefficient that was
-computed with a few roundings, such as ``1/2 - sqrt(3)/6``, in which the terms are larger than the result.
+A double is usually a rounded coefficient: 0.3333333333333333 is close to the intended coefficient 1/3, but
+not equal to it. The text of such a coefficient ends with ``d``, as in ``0.3333333333333333d``. It denotes a
+ball: its centre is exactly the double x, its radius is ``UNITS * 2^-53 * max(1, |x|)``. Rounding a number
+once changes it by at most ``2^-53 |x|``. The factor ``UNITS`` and the bound 1 make the radius large enough
+for a coefficient that was computed with a few roundings. In such a computation, for example of ``1/2 -
+sqrt(3)/6``, the terms may be larger than the result.
 
 A double that needs at most :data:`SHORT` bits, such as 0.5, 3.0 or -0.375, is an exact number: a rounded
 number has so few bits only with probability 2^-27.
@@ -29,11 +30,12 @@ SHORT = 26
 """A double with at most this number of significant bits is exact."""
 
 PRINTED = 16
-"""If a decimal in a file of another program has at least this number of digits, it is a printed double."""
+"""A decimal in a file of another program is assumed to be a printed double if it has at least this number of
+digits."""
 
 LARGE = 64
-"""Short doubles with a larger binary exponent are not written as exact decimals, because their texts would be
-too long."""
+"""The largest binary exponent of doubles that are written as exact decimals. The decimals of larger numbers
+would be too long."""
 
 LONGEST = 1200
 """An upper bound of the number of significant decimal digits of a double."""
@@ -51,7 +53,8 @@ def radius(value: Fraction, units: Fraction | int = UNITS) -> Fraction:
 
 
 def double_text(x: float, where: str = "") -> str:
-    """Return a double as the text of a coefficient: exact if it has few bits, else with the suffix ``d``.
+    """Return a double as the text of a coefficient. The text is an exact number if the double has few bits,
+    otherwise it has the suffix ``d``.
 
     Raises :class:`~orderconds.errors.TableauError`, whose message contains ``where``, for a number that is
     not finite.
@@ -67,7 +70,7 @@ def double_text(x: float, where: str = "") -> str:
 
 
 def is_double(text: str | int) -> bool:
-    """Whether a coefficient is the text of a double.
+    """Return True if a coefficient is the text of a double.
 
     >>> is_double("-0.1d"), is_double("1/3"), is_double(1)
     (True, False, False)
@@ -76,8 +79,8 @@ def is_double(text: str | int) -> bool:
 
 
 def decimal_text(text: str) -> str:
-    """Return the decimal of a double with at least :data:`PRINTED` digits, without exponent; other programs
-    read it as the same double.
+    """Return the decimal of a double, without exponent and with at least :data:`PRINTED` digits. Other
+    programs convert this decimal to the same double.
 
     >>> decimal_text("-0.3333333333333333d"), decimal_text("0.1d")
     ('-0.3333333333333333', '0.10000000000000001')
@@ -87,7 +90,7 @@ def decimal_text(text: str) -> str:
 
 
 def is_short(x: float) -> bool:
-    """Whether a double needs so few bits that it counts as an exact number.
+    """Return True if a double needs so few bits that it counts as an exact number.
 
     >>> is_short(0.375), is_short(0.1)
     (True, False)
@@ -115,8 +118,9 @@ def printed(value: Fraction) -> str:
 
 
 def is_printed(decimal: str) -> bool:
-    """Whether a decimal without exponent is the text of a double. A decimal of 16 or 17 digits is. A decimal
-    of more digits is, if the nearest double, rounded to the same number of digits, gives the same decimal.
+    """Return True if a decimal without exponent is the text of a double. This is assumed of every decimal of
+    16 or 17 digits. A decimal with more digits is the text of a double if the nearest double, rounded to the
+    same number of digits, equals the decimal.
 
     >>> is_printed("0.3333333333333333"), is_printed("0.3333333333"), is_printed("0.333333333333333333333")
     (True, False, False)

@@ -2,8 +2,8 @@
 
 The coefficients determine the ring: rationals stay rational; radicals and named roots build a number field,
 of degree at most :data:`orderconds.ring.tower.MAX_DEGREE`. If a coefficient contains ``~``, or if the degree
-would be larger, all coefficients become balls. Equal expressions in one file denote one number and share one
-element.
+would be larger, all coefficients become balls. Equal expressions in one file denote the same number, and the
+program represents them by the same object.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ MAX_SIZE = 40_000
 
 
 class NamedRoot(Struct, frozen=True):
-    """A real root of a polynomial over Q (ascending coefficients). The root is identified by a decimal: it is
-    the only root near the decimal."""
+    """A real root of a polynomial over Q, which is given by ascending coefficients. A decimal identifies the
+    root: no other root is near the decimal."""
 
     minpoly: tuple[Fraction, ...]
     near: Constant
@@ -41,10 +41,11 @@ class Scalars(Protocol):
         """Return a rational number or, if the unit is positive, a ball around this number."""
 
     def root(self, x: Element, index: int) -> Element:
-        """Return the real root; ValueError for an even root of a negative number."""
+        """Return the real root. Raises ValueError for an even root of a negative number."""
 
     def named_root(self, minpoly: Sequence[Fraction], near: Fraction, unit: Fraction, name: str) -> Element:
-        """Return the real root within ``unit`` of ``near``; ValueError unless there is exactly one."""
+        """Return the real root whose distance from ``near`` is at most ``unit``. Raises ValueError unless
+        there is exactly one such root."""
 
     def size(self, x: Element) -> int:
         """Return the number of bits of the largest integer in the representation of x."""
@@ -72,7 +73,8 @@ def evaluate(
             evaluation = _Evaluation(tower, numbers, where)
             values = evaluation.all(expressions)
             ring, lift = tower.ring()
-            # The unused numbers are evaluated last, because they must not enlarge the ring.
+            # Numbers to which no coefficient refers are evaluated last, because they must not enlarge the
+            # ring.
             evaluation.check_unused()
             return ring, _shared(values, lift)
         except DegreeError:
@@ -89,7 +91,8 @@ def evaluate(
 def evaluate_in(
     scalars: Scalars, expressions: Mapping[str, Expression], numbers: Mapping[str, Definition], where: str
 ) -> dict[str, Element]:
-    """Evaluate expressions in the ring ``scalars``; raises :class:`TableauError`.
+    """Return the values of expressions in the ring ``scalars``. Raises :class:`TableauError` if an expression
+    has no value.
 
     >>> from orderconds.ring.balls import Balls
     >>> from orderconds.tableau.grammar import parse
@@ -101,8 +104,8 @@ def evaluate_in(
 
 
 def _shared(values: Mapping[str, Element], lift: Callable[[Element], Element]) -> dict[str, Element]:
-    """Return the lifted values. Each element is lifted once, so that equal expressions still share one
-    element."""
+    """Return the values as elements of the larger field. Each element is converted once, so that equal
+    expressions are still represented by the same object."""
     lifted = {id(x): lift(x) for x in values.values()}
     return {key: lifted[id(x)] for key, x in values.items()}
 
@@ -124,7 +127,8 @@ def rounded_and_exact(x: Definition) -> Iterator[Constant]:
 
 
 def _bits(constants: Sequence[Constant]) -> int:
-    """Return a working precision in bits that is well beyond the digits in the file."""
+    """Return a working precision in bits that is much higher than the precision of the decimals in the
+    file."""
     return max([256, *(64 + 4 * len(str(c.unit.denominator)) for c in constants)])
 
 
@@ -147,8 +151,8 @@ class _Evaluation:
         return result
 
     def check_unused(self) -> None:
-        """Evaluate the numbers to which no coefficient refers, so that errors in these numbers are
-        reported."""
+        """Evaluate the numbers to which no coefficient refers. This evaluation reports errors in these
+        numbers."""
         for name in self.numbers:
             self.place = f"numbers.{name}"
             self.value(Name(name))

@@ -1,4 +1,5 @@
-"""Reading tableau files: strict TOML. An unknown key is an error, and the message lists the known keys."""
+"""Reading of tableau files, which are TOML files with fixed keys. An unknown key is an error, and the message
+lists the known keys."""
 
 from __future__ import annotations
 
@@ -36,10 +37,11 @@ from orderconds.tableau.unknowns import Proof, SymbolicCoefficients
 
 MAX_NAME = 64
 KEYS = frozenset(("family", "A", "b", "stage", "update", "low_storage", "gamma", "alpha", "exponents"))
-"""Keys that identify a tableau: a TOML file with one of them is read as a tableau file."""
+"""Keys that identify a tableau file: a TOML file that contains one of these keys is read as a tableau
+file."""
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]")
-"""Control characters, invisible line ends and changes of the direction of writing; tab and newline are
-allowed."""
+"""The characters that a tableau file must not contain: control characters except tab and newline, invisible
+line ends, and changes of the direction of writing."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 _NUMBER = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
@@ -53,8 +55,8 @@ _NESTED: dict[str | tuple[type[Struct], str], type[Struct]] = {
 
 
 class File(Struct, frozen=True):
-    """A tableau file: its keys and values, untyped (``data``) and typed (``entry``), and the method that the
-    values define."""
+    """The content of a tableau file: its keys and values, untyped (``data``) and typed (``entry``), and the
+    method that the values define."""
 
     data: Mapping[str, object]
     entry: Format
@@ -65,11 +67,12 @@ class File(Struct, frozen=True):
     symbolic: SymbolicCoefficients
     proof: Proof | None
     doubles: bool = False
-    """Whether a coefficient was given as a binary floating-point number."""
+    """True if a coefficient was given as a binary floating-point number."""
 
 
 def text_of(path: str | Path) -> str:
-    """Return the text of a tableau file; TableauError if it is too large or not UTF-8.
+    """Return the text of a tableau file. Raises TableauError if the file is too large or not encoded in
+    UTF-8.
 
     >>> from orderconds.tableau import find
     >>> text_of(find("kutta3")).splitlines()[0]
@@ -84,7 +87,7 @@ def text_of(path: str | Path) -> str:
 
 
 def bytes_of(path: str | Path) -> bytes:
-    """Return the content of a regular file; TableauError if it is too large for a tableau.
+    """Return the content of a regular file. Raises TableauError if the file is too large for a tableau.
 
     >>> from orderconds.tableau import find
     >>> bytes_of(find("kutta3"))[:4]
@@ -96,8 +99,8 @@ def bytes_of(path: str | Path) -> bytes:
 
 
 def meant_as_tableau(path: str | Path) -> bool:
-    """Whether a TOML file is to be treated as a tableau file: it has a key of a tableau, or it cannot be
-    read.
+    """Return True if a TOML file is to be treated as a tableau file, because it has a key of a tableau file
+    or cannot be read.
 
     >>> from orderconds.tableau.library import root
     >>> meant_as_tableau(root().parent / "pyproject.toml"), meant_as_tableau(root() / "rk" / "rk4.toml")
@@ -148,7 +151,7 @@ def read(data: Mapping[str, object], where: str) -> File:
     ring, values = evaluate(expressions, numbers, where)
     try:
         method, embedded = entry.build(values, ring)
-    # The message names the tableau and the key; here the name of the file is added.
+    # The message already names the tableau and the key. This line adds the name of the file.
     except TableauError as problem:
         problem.where = problem.where.replace(entry.name, where, 1)
         raise
@@ -186,7 +189,8 @@ def _each(
 
 
 def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> TableauError:
-    """Turn an error message of msgspec into a message with the place, the value and the expectation."""
+    """Convert an error message of msgspec into a message with the position in the file, the wrong value and
+    the expected value."""
     summary, _, path = message.partition(" - at `$")
     key = re.sub(r"\[(\d+)\]", lambda m: f"[{int(m[1]) + 1}]", path.rstrip("`"))
     key = (prefix + key).removeprefix(".")
@@ -201,7 +205,7 @@ def _explained(message: str, kind: type[Struct], prefix: str, where: str) -> Tab
     if wrong := re.fullmatch(r"Expected `(.*)`, got `(.*)`", summary, re.DOTALL):
         hint = ""
         if wrong[2] == "float" and "str" in wrong[1]:
-            hint = 'quote it: "0.5" is exactly 1/2, "0.81772~" a rounded decimal'
+            hint = 'write it in quotation marks: "0.5" is exactly 1/2, "0.81772~" is a rounded decimal'
         problem = f"a value of type {wrong[2]}"
         if wrong[2] == "numpy.ndarray":
             problem = "NumPy arrays are not accepted here"
@@ -269,7 +273,7 @@ def _numbers(entry: Format, where: str) -> dict[str, Definition]:
 
 
 def _rational(x: str | int, where: str) -> Fraction:
-    """Read a rational number: a coefficient of a minimal polynomial, or a printed decimal."""
+    """Parse a rational number, which is a coefficient of a minimal polynomial or a printed decimal."""
     try:
         return _fraction(_parsed(x, where))
     except (TypeError, ZeroDivisionError):
@@ -286,7 +290,7 @@ def _fraction(x: Expression) -> Fraction:
 
 
 def _decimal(text: str, where: str) -> Constant:
-    """Read a decimal that identifies a root: the root differs from the decimal by at most one unit of the
+    """Parse a decimal that identifies a root. The root differs from the decimal by at most one unit of the
     last digit."""
     match = re.fullmatch(r"([+-]?\d{1,200})(?:\.(\d{0,200}))?~?", text, re.ASCII)
     if match is None:

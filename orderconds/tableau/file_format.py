@@ -1,9 +1,9 @@
-"""The common part of all tableau formats: keys, claims, proofs, and rows of coefficients.
+"""The keys that all tableau formats share, the types of claims and proofs, and the reading of rows of
+coefficients.
 
-A format is read in two steps, because the ring of a tableau depends on all its coefficients:
-``coefficients`` yields the text of every coefficient with its position in the file, and ``build`` receives
-the value at each position. Positions are named by key and index, such as ``A[2][1]``, with indices counted
-from 1.
+A format is read in two steps, because the ring of a tableau depends on all its coefficients: ``coefficients``
+yields the text of every coefficient with its position in the file, and ``build`` receives the value at each
+position. A position consists of a key and indices, such as ``A[2][1]``. The indices count from 1.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ MAX_PARTS = 6
 
 
 class RootEntry(Struct, forbid_unknown_fields=True):
-    """A real root: ``minpoly`` with ascending coefficients, ``near`` a decimal that isolates it."""
+    """A real root of a polynomial. ``minpoly`` contains the ascending coefficients of the polynomial, and
+    ``near`` is a decimal that no other root is near to."""
 
     minpoly: list[Coefficient]
     near: str
@@ -53,13 +54,15 @@ class ProofEntry(Struct, forbid_unknown_fields=True):
 Number = Coefficient | RootEntry
 """A value in the table ``numbers``."""
 Claim = bool | Annotated[int, Meta(ge=1)] | list[CutoffClaim]
-"""A value in the table ``claims``: a property, the order in a family, or orders by cutoff."""
+"""A value in the table ``claims``: the value of a property, the order in a family, or one order for each
+value of ``cutoff``."""
 
 
 class Format(Struct, forbid_unknown_fields=True, kw_only=True):
-    """The keys that every format has; ``numbers`` maps to :data:`Number`, ``claims`` to :data:`Claim`.
+    """The keys of every format. The values in the table ``numbers`` have the type :data:`Number`, the values
+    in the table ``claims`` the type :data:`Claim`.
 
-    ``order`` is a claim as well: the order in the family that has the name of the format.
+    The key ``order`` is also a claim. It claims the order in the family that has the name of the format.
     """
 
     name: str
@@ -72,16 +75,16 @@ class Format(Struct, forbid_unknown_fields=True, kw_only=True):
     proof: ProofEntry | None = None
 
     in_arrays: ClassVar[bool] = False
-    """Whether named arrays can hold a tableau of this format (:mod:`orderconds.exchange.arrays`)."""
+    """True if a tableau of this format can be stored in named arrays (:mod:`orderconds.exchange.arrays`)."""
     distinctive_key: ClassVar[str] = ""
-    """The name of the array that identifies this format. The empty name belongs to the format that is assumed
-    if no identifying array is present."""
+    """The name of the array that identifies this format. It is empty for the format that is assumed if there
+    is no identifying array."""
     as_products: ClassVar[bool] = False
-    """Whether arrays hold the format as a list of exponentials."""
+    """True if a file of arrays stores a tableau of this format as a list of exponentials."""
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return values for those keys of the file that follow from the names of the given arrays."""
+        """Return those keys of the file whose values follow from the names of the given arrays."""
         return {}
 
     def coefficients(self) -> Places:
@@ -129,7 +132,7 @@ def counted(s: int, where: str, noun: str = "stages") -> int:
 
 
 def verify_length(row: list[Coefficient], s: int, where: str) -> None:
-    """Raise :class:`TableauError` for a row longer than the number of stages.
+    """Raise :class:`TableauError` if a row is longer than the number of stages.
 
     >>> verify_length(["1/2"], 2, "A[2]")
     """

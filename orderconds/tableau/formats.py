@@ -33,7 +33,7 @@ from orderconds.tableau.products import Method
 
 
 class EmbeddedEntry(Struct, forbid_unknown_fields=True):
-    """Weights of lower order for an error estimate."""
+    """A second row of weights, of lower order, for an error estimate."""
 
     b: list[Coefficient]
     order: Annotated[int, Meta(ge=1)]
@@ -106,7 +106,8 @@ class RungeKuttaFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "prk"``: A, b for the first part of a system and A_hat, b_hat for the second."""
+    """``family = "prk"``: A and b are the tableau for the first part of a system, A_hat and b_hat for the
+    second part."""
 
     A: list[list[Coefficient]]
     b: list[Coefficient]
@@ -158,15 +159,15 @@ class PartitionedFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 class StageEntry(Struct, forbid_unknown_fields=True):
-    """A product of exponentials applied to stage ``from`` (counted from 1; default y0); the first exponential
-    acts first."""
+    """A product of exponentials that is applied to stage ``from`` (counted from 1), or to y0 if the key
+    ``from`` is missing. The first exponential acts first."""
 
     exp: list[list[Coefficient]] = []
     start: int | None = field(default=None, name="from")
 
 
 class EmbeddedProduct(StageEntry, forbid_unknown_fields=True, kw_only=True):
-    """A second update of lower order, from the same stages."""
+    """A second update of lower order that uses the same stages."""
 
     order: Annotated[int, Meta(ge=1)]
 
@@ -179,9 +180,10 @@ class LowStorage(Struct, forbid_unknown_fields=True):
 
 
 class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "cf"``: either stages and an update, or a low-storage scheme, expanded on load.
+    """``family = "cf"``: the file contains either stages and an update, or a low-storage scheme, which is
+    converted to stages and an update when the file is read.
 
-    ``embedded`` is a second update from the same stages.
+    ``embedded`` is a second update that uses the same stages.
     """
 
     stage: list[StageEntry] = field(default_factory=list)
@@ -258,7 +260,7 @@ class CommutatorFreeFile(Format, forbid_unknown_fields=True, kw_only=True):
 
 
 def _verify_product(entry: StageEntry, before: int, s: int, where: str) -> None:
-    """Check that rows are no longer than s and that the product starts from y0 or from an earlier stage."""
+    """Check that no row is longer than s, and that the product starts from y0 or from an earlier stage."""
     for r, row in enumerate(entry.exp):
         verify_length(row, s, f"{where}.exp[{r + 1}]")
     if entry.start is not None and not 1 <= entry.start <= before:
@@ -285,11 +287,11 @@ def _identically_zero(where: str, expected: str) -> TableauError:
 
 
 def _low_storage(A: Row, B: Row, ring: Ring) -> CommutatorFree:
-    """Write a 2N scheme as a commutator-free method: stage i + 1 is the exponential of B_i K_i applied to
-    stage i.
+    """Convert a 2N (low-storage) scheme to a commutator-free method: stage i + 1 is the exponential of B_i
+    K_i applied to stage i.
 
-    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. ``register`` contains the coefficients of the sum over j < i.
-    The coefficient 1 of F_i is not stored.
+    K_i = F_i + sum_{j < i} A_{j+1} ... A_i F_j. The variable ``register`` contains the coefficients of the
+    sum over j < i. The coefficient 1 of F_i is not stored.
     """
     s = len(B)
     register: list[Element] = []

@@ -1,4 +1,5 @@
-"""The grammar of a coefficient: arithmetic of bounded size, parsed by recursive descent, never executed.
+"""The grammar of a coefficient. Coefficients are arithmetic expressions of bounded size. A recursive-descent
+parser reads them, and no text is executed as code.
 
 ::
 
@@ -10,9 +11,9 @@
 
 ``0.5`` is exactly 1/2; ``0.81772~`` is a ball of one unit in its last digit; ``0.3333333333333333d`` is a
 double, a ball of a few units of rounding (:mod:`orderconds.tableau.doubles`). An exponent is a fraction of
-integers; ``a^b^c`` is refused, because programs disagree about its meaning. This module bounds the length of
-the text, the nesting and the exponents. The module :mod:`orderconds.tableau.evaluate` bounds the size of
-intermediate values.
+integers; ``a^b^c`` is an error, because programs disagree on the meaning (a^b)^c or a^(b^c). This module
+bounds the length of the text, the nesting and the exponents. The module :mod:`orderconds.tableau.evaluate`
+bounds the size of intermediate values.
 """
 
 from __future__ import annotations
@@ -48,8 +49,8 @@ class Constant(Struct, frozen=True, cache_hash=True):
 
     @property
     def is_double(self) -> bool:
-        """Whether the number was given as a double. The unit of a rounded decimal is a power of ten; the unit
-        of a double is not."""
+        """True if the number was given as a double. The radius ``unit`` of a rounded decimal is a power of
+        ten, but the radius of a double is not."""
         p, q = self.unit.as_integer_ratio()
         return p > 1 or (p == 1 and q != 10 ** (len(str(q)) - 1))
 
@@ -61,8 +62,8 @@ class Name(Struct, frozen=True, cache_hash=True):
 
 
 class Chain(Struct, frozen=True, cache_hash=True):
-    """Operands that are combined from left to right by ``operators``. The operators are either + and - only,
-    or * and / only.
+    """Operands that are combined from left to right by ``operators``. The operators are either all + or -, or
+    all * or /.
 
     All operands are stored in one list. The nesting depth of an expression is therefore the nesting depth of
     its parentheses.
@@ -97,7 +98,7 @@ def parse(text: str, where: str = "") -> Expression:
 
 
 def spell(x: Expression, limit: int | None = None) -> str:
-    """Return the text of an expression; a text longer than ``limit`` is cut.
+    """Return the text of an expression. If the text is longer than ``limit``, it is shortened.
 
     >>> [spell(parse(text)) for text in ("-(1 - sqrt(2))*3/4", "2^(-1/3)", "0.50~", "1 - (2 - 3)")]
     ['(-(1 - sqrt(2)))*3/4', '2^(-1/3)', '0.50~', '1 - (2 - 3)']
@@ -303,7 +304,8 @@ class _Parser:
         raise self.unexpected()
 
     def followed_by_d(self) -> bool:
-        """Skip the suffix ``d`` directly after the last token, and return whether there is one."""
+        """Skip the suffix ``d`` if it directly follows the last token. Return True if the suffix was
+        present."""
         (_, content, at), (kind, suffix, after) = self.tokens[self.position - 1 : self.position + 1]
         follows = kind == "name" and suffix == "d" and after == at + len(content)
         self.position += follows

@@ -1,4 +1,5 @@
-"""The library of tableaux: in the source tree if there is one, else in the installed package."""
+"""The location of the library of tableaux. The library is in the source tree of the project, or else in the
+installed package."""
 
 from __future__ import annotations
 
@@ -32,7 +33,7 @@ def _files() -> dict[str, Path]:
 
 
 def available() -> tuple[str, ...]:
-    """Return the names of all tableaux, sorted; a file is named after its tableau.
+    """Return the sorted names of all tableaux. Each file has the name of its tableau.
 
     >>> "gauss2" in available()
     True

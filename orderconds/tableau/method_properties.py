@@ -16,7 +16,8 @@ Verdict = bool | None
 
 
 def _all(verdicts: Iterable[Verdict]) -> Verdict:
-    """Return the conjunction: False if any verdict is False, else None if any is None, else True."""
+    """Return the conjunction of verdicts: False if a verdict is False; otherwise None if a verdict is None;
+    otherwise True."""
     unknown = False
     for verdict in verdicts:
         if verdict is False:
@@ -31,7 +32,7 @@ def _equal(x: Element, y: Element, ring: Ring) -> Verdict:
 
 
 def explicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """Whether the method is explicit: a_ij = 0 for j >= i.
+    """Return True if the method is explicit: a_ij = 0 for j >= i.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -42,7 +43,7 @@ def explicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
-    """Whether the method is diagonally implicit: a_ij = 0 for j > i, and not all a_ii = 0.
+    """Return True if the method is diagonally implicit: a_ij = 0 for j > i, and not all a_ii = 0.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))
@@ -55,7 +56,7 @@ def diagonally_implicit(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
-    """Whether the method is symplectic: b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3).
+    """Return True if the method is symplectic: b_i a_ij + b_j a_ji = b_i b_j (HLW Theorem VI.4.3).
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss2 = Tableau.load(find("gauss2"))
@@ -69,7 +70,7 @@ def symplectic(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
-    """Whether the pair is symplectic for H = T(p) + V(q): b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
+    """Return True if the pair is symplectic for H = T(p) + V(q): b_i ahat_ij + bhat_j a_ji = b_i bhat_j.
 
     The source is HLW Theorem VI.4.6.
 
@@ -87,9 +88,9 @@ def symplectic_pair(method: PartitionedRungeKutta, ring: Ring) -> Verdict:
 
 
 def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
-    """Whether the method is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
+    """Return True if the method is symmetric: a_{s+1-i,s+1-j} + a_ij = b_j (HLW Theorem V.2.3).
 
-    The stages are compared in the given order.
+    The test does not permute the stages.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss3 = Tableau.load(find("gauss3"))
@@ -102,7 +103,7 @@ def symmetric(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
-    """Whether the method is stiffly accurate: a_sj = b_j.
+    """Return True if the method is stiffly accurate: a_sj = b_j.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -113,8 +114,8 @@ def stiffly_accurate(method: RungeKutta, ring: Ring) -> Verdict:
 
 
 def fsal(method: RungeKutta, ring: Ring) -> Verdict:
-    """Whether the method is first-same-as-last: stiffly accurate, more than one stage, and the first stage is
-    the start value.
+    """Return True if the method is first-same-as-last. Such a method is stiffly accurate, has more than one
+    stage, and its first stage is the start value.
 
     >>> from orderconds.tableau import Tableau, find
     >>> rk4 = Tableau.load(find("rk4"))
@@ -139,7 +140,7 @@ PROPERTIES = (*DEFINITIONS, "a_stable", "l_stable")
 
 
 def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
-    """Whether a row of numbers reads the same backwards.
+    """Return True if a row of numbers is equal to the reversed row.
 
     >>> from orderconds.ring import QQ
     >>> [reads_backwards([QQ.rational(n) for n in row], QQ) for row in ((1, 2, 1), (1, 2, 2))]
@@ -150,10 +151,11 @@ def reads_backwards(row: Sequence[Element], ring: Ring) -> Verdict:
 
 
 def symmetric_product(method: AdjointComposition | Splitting | Magnus, ring: Ring) -> Verdict:
-    """Whether a step of length -h undoes a step of length h (HLW V.3).
+    """Return True if a step of length -h undoes a step of length h (HLW V.3).
 
-    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. A splitting must read the same backwards. The
-    condition for a Magnus method is in :mod:`orderconds.tableau.reversal`.
+    The condition for an adjoint pair is alpha_{s+1-i} = beta_i. The condition for a splitting is that its
+    flows in reverse order are the same flows. The condition for a Magnus method is in
+    :mod:`orderconds.tableau.reversal`.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)

@@ -1,7 +1,7 @@
 """The coefficients of a method as immutable data over one ring, and conversions between formats.
 
-Stages are counted from 0 here and from 1 in files. In every product of exponentials the first row acts first
-and is the rightmost factor.
+In this module the index of a stage counts from 0; in files it counts from 1. In every product of exponentials
+the first row acts first and is the rightmost factor.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class PartitionedRungeKutta:
 
 @dataclass(frozen=True)
 class Stage:
-    """A product of exponentials acting on stage ``start`` (None: on y0).
+    """A product of exponentials that acts on stage ``start``, or on y0 if ``start`` is None.
 
     ``exponentials`` are rows of length s. A row beta denotes exp(h sum_j beta_j k_j). The first row acts
     first.
@@ -128,11 +128,11 @@ class CommutatorFree:
         return before + stage.exponentials
 
     def same_update(self, other: Stage, ring: Ring) -> bool:
-        """Whether ``other`` and the update are proved to be equal for all fields.
+        """Return True if the product ``other`` and the update are proved to be equal for all vector fields.
 
-        Zero exponents are removed, and neighbours with proportional exponents, which commute, are combined.
-        Reduced products are equal for all fields only if their exponents are equal (Chen 1958, on piecewise
-        linear paths).
+        Both products are reduced: zero exponents are removed, and neighbouring exponentials with proportional
+        exponents, which commute, are combined. Two reduced products are equal for all vector fields only if
+        their exponents are equal (Chen 1958, on piecewise linear paths).
         """
         one, two = (_reduced(self.from_start(stage), ring) for stage in (self.update, other))
         return len(one) == len(two) and all(
@@ -154,7 +154,8 @@ class CommutatorFree:
 
 
 def _reduced(rows: tuple[Row, ...], ring: Ring) -> list[Row]:
-    """Return a product of exponentials without zero exponents, with commuting neighbours combined."""
+    """Return the reduced product of exponentials: zero exponents are removed, and neighbouring exponentials
+    that commute are combined."""
     kept: list[Row] = []
     for row in rows:
         if kept and _proportional(kept[-1], row, ring):
@@ -171,7 +172,8 @@ def _proportional(x: Row, y: Row, ring: Ring) -> bool:
 
 @dataclass(frozen=True)
 class Composition:
-    """A composition of one basic method with steps gamma_1 h, ..., gamma_s h, the first applied first.
+    """A composition of one basic method with steps gamma_1 h, ..., gamma_s h. The step gamma_1 h is applied
+    first.
 
     ``base`` is ``"symmetric-2"``: the basic method is any symmetric method of order 2. If the composition is
     read as a Runge-Kutta method, the basic method is the implicit midpoint rule.
@@ -204,7 +206,7 @@ class Composition:
 
 @dataclass(frozen=True)
 class Embedded:
-    """A second row of weights of lower ``order``, for estimating the local error."""
+    """A second row of weights, of lower ``order``, for an estimate of the local error."""
 
     b: Row
     order: int
@@ -216,7 +218,7 @@ class Embedded:
 
 @dataclass(frozen=True)
 class EmbeddedUpdate:
-    """A second update of lower ``order`` from the stages of a commutator-free method."""
+    """A second update of a commutator-free method. It has lower ``order`` and uses the same stages."""
 
     update: Stage
     order: int

@@ -1,9 +1,10 @@
-"""Whether a commutator-free method is symmetric, that is, equal to itself read backwards.
+"""Symmetry of commutator-free methods: a symmetric method is unchanged if its exponentials are read
+backwards.
 
 Exchange stages j and s + 1 - j. A step of length -h from y1 undoes a step of length h from y0 under two
-conditions: the update reads the same backwards, and the exponentials from y1 to stage s + 1 - i are the
-exponentials from y0 to stage i with opposite signs. Neighbouring exponentials whose exponents are multiples
-of each other count as one exponential.
+conditions. First, the sequence of exponentials in the update is equal to the reversed sequence. Second, the
+exponentials from y1 to stage s + 1 - i are the exponentials from y0 to stage i with opposite signs.
+Neighbouring exponentials whose exponents are multiples of each other count as one exponential.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from orderconds.tableau.methods import CommutatorFree, Row
 
 
 def symmetric_paths(method: CommutatorFree, ring: Ring) -> bool | None:
-    """Whether a method is symmetric with its stages in the given order; None if balls are too wide to decide.
+    """Return True if a method is symmetric and its stages need not be permuted; None if balls are too wide to
+    decide.
 
     >>> from orderconds.tableau import Tableau, find
     >>> tableaux = [Tableau.load(find(name)) for name in ("cf4", "vcf_gauss2")]
@@ -49,8 +51,8 @@ def _same(one: Sequence[Row], other: Sequence[Row], ring: Ring) -> bool | None:
 
 
 def _reduced(rows: Sequence[Row], ring: Ring) -> list[Row]:
-    """Return an equal product of exponentials. In it, neighbouring exponentials with proportional exponents
-    are replaced by one exponential, whose exponent is the sum."""
+    """Return an equal product of exponentials. Neighbouring exponentials with proportional exponents are
+    replaced by one exponential, whose exponent is the sum of the exponents."""
     reduced: list[Row] = []
     for row in rows:
         total = row

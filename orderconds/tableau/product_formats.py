@@ -30,7 +30,8 @@ from orderconds.tableau.products import AdjointComposition, Magnus, Method, Spli
 
 
 class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
-    """``family = "composition"``: steps gamma of a symmetric method of order 2, or pairs alpha, beta."""
+    """``family = "composition"``: the steps gamma of a symmetric method of order 2, or the steps alpha and
+    beta of a method and its adjoint."""
 
     base: Literal["symmetric-2", "adjoint-pair"]
     gamma: list[Coefficient] | None = None
@@ -41,7 +42,8 @@ class CompositionFile(Format, forbid_unknown_fields=True, kw_only=True):
 
     @classmethod
     def defaults(cls, names: Collection[str]) -> Data:
-        """Return the kind of the basic method, which follows from the names of the given steps."""
+        """Return the kind of the basic method. The keys of the steps (gamma, or alpha and beta) determine
+        it."""
         return {"base": "symmetric-2" if "gamma" in names else "adjoint-pair"}
 
     def verify(self, where: str) -> None:
@@ -90,7 +92,8 @@ class SplittingFile(Format, forbid_unknown_fields=True, kw_only=True):
     rkn: str | None = None
 
     def verify(self, where: str) -> None:
-        """Check that the names of parts differ and that steps and ``rkn`` refer to parts."""
+        """Check that the names of the parts are different, and that the steps and ``rkn`` refer to these
+        names."""
         if not 2 <= len(self.parts) <= MAX_PARTS:
             raise TableauError(
                 f"{len(self.parts)} parts", where=f"{where}: parts", expected=f"2 to {MAX_PARTS} parts"
@@ -197,8 +200,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
                 yield f"{place}.{key}", coefficient
 
     def build(self, values: Mapping[str, Element], ring: Ring) -> tuple[Method, LowerOrder | None]:
-        """Return the method; TableauError if its products do not add up to Lie elements of quadratic
-        groups."""
+        """Return the method. Raises TableauError if an exponent with products is not in the Lie algebra of
+        every quadratic group."""
         tables = {
             place: tuple((parse_term(key, place), values[f"{place}.{key}"]) for key in table)
             for place, table in self._tables()
@@ -209,8 +212,8 @@ class MagnusFile(Format, forbid_unknown_fields=True, kw_only=True):
             tuple((name, tables[f"elements.{name}"]) for name in self.elements),
             self.map,
         )
-        # A bracket of two elements is in the same Lie algebra as the elements. A product of elements need not
-        # be, so combinations of products are verified.
+        # A bracket of two elements of a Lie algebra is an element of the Lie algebra. A product of two
+        # elements need not be an element, so combinations of products are verified.
         products = any(has_product(term) for table in tables.values() for term, _ in table)
         for k, series in enumerate(method.words(ring) if products else ()):
             for word, value in series.items():

@@ -21,9 +21,11 @@ from orderconds.tableau.methods import (
 
 @dataclass(frozen=True)
 class Splitting:
-    """A product of the flows of the parts of a field: step (k, x) is the flow of part k over the time x h.
+    """A splitting method, which is a product of flows of the parts of a vector field. The step (k, x) is the
+    flow of part k over the time x h.
 
-    ``parts`` name the parts; ``rkn`` is the part V with [V,[V,[V,T]]] = 0 (Runge-Kutta-Nystroem), or None.
+    ``parts`` contains the names of the parts. ``rkn`` is the part V with [V,[V,[V,T]]] = 0
+    (Runge-Kutta-Nystroem), or None.
 
     >>> Splitting(("T", "V"), ((0, 1), (1, 1)), rkn=1).s
     2
@@ -48,8 +50,8 @@ class AdjointComposition:
     """A composition of any basic method Phi and its adjoint Phi*, with steps beta_1 h, alpha_1 h, ...,
     alpha_s h.
 
-    One step is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}, Phi*_{beta_1 h} acting
-    first (HLW, Section II.4).
+    One step is Phi_{alpha_s h} Phi*_{beta_s h} ... Phi_{alpha_1 h} Phi*_{beta_1 h}, where Phi*_{beta_1 h}
+    acts first (HLW, Section II.4).
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -83,11 +85,11 @@ class AdjointComposition:
         return RungeKutta(A, b)
 
     def as_splitting(self) -> Splitting:
-        """Return the splitting if Phi is the flow of part 0 and then of part 1, and Phi* is Phi in reverse
-        order.
+        """Return the composition as a splitting into two parts. Phi is the flow of part 0 followed by the
+        flow of part 1, and Phi* is the flow of part 1 followed by the flow of part 0.
 
-        Neighbouring flows of one part are combined to one flow. The splitting has the same order as the
-        composition (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
+        Neighbouring flows of the same part are combined into one flow. The splitting has the same order as
+        the composition (McLachlan, SIAM J. Sci. Comput. 16 (1995) 151).
         """
         steps: list[tuple[int, Element]] = []
         for x, y in zip(self.alpha, self.beta, strict=True):
@@ -99,8 +101,8 @@ class AdjointComposition:
 
 
 MOST_WORDS = 10_000
-"""If exponents contain more products of nodes than this, they are compared without expansion of their
-brackets."""
+"""The largest number of products of nodes for which the brackets in exponents are expanded. Exponents with
+more products are compared without expansion."""
 
 
 @dataclass(frozen=True)
@@ -152,12 +154,12 @@ class Magnus:
         return tuple(extent_of_sum(combination, extent) for combination in self.exponents)
 
     def is_expandable(self) -> bool:
-        """Whether the exponents contain few enough products for :meth:`words` to expand them."""
+        """Return True if the exponents contain few enough products for :meth:`words` to expand them."""
         words = [self.s**most for _, most in self.extents()]
         return int(sum(words)) <= MOST_WORDS
 
     def is_commutator_free(self, ring: Ring) -> bool:
-        """Whether every exponent is a combination of the A_i, without brackets."""
+        """Return True if every exponent is a linear combination of the A_i, without brackets."""
         if not self.is_expandable():
             return False
         return all(len(word) == 1 for series in self.words(ring) for word in series)

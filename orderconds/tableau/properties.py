@@ -67,7 +67,8 @@ def undecided(tableau: Tableau, computed: Mapping[str, Verdict]) -> dict[str, st
 
 
 def _symmetric_for_all_decimals(tableau: Tableau) -> Verdict:
-    """Whether a product is symmetric for all values of its decimals; None if this is not certain."""
+    """Return True if a product of exponentials is symmetric for all values of its rounded decimals; None if
+    this is undecided."""
     if tableau.proof is None:
         return None
     from orderconds.tableau.random_member import OUTSIDE, RandomMember
@@ -90,8 +91,8 @@ def _of_tableau(method: RungeKutta, ring: Ring) -> dict[str, Verdict]:
 def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
     """Return the properties of a composition of midpoint rules.
 
-    It is symplectic and diagonally implicit for all steps. It is symmetric if the steps read the same
-    backwards.
+    A composition of midpoint rules is symplectic and diagonally implicit. It is symmetric if the list of its
+    steps is equal to the reversed list.
     """
     gamma = method.gamma
     verdicts = {
@@ -103,8 +104,8 @@ def _of_composition(method: Composition, ring: Ring) -> dict[str, Verdict]:
 
 
 def _ends_at_update(method: CommutatorFree, ring: Ring) -> bool:
-    """Whether a method is first-same-as-last: the first stage is the start value, and the last stage is equal
-    to the update."""
+    """Return True if a method is first-same-as-last: the first stage is the start value, and the last stage
+    is equal to the update."""
     first = [x for row in method.from_start(method.stages[0]) for x in row]
     starts = all(ring.is_zero(x) is True for x in first)
     return method.s > 1 and starts and method.same_update(method.stages[-1], ring)

@@ -1,7 +1,8 @@
 """Coefficients from Python: integers, fractions, texts, floats, SymPy numbers, and rows of them.
 
-The result is a coefficient of a tableau file. Floats stay doubles (:mod:`orderconds.tableau.doubles`); texts
-obey the grammar of tableau files. An error names the entry, such as ``A[2][1]``, counted from 1.
+The result is a coefficient of a tableau file. A float is converted to the text of a double
+(:mod:`orderconds.tableau.doubles`). A text must satisfy the grammar of tableau files. Error messages name the
+wrong entry, such as ``A[2][1]``, with indices that count from 1.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ EXPECTED = (
 
 
 SMALL = 1024
-"""A floating-point number of less than 64 bits is exact if its denominator is at most this number."""
+"""The largest denominator with which a floating-point number of less than 64 bits counts as an exact
+number."""
 
 
 class _Listed(Protocol):
@@ -85,7 +87,8 @@ def _of_a_package(x: object, where: str) -> Coefficient:
 
 
 def _rounded(x: float, digits: int, where: str) -> Coefficient:
-    """Return a number of a narrow format: exact if its denominator is small, else a rounded decimal."""
+    """Return a floating-point number of less than 64 bits as a coefficient. The coefficient is exact if its
+    denominator is small, otherwise it is a rounded decimal."""
     text = double_text(x, where)
     if Fraction(x).denominator <= SMALL:
         return text
@@ -145,7 +148,7 @@ def _items(values: object, where: str) -> list[object]:
 
 
 def _entries(values: object, where: str) -> list[object]:
-    """Return the entries of a row; a SymPy matrix of one row or column counts as a row."""
+    """Return the entries of a row. A SymPy matrix with one row or one column is also accepted as a row."""
     items = _items(values, where)
     if type(values).__module__.partition(".")[0] != "sympy":
         return items

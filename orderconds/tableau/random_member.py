@@ -1,10 +1,12 @@
-"""A file's method with random numbers in place of its rounded decimals and its radicals, over Q.
+"""A random method over Q: the method of a tableau file, in which random numbers replace the rounded decimals
+and the radicals.
 
 If an identity holds for the random numbers, it holds for all values of the decimals, except with negligible
 probability. The reason is a theorem: two different rational functions of degree at most D have the same value
 at a random point, with 2^128 values for each coordinate, with probability at most D / 2^128 (Schwartz 1980;
 Zippel 1979). The numbers are computed from a digest of the file. Hence nobody can construct a file for which
-the test is wrong. Arithmetic is exact, not modulo primes.
+the test gives a wrong result. All computations are exact computations with rational numbers, not computations
+modulo primes.
 """
 
 from __future__ import annotations
@@ -24,7 +26,8 @@ from orderconds.tableau.products import Method
 from orderconds.tableau.unknowns import SymbolicCoefficients
 
 BITS = 128
-"""Bits of a random number. The size of values is bounded, so the degrees D stay far below 2^40."""
+"""The number of bits of a random number. The degrees D are far below 2^40, because the size of values is
+bounded."""
 
 OUTSIDE = (TableauError, ZeroWeight, ZeroDivisionError)
 """The errors that are raised if a random method cannot be evaluated: its numbers grow too large, or a divisor
@@ -50,11 +53,11 @@ class RandomMember(Rationals):
         return self._drawn(f"named {name}")
 
     def size(self, x: fmpq) -> int:
-        """Return the bits of the larger of numerator and denominator."""
+        """Return the number of bits of the numerator or the denominator, whichever is larger."""
         return max(int(x.p).bit_length(), int(x.q).bit_length())
 
     def method(self) -> Method:
-        """Return the method.
+        """Return the method with random numbers as coefficients.
 
         Raises one of the errors in :data:`OUTSIDE` if the method cannot be evaluated.
 

@@ -1,7 +1,7 @@
 """A- and L-stability for rational coefficients, with flint's polynomials and certified roots.
 
-The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation here is fast enough for
-methods with a hundred stages.
+The criteria are the same as in :mod:`orderconds.tableau.stability`. The computation with rational numbers is
+fast enough for methods with a hundred stages.
 """
 
 from __future__ import annotations
@@ -23,7 +23,8 @@ def determinant(A: Rows) -> fmpq_poly:
 
 
 def stable(P: fmpq_poly, Q: fmpq_poly) -> tuple[bool, bool] | None:
-    """Whether P/Q is A-stable and L-stable; None if a pole is on the imaginary axis or too near it to decide.
+    """Return two truth values: P/Q is A-stable, P/Q is L-stable. Return None if a pole is on the imaginary
+    axis, or too near it to decide.
 
     >>> stable(fmpq_poly([1]), fmpq_poly([1, -1])), stable(fmpq_poly([2, 1]), fmpq_poly([2, -1]))
     ((True, True), (True, False))
@@ -51,7 +52,8 @@ def _modulus(p: fmpq_poly) -> fmpq_poly:
 
 
 def _nowhere_negative(E: fmpq_poly) -> bool:
-    """Whether E(x) >= 0 for x >= 0. Flint returns real roots with an imaginary part of exactly zero."""
+    """Return True if E(x) >= 0 for all x >= 0. The test uses that the Flint library returns each real root
+    with an imaginary part of exactly zero."""
     if E == 0:
         return True
     if E.leading_coefficient() < 0:

@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RealNumber:
-    """A real number that is no fraction: ``text`` as in a tableau file, and the nearest double.
+    """A real number that is not a fraction. ``text`` is the number as a tableau file contains it.
 
-    ``float`` returns the nearest double, so NumPy converts it: ``numpy.array(tableau.A, dtype=float)``.
+    ``float(x)`` returns the nearest double. Therefore NumPy can convert arrays of such numbers:
+    ``numpy.array(tableau.A, dtype=float)``.
 
     >>> root = RealNumber("sqrt(3)/6", 0.28867513459481287)
     >>> root, float(root)
@@ -56,7 +57,8 @@ Value = Fraction | float | RealNumber
 
 
 def value_of(x: Element, ring: Ring, doubles: bool = False) -> Value:
-    """Return an element of a ring as a value; ``doubles`` says that balls come from floats.
+    """Return an element of a ring as a value for a Python user. If ``doubles`` is true, balls are returned as
+    floats, because the coefficients were given as floats.
 
     >>> from orderconds.ring import QQ
     >>> value_of(QQ.one / 2, QQ)

@@ -62,7 +62,7 @@ class Tableau:
     """The file from which the tableau was read; None if the coefficients differ from the coefficients of the
     file."""
     doubles: bool = False
-    """Whether coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
+    """True if coefficients were given as binary floats (:mod:`orderconds.tableau.doubles`)."""
 
     @staticmethod
     def rk(
@@ -77,12 +77,13 @@ class Tableau:
     ) -> Tableau:
         """Return the Runge-Kutta method with the coefficients A, of s rows, and the s weights b.
 
-        Numbers are integers, fractions, texts such as ``"1/4 - sqrt(3)/6"``, numbers of SymPy, or floats;
-        A and b are lists, arrays of NumPy or matrices of SymPy. Floats stay doubles, except floats with small
-        denominators such as 0.5. ``bhat`` are s embedded weights; their order is computed. ``c`` must equal
-        the row sums of A. ``claims`` is the claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``.
+        Numbers are integers, fractions, texts such as ``"1/4 - sqrt(3)/6"``, numbers of SymPy, or floats; A
+        and b are lists, arrays of NumPy or matrices of SymPy. A float with a small denominator, such as 0.5,
+        is exact; every other float has the uncertainty of a double. ``bhat`` contains s embedded weights; the
+        order of the embedded method is computed. ``c`` must equal the row sums of A. ``claims`` is the
+        claimed order, or a mapping such as ``{"rk": 4, "vcg": 2}``.
 
-        Raises :class:`~orderconds.errors.TableauError` with the wrong entry.
+        Raises :class:`~orderconds.errors.TableauError`, whose message names the wrong entry.
 
         >>> Tableau.rk([[], [0.5]], [0, 1]).b
         (Fraction(0, 1), Fraction(1, 1))
@@ -107,10 +108,11 @@ defined under numbers (none)
     ) -> Tableau:
         """Return the commutator-free method with these stages and this update.
 
-        ``stages`` has one list of exponentials for each stage, and ``update`` is such a list; the first
-        exponential acts first. An exponential is a row of coefficients, one for each stage; zeros at its end
-        may be left out. ``starts`` maps a stage to the earlier stage from which it starts, both counted from
-        1; the other stages start from y0. ``embedded`` is a second update. Numbers are as in :meth:`rk`.
+        ``stages`` contains one list of exponentials for each stage, and ``update`` is a list of exponentials;
+        the first exponential of a list acts first. An exponential is a row of coefficients, one for each
+        stage; zeros at the end of a row may be left out. ``starts`` maps a stage to the earlier stage from
+        which its product starts, both counted from 1; all other stages start from y0. ``embedded`` is a
+        second update. Numbers are as in :meth:`rk`.
 
         >>> euler_midpoint = Tableau.cf([[], [["1/2"]]], [[0, 1]])
         >>> euler_midpoint.orders["cf"]
@@ -146,34 +148,35 @@ defined under numbers (none)
 
     @staticmethod
     def loads(text: str, where: str = "<text>") -> Tableau:
-        """Read a tableau from TOML text; ``where`` names it in messages."""
+        """Return the tableau that a TOML text defines. Error messages call the text ``where``."""
         return loads(argument.text(text, "text", "TOML as a str"), where)
 
     @property
     def s(self) -> int:
-        """The number of stages; TableauError for a splitting or a Magnus method."""
+        """The number of stages. Raises TableauError for a splitting or a Magnus method."""
         return len(self.abelian().b)
 
     @property
     def A(self) -> tuple[tuple[Value, ...], ...]:
-        """The rows of A. Entries are fractions, floats if they were given as floats, or else
-        :class:`~orderconds.tableau.real_number.RealNumber`. For a commutator-free method, the sums of the
-        exponentials."""
+        """The rows of A. A rational entry is a fraction, an entry that was given as a float is a float, and
+        every other entry is a :class:`~orderconds.tableau.real_number.RealNumber`. For a commutator-free
+        method, A contains the sums of the coefficients over all exponentials of a stage."""
         return tuple(self._values(x) for x in self.abelian().A)
 
     @property
     def b(self) -> tuple[Value, ...]:
-        """The weights, as in :attr:`A`."""
+        """The weights b, of the same types as the entries of :attr:`A`."""
         return self._values(self.abelian().b)
 
     @property
     def c(self) -> tuple[Value, ...]:
-        """The row sums of A, as in :attr:`A`."""
+        """The row sums of A, of the same types as the entries of :attr:`A`."""
         return self._values(self.abelian().c)
 
     @property
     def bhat(self) -> tuple[Value, ...] | None:
-        """The embedded weights, as in :attr:`A`; None without an embedded row."""
+        """The embedded weights, of the same types as the entries of :attr:`A`; None if the tableau has no
+        embedded row."""
         lower = self.lower()
         return None if lower is None else lower.b
 
@@ -182,7 +185,8 @@ defined under numbers (none)
 
     @cached_property
     def orders(self) -> dict[str, int]:
-        """The computed order in each family in which the tableau is a method, by label: ``{"rk": 4, ...}``.
+        """The computed orders of the tableau, by the label of the family: ``{"rk": 4, ...}``. The families
+        are all those to which the method belongs.
 
         :func:`orderconds.check` also returns certificates and failing conditions.
         """
@@ -245,11 +249,12 @@ defined under numbers (none)
         return replace(self, method=lower, embedded=None, proof=None, file=None)
 
     def read_as(self, formats: tuple[str, ...]) -> Method | None:
-        """Return the method in the first of these formats to which it can be converted, or None.
+        """Return the method, converted to the first of these formats to which a conversion exists; None if
+        there is no conversion.
 
-        A tableau has the format of its file. A composition also has the format ``rk`` (composed midpoints, or
-        Euler methods for an adjoint pair). A composition of an adjoint pair has the format ``splitting`` as
-        well.
+        Every tableau has the format of its file. A composition of a symmetric method can be converted to
+        ``rk`` as a composition of midpoint rules. A composition of an adjoint pair can be converted to ``rk``
+        as a composition of Euler methods, and to ``splitting``.
         """
         method = self.method
         for wanted in formats:
@@ -291,7 +296,7 @@ def load(path: str | Path) -> Tableau:
 
 
 def loads(text: str, where: str = "<text>", path: str | None = None) -> Tableau:
-    """Read a tableau from TOML text; ``where`` names it in messages.
+    """Return the tableau that a TOML text defines. Error messages call the text ``where``.
 
     >>> loads('name = "euler"\\nfamily = "rk"\\nA = [[]]\\nb = ["1"]').method
     RungeKutta(A=((0,),), b=(1,))
@@ -323,7 +328,7 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
 
 
 def _exists(path: Path) -> bool:
-    """Whether there is a file or folder; a name that is too long for a file has none."""
+    """Return True if a file or folder has this name. For a name that is too long, the result is False."""
     try:
         return path.exists()
     except OSError:
@@ -331,7 +336,8 @@ def _exists(path: Path) -> bool:
 
 
 def _with_embedded_order(data: Data, name: str) -> Tableau:
-    """Return the tableau of the keys; the order of an embedded row is computed on vector spaces."""
+    """Return the tableau that the keys define. The order of an embedded row is its order on vector spaces,
+    which is computed."""
     tableau = from_data(data, name)
     family: Callable[[str], object] = _above("families").get
     for claim in tableau.claims.orders:
@@ -345,8 +351,8 @@ def _with_embedded_order(data: Data, name: str) -> Tableau:
 
 
 def _above(module: str) -> ModuleType:
-    """Return a module of a layer above this one. The class is the face of the whole package for users in
-    Python, so a few of its methods call functions of higher layers."""
+    """Return a module of a layer above this one. Python users call most functions of the package through this
+    class. Therefore a few methods of the class need functions of higher layers."""
     return import_module(f"orderconds.{module}")
 
 

@@ -1,11 +1,11 @@
-"""Whether a Magnus method is symmetric: a step of length -h undoes a step of length h.
+"""Symmetry of Magnus methods: a method is symmetric if a step of length -h undoes a step of length h.
 
-The reverse step has -A_{s+1-i} at node i. If the nodes are symmetric about 1/2, the reverse step undoes the
-step under this condition: substituting -A_{s+1-i} for A_i in the k-th exponent gives the negative of the k-th
-exponent from the end. A combination of nodes may be odd or even under this substitution. The parity of a
-bracket or product follows from the parities of its factors. Thus a method with one exponent, if the exponent
-is odd, is recognised without expanding nested brackets. In all other cases exponents are compared as
-combinations of products of nodes.
+In the step of length -h from the end point, the value at node i is -A_{s+1-i}, if the nodes are symmetric
+about 1/2. This reverse step undoes the step of length h under the following condition. If -A_{s+1-i} is
+substituted for A_i in the k-th exponent, the result is the negative of the k-th exponent from the end. A
+combination of nodes may be odd or even under this substitution. The parity of a bracket or product follows
+from the parities of its factors. Thus a method with one odd exponent is recognised as symmetric without
+expansion of nested brackets. In all other cases exponents are compared as combinations of products of nodes.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from orderconds.tableau.products import Magnus
 
 
 def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
-    """Whether a method is symmetric; None if balls are too wide to decide, or if there are too many brackets
-    to expand.
+    """Return True if a method is symmetric; None if balls are too wide to decide, or if there are too many
+    brackets to expand.
 
     >>> from orderconds.ring import QQ
     >>> half = QQ.rational(1, 2)
@@ -44,7 +44,8 @@ def symmetric_exponents(method: Magnus, ring: Ring) -> bool | None:
 
 
 def sign(method: Magnus, ring: Ring) -> int | None:
-    """Return -1 if the first exponent is odd under A_i -> -A_{s+1-i}, 1 if it is even, else None.
+    """Return the parity of the first exponent under the substitution A_i -> -A_{s+1-i}: -1 if the exponent is
+    odd, 1 if it is even, None if it is neither.
 
     >>> from orderconds.ring import QQ
     >>> sign(Magnus((QQ.zero, QQ.one), (((0, QQ.one), (1, QQ.one)),)), QQ)

@@ -24,8 +24,8 @@ def simplifying(method: RungeKutta, ring: Ring, assumptions: Mapping[str, int]) 
     """Yield the left-hand side minus the right-hand side of each equation of B(p), C(q) and D(r), where k =
     1, ..., p in B, k = 1, ..., q in C and k = 1, ..., r in D.
 
-    B: sum_i b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k (left out for k = 1, which defines c);
-    D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
+    B: sum_i b_i c_i^(k-1) = 1/k; C: sum_j a_ij c_j^(k-1) = c_i^k/k (k = 1 is omitted, because this equation
+    defines c); D: sum_i b_i c_i^(k-1) a_ij = b_j (1 - c_j^k)/k.
 
     >>> from orderconds.ring import QQ
     >>> from orderconds.tableau import Tableau, find
@@ -75,7 +75,7 @@ def highest_assumptions(method: RungeKutta, ring: Ring, order: int) -> int:
 
 
 def _simplifies(algebra: NodalAlgebra, m: int) -> bool:
-    """Whether C(m) and D(m) hold over Q."""
+    """Return True if C(m) and D(m) hold over Q."""
     stages = range(int(algebra.modulus.degree()))
     powers = [fmpq_poly([0] * k + [1]) % algebra.modulus for k in range(max(m + 1, len(stages)))]
     for k in range(1, m + 1):

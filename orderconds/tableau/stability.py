@@ -22,16 +22,18 @@ from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.methods import RungeKutta
 
 Polynomial = list[Element]
-"""A polynomial by its ascending coefficients, the last one not zero; the zero polynomial is empty."""
+"""The ascending coefficients of a polynomial. The last coefficient is not zero; the zero polynomial has no
+coefficients."""
 
 
 LARGEST = 100
-"""If a rational tableau has a larger implicit block than this, the result is undecided. The computation with
-flint takes a second at this size."""
+"""The largest implicit block of a rational tableau for which stability is decided. For a block of this size
+the computation with flint takes a second."""
 
 EFFORT = 10**11
-"""The limit on the work over other fields. The unit is the product of two bits, and this amount of work takes
-about a second. The limit is necessary because the remainders in Euclid's algorithm grow fast."""
+"""The limit on the work over number fields other than Q. The unit of work is the product of two bits; work up
+to the limit takes about a second. The limit is necessary because the remainders in Euclid's algorithm grow
+fast."""
 
 
 class SignedRing(Ring, Protocol):
@@ -59,7 +61,7 @@ def stability(method: RungeKutta, ring: Ring) -> dict[str, bool | None]:
     {'a_stable': True, 'l_stable': True}
     """
     if all(ring.is_zero(x) is True for i, row in enumerate(method.A) for x in row[i:]):
-        return {"a_stable": False, "l_stable": False}  # R is a polynomial, hence unbounded
+        return {"a_stable": False, "l_stable": False}  # R is a polynomial and therefore unbounded
     if any(ring.is_zero(x) is None for row in (*method.A, method.b) for x in row):
         return {"a_stable": None, "l_stable": None}
     try:
@@ -92,8 +94,8 @@ def _decided(method: RungeKutta, ring: Ring) -> tuple[bool, bool]:
 def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bool | None]:
     """Return the result of :func:`stability` for midpoints, R = prod (1 + gamma_i z/2)/(1 - gamma_i z/2).
 
-    |R| = 1 on the imaginary axis and at infinity. A negative step size gives a pole in the left half plane,
-    unless a positive step size cancels it.
+    |R| = 1 on the imaginary axis and at infinity. A negative step size gives a pole in the left half plane.
+    If another step size is the opposite number, its factor cancels this pole.
 
     >>> stability_of_midpoints([QQ.rational(1, 2), QQ.rational(1, 2)], QQ)
     {'a_stable': True, 'l_stable': False}
@@ -117,11 +119,13 @@ def stability_of_midpoints(gamma: Sequence[Element], ring: Ring) -> dict[str, bo
 
 
 class _Undecided(Exception):
-    """A sign cannot be decided: a ball contains zero, or the computation would take too long."""
+    """The error that is raised if a sign cannot be decided, because a ball contains zero or the computation
+    would take too long."""
 
 
 class _Limited:
-    """A number field that counts its work and stops at a limit."""
+    """A number field that counts the work of its operations, and raises an error when the work exceeds a
+    limit."""
 
     def __init__(self, ring: Ring) -> None:
         self.ring, self.left = ring, EFFORT
@@ -130,7 +134,7 @@ class _Limited:
         return getattr(self.ring, name)
 
     def spend(self, work: int) -> None:
-        """Subtract the cost of an operation, in products of two bits."""
+        """Subtract the cost of an operation from the remaining work. The unit is the product of two bits."""
         self.left -= work
         if self.left < 0:
             raise _Undecided
@@ -143,8 +147,8 @@ def _bits(x: Element) -> int:
 
 
 def _spend(ring: Ring, count: int, numbers: Sequence[Element], quadratic: bool) -> None:
-    """Count the work of ``count`` products of these numbers. The work of one product is quadratic in the
-    length of the numbers if ``quadratic`` is true, else linear."""
+    """Subtract the work of ``count`` products of these numbers from the remaining work. The work of one
+    product is quadratic in the length of the numbers if ``quadratic`` is true, else linear."""
     if isinstance(ring, _Limited) and not isinstance(ring.ring, Balls):
         field = ring.ring
         degree = int(field.modulus.degree()) if isinstance(field, NumberField) else 1
@@ -215,7 +219,7 @@ def _block_determinant(A: Sequence[Sequence[Element]], ring: Ring) -> Polynomial
 
 
 def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
-    """Whether every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
+    """Return True if every zero of Q has positive real part: Routh's scheme of Q(-z) has no change of sign.
 
     >>> [poles_right([QQ.rational(x) for x in Q], QQ) for Q in ((2, -3, 1), (1, 0, 1))]
     [True, False]
@@ -233,7 +237,7 @@ def poles_right(Q: Sequence[Element], ring: SignedRing) -> bool:
 
 
 def bounded_on_axis(R: StabilityFunction, ring: SignedRing) -> bool:
-    """Whether |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
+    """Return True if |R(iy)| <= 1 for all real y: E(y^2) has no zero of odd multiplicity at a positive y^2.
 
     >>> from orderconds.tableau import Tableau, find
     >>> gauss1 = Tableau.load(find("gauss1"))

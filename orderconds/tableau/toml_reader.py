@@ -1,5 +1,5 @@
-"""Read TOML, but refuse long dotted keys: for a key with thousands of parts, Python's TOML reader would need
-gigabytes of memory."""
+"""A TOML reader that rejects long dotted keys. For a key with thousands of parts, Python's TOML reader would
+need gigabytes of memory."""
 
 from __future__ import annotations
 

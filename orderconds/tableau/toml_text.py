@@ -38,7 +38,8 @@ def _entries(table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _headed(key: str, value: object) -> bool:
-    """Whether a value has a heading: tables have one, except a short embedded row."""
+    """Return True if a value is written below a heading ``[key]``. All tables are, except a short embedded
+    row."""
     if _blocks(value, key):
         return True
     return isinstance(value, Mapping) and not (key == "embedded" and len(_line(key, value)) <= WIDTH)
@@ -65,7 +66,8 @@ def _headings(prefix: str, table: Mapping[str, object]) -> Iterator[str]:
 
 
 def _blocks(value: object, key: str) -> TypeGuard[list[Mapping[str, object]]]:
-    """Whether a list is written as tables ``[[key]]``, as the stages of a method are."""
+    """Return True if a list is written as tables ``[[key]]``, for example the list of the stages of a
+    method."""
     return key == "stage" and isinstance(value, list) and all(isinstance(x, Mapping) for x in value)
 
 

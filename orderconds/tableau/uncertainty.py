@@ -1,4 +1,4 @@
-"""How uncertain the coefficients of a tableau are, relative to a floating-point format."""
+"""The uncertainty of the coefficients of a tableau, compared with the rounding of a floating-point format."""
 
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ from orderconds.tableau.doubles import radius
 from orderconds.tableau.record import Tableau
 
 WIDER = fmpq(17, 8)
-"""The largest width of the ball of a double, in units of its radius: a ball may be rounded."""
+"""The largest width of the ball of a double, in units of the radius. The width may exceed two radii, because
+the end points of a ball are rounded."""
 
 
 def uncertainty(tableau: Tableau, bits: int) -> str:
     """Return the largest radius of those coefficients that are less accurate than a format of ``bits`` bits.
 
-    A coefficient counts if its ball is wider than one rounding to ``bits`` bits. The result is a decimal of
-    two digits, or an empty text if all coefficients are exact or narrow enough. A double counts as narrow
-    enough, because code contains it without rounding.
+    A coefficient is less accurate if its ball is wider than the error of one rounding to ``bits`` bits. The
+    result is a decimal of two digits. It is empty if all coefficients are exact or accurate enough. A double
+    is always accurate enough, because code contains a double without further rounding.
 
     >>> from orderconds.tableau import find
     >>> uncertainty(Tableau.load(find("rk4")), 53)

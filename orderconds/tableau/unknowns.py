@@ -37,14 +37,14 @@ Built = tuple[Method, LowerOrder | None]
 
 
 class RootedRing(Ring, Protocol):
-    """A ring with radicals: balls, jets."""
+    """A ring in which real roots of polynomials can be computed, such as balls or jets."""
 
     def root(self, x: Element, index: int) -> Element:
         """Return the real root."""
 
 
 class Unknown(Struct, frozen=True):
-    """A rounded decimal: its name, and its absolute value in the file."""
+    """A rounded decimal of a file, given by its name and its absolute value."""
 
     name: str
     constant: Constant
@@ -52,10 +52,10 @@ class Unknown(Struct, frozen=True):
 
 @dataclass(frozen=True)
 class Proof:
-    """The equations that the decimals of a file solve approximately.
+    """The equations whose approximate solution is given by the decimals of a file.
 
     The equations are solved for ``unknowns``. The decimals in ``pinned`` count as exact numbers. ``printed``
-    are the numbers printed in the source.
+    contains the decimals as they are printed in the source.
     """
 
     conditions: str
@@ -68,12 +68,13 @@ class Proof:
     symbolic: SymbolicCoefficients = field(repr=False)
 
     def over(self, ring: RootedRing, values: Mapping[str, Element]) -> Built:
-        """Return the method with ``values`` for the unknowns and the pinned decimals as exact numbers."""
+        """Return the method in which the unknowns have the given ``values`` and the pinned decimals are exact
+        numbers."""
         return self.symbolic.method(ring, self._known(ring, values))
 
     def number(self, name: str, ring: RootedRing, values: Mapping[str, Element]) -> Element:
-        """Return the number with this name, or at this position in the file, with ``values`` for the
-        unknowns."""
+        """Return the number with this name, or at this position in the file, if the unknowns have the given
+        ``values``."""
         return self.symbolic.number(name, ring, self._known(ring, values))
 
     def _known(self, ring: RootedRing, values: Mapping[str, Element]) -> dict[Constant, Element]:

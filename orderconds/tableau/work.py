@@ -35,7 +35,8 @@ class Work:
 
 
 def evaluations(tableau: Tableau) -> Work | None:
-    """Return the number of field evaluations of a step; None for a format without such a count.
+    """Return the number of field evaluations of a step, or None if the cost of a method of this format is not
+    counted in field evaluations.
 
     >>> from orderconds.tableau import find
     >>> evaluations(Tableau.load(find("rk4")))
@@ -69,7 +70,8 @@ def commutator_free_work(tableau: Tableau) -> Work | None:
 
 
 def crouch_grossman_work(tableau: Tableau) -> Work | None:
-    """Return the cost of a step of a Butcher tableau with one exponential for each coefficient.
+    """Return the cost of a step of a Crouch-Grossman method, which has one exponential for each coefficient
+    of the Butcher tableau.
 
     >>> from orderconds.tableau import find
     >>> crouch_grossman_work(Tableau.load(find("cg3")))
@@ -109,8 +111,8 @@ def magnus_work(tableau: Tableau) -> Work | None:
 
 
 def _stages_evaluated(method: RungeKutta, ring: Ring) -> int:
-    # The field at the last stage of an explicit first-same-as-last method is the field at the first stage of
-    # the next step. Its weight is zero, so it is not among the needed stages.
+    # In an explicit first-same-as-last method, the last stage is the first stage of the next step. The weight
+    # of the last stage is zero, so the stage is not among those on which the update depends.
     return len(_needed(method, ring))
 
 
@@ -133,7 +135,7 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
     while waiting:
         stage = waiting.pop()
         rows += stage.exponentials
-        # A stage may begin at the point of another stage.
+        # The product of a stage may start from an earlier stage.
         further = _used(stage.exponentials, ring) | ({stage.start} if stage.start is not None else set())
         waiting += [method.stages[j] for j in sorted(further - reached)]
         reached |= further
@@ -141,7 +143,7 @@ def _rows(method: CommutatorFree, ring: Ring) -> list[tuple[Element, ...]]:
 
 
 def _used(rows: Iterable[Sequence[Element]], ring: Ring) -> set[int]:
-    """Return the indices of the entries that are non-zero in some row."""
+    """Return the indices i for which at least one row has a non-zero entry i."""
     return {j for row in rows for j, x in enumerate(row) if ring.is_zero(x) is not True}
 
 

@@ -1,4 +1,4 @@
-"""Write a tableau as a file; reading the file gives the same tableau."""
+"""Conversion of a tableau to a tableau file. If the file is read, the result is the same tableau."""
 
 from __future__ import annotations
 
@@ -65,8 +65,7 @@ def as_data(tableau: Tableau) -> Data:
 
 
 def without_names(tableau: Tableau, *, name_radicals: bool = True) -> Data:
-    """Return the keys and values of a file in which every coefficient is written in full, without names of
-    numbers.
+    """Return the keys and values of a file in which coefficients do not refer to named numbers.
 
     Names are used only for roots without a formula and, if ``name_radicals`` is true, for square roots inside
     other roots.
@@ -156,7 +155,7 @@ class _Radicals:
         return text
 
     def spell(self, x: Element) -> str:
-        """Return the text of an element, with names for roots."""
+        """Return the text of an element. Roots are written as names."""
         return self._named(self.text(x), list(self.names))
 
 

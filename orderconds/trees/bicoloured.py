@@ -1,9 +1,10 @@
 """Rooted trees with vertices of two colours: the trees of P-series (HLW III.2.1).
 
-Colour 0 (black) belongs to the first part y of a partitioned system, colour 1 (white) to the second, z.
-Encoding: one byte ``2 level + colour`` for each vertex, in preorder; branches are in descending order. Apart
-from the colour of the root, the encoding is equal to the encoding in :mod:`orderconds.trees.directed`. An
-edge whose child is white has kind 1, because its coefficient ahat_ij belongs to the second tableau.
+Colour 0 (black) denotes the first part y of a partitioned system, and colour 1 (white) denotes the second
+part z. Encoding: one byte ``2 level + colour`` for each vertex, in preorder; branches are in descending
+order. Apart from the colour of the root, the encoding is equal to the encoding in
+:mod:`orderconds.trees.directed`. An edge whose child is white has kind 1, because its coefficient ahat_ij
+belongs to the second tableau.
 """
 
 from __future__ import annotations
@@ -107,7 +108,8 @@ def bicoloured_rootings(tree: BicolouredTree) -> Iterator[BicolouredTree]:
 
 
 def moves(tree: BicolouredTree) -> Iterator[tuple[BicolouredTree, BicolouredTree, BicolouredTree]]:
-    r"""Yield, for each edge at the root, the parts u and v that the edge separates, and the tree rooted in v.
+    r"""Yield, for each edge at the root, the two parts u and v that the edge separates, and the whole tree
+    with its root moved to v.
 
     >>> list(moves(b"\0\3"))
     [(b'\x00', b'\x01', b'\x01\x02')]

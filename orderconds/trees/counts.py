@@ -1,4 +1,5 @@
-"""Numbers of trees from generating functions. They are independent of the functions that enumerate trees.
+"""Numbers of trees, computed from generating functions. The computation does not use the functions that
+enumerate trees.
 
 The sequences are A000055, A000081, A000108, A000151 and A000238 of the OEIS.
 """
@@ -10,8 +11,8 @@ from math import comb
 
 
 def euler_transform(counts: Sequence[int]) -> tuple[int, ...]:
-    """Return the numbers of multisets of total weight 1, 2, ..., if the numbers of elements of weight 1, 2,
-    ... are given.
+    """Return the numbers of multisets of total weight 1, 2, .... The argument contains the numbers of
+    elements of weight 1, 2, ....
 
     >>> euler_transform([1, 1, 1, 1])
     (1, 2, 3, 5)
@@ -48,8 +49,8 @@ def ordered_tree_count(vertices: int) -> int:
 
 
 def ordered_forest_count(vertices: int) -> int:
-    """Return the number of ordered forests. It is equal to the number of ordered trees with one more vertex,
-    the root.
+    """Return the number of ordered forests. It equals the number of ordered trees with one vertex more,
+    because a new root joins the trees of a forest.
 
     >>> [ordered_forest_count(n) for n in range(6)]
     [1, 1, 2, 5, 14, 42]
@@ -81,7 +82,8 @@ def essential_free_tree_count(vertices: int) -> int:
 def alternating_free_tree_count(vertices: int) -> int:
     """Return the number of free trees of two colours in which neighbours differ in colour.
 
-    An uncoloured free tree has two such colourings, or one if a symmetry of the tree exchanges the colours.
+    A free tree without colours can be coloured in two ways. The two colourings are equal if a symmetry of the
+    tree exchanges the colours.
 
     >>> [alternating_free_tree_count(n) for n in range(1, 9)]
     [2, 1, 2, 3, 6, 10, 22, 42]
@@ -106,7 +108,8 @@ def directed_free_tree_count(vertices: int) -> int:
 
 
 def lyndon_word_count(weight: int, letters: Callable[[int], int]) -> int:
-    """Return the number of Lyndon words of a weight, if there are ``letters(k)`` letters of weight k.
+    """Return the number of Lyndon words of a weight. The function ``letters`` returns the number of letters
+    of weight k.
 
     Every word is a unique product of non-increasing Lyndon words. Hence the numbers L(n) of Lyndon words
     satisfy prod (1 - x^n)^-L(n) = 1/(1 - sum letters(k) x^k).

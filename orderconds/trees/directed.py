@@ -1,10 +1,10 @@
 """Rooted and free trees with directed edges: the trees of symplectic partitioned methods.
 
 An edge from parent i to child j has kind 0 if it points away from the root; its coefficient is then a_ij. It
-has kind 1 if it points to the root; its coefficient is then ahat_ij. If the root moves across an edge, the
-kind of the edge changes, but its direction does not. By the relation b_i ahat_ij = b_i b_j - b_j a_ji, the
-weights of the two rooted trees add up to a product of weights of smaller trees. Hence the conditions belong
-to free trees with directed edges.
+has kind 1 if it points to the root; its coefficient is then ahat_ij. If the root is moved from one end of an
+edge to the other end, the kind of the edge changes, but its direction does not. By the relation b_i ahat_ij =
+b_i b_j - b_j a_ji, the sum of the weights of the two rooted trees is a product of weights of smaller trees.
+Hence the conditions are indexed by free trees with directed edges.
 
 Encoding: one byte ``2 level + kind`` for each vertex, in preorder, where ``kind`` is the kind of the edge to
 the parent. Branches are in descending order.
@@ -98,7 +98,7 @@ def directed_rooted_trees(vertices: int) -> tuple[DirectedTree, ...]:
 
 
 def directed_rooted_trees_in_turn(vertices: int) -> Iterator[DirectedTree]:
-    """Yield the trees of :func:`directed_rooted_trees` one by one, on demand.
+    """Yield the trees of :func:`directed_rooted_trees` one by one, without storing all of them.
 
     >>> text(next(directed_rooted_trees_in_turn(50))).count("[")
     49
@@ -171,7 +171,7 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
         level, kind = tree[place] >> 1, tree[place] & 1
         parents[place] = last[level - 1]
         last[level] = place
-        hats[place] = hats[parents[place]] + 1 - 2 * kind  # the edge across which the root moves
+        hats[place] = hats[parents[place]] + 1 - 2 * kind  # the kind of this edge changes
     rare = [min(n, edges - n) for n in hats]
     least = min(rare)
     places = [place for place, n in enumerate(rare) if n == least]
@@ -183,8 +183,8 @@ def _simplest_roots(tree: DirectedTree) -> list[int]:
     for place in range(1, len(tree)):
         up = parents[place]
         siblings = [below[n] + 1 for n in range(1, len(tree)) if parents[n] == up and n != place]
-        # The longest path that starts at a vertex and passes through the parent then leads to the parent of
-        # the parent, or into another branch of the parent.
+        # The longest path that starts at a vertex and goes to its parent continues to the parent of the
+        # parent, or into another branch of the parent.
         beyond = max([*siblings, 0 if up == 0 else above[up]])
         above[place] = beyond + 1
         heights[place] = max(below[place], above[place])

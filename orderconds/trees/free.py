@@ -1,8 +1,8 @@
 """Free (unrooted) trees, and the effect of moving the root of a tree.
 
-The conditions of symplectic Runge-Kutta methods belong to free trees, because b_i a_ij + b_j a_ji = b_i b_j
-implies phi(u o v) + phi(v o u) = phi(u) phi(v), where o is Butcher's product (Sanz-Serna and Abia 1991; HLW
-VI.7.1). If a tree can be rooted as u o u, then phi(u o u) = phi(u)^2/2, so its condition follows from the
+The conditions of symplectic Runge-Kutta methods are indexed by free trees, because b_i a_ij + b_j a_ji = b_i
+b_j implies phi(u o v) + phi(v o u) = phi(u) phi(v), where o is Butcher's product (Sanz-Serna and Abia 1991;
+HLW VI.7.1). If a tree can be rooted as u o u, then phi(u o u) = phi(u)^2/2, so its condition follows from the
 condition of u. Such a tree is called superfluous.
 """
 
@@ -15,7 +15,8 @@ from orderconds.trees.levels import Tree, children, rooted_at_new_vertex
 from orderconds.trees.rooted import rooted_trees
 
 Move = tuple[Tree, Tree]
-"""A move of the root along one edge, from u o v to v o u, as the pair of trees (u, v)."""
+"""A move of the root along one edge, which changes the tree u o v to v o u. It is represented by the pair of
+trees (u, v)."""
 
 
 @lru_cache(maxsize=32)
@@ -40,7 +41,7 @@ def essential_free_trees(vertices: int) -> tuple[Tree, ...]:
 
 
 def superfluous(tree: Tree) -> bool:
-    r"""Whether some edge divides a tree into two equal rooted trees; the condition of the tree is then
+    r"""Return True if some edge divides a tree into two equal rooted trees; the condition of the tree is then
     superfluous.
 
     >>> superfluous(b"\0\1"), superfluous(b"\0\1\1")
@@ -50,8 +51,8 @@ def superfluous(tree: Tree) -> bool:
 
 
 def representative(tree: Tree) -> Tree:
-    r"""Return the tree with the root of least height. Among several such roots, the greatest level sequence
-    is chosen.
+    r"""Return the tree, rooted at a vertex for which the height of the tree is least. If there are several
+    such vertices, the root with the greatest level sequence is chosen.
 
     >>> representative(b"\0\1\2")
     b'\x00\x01\x01'

@@ -3,7 +3,7 @@ elementary differential along another.
 
 Let u > v denote the graft of u onto v. Then F(u > v) is the derivative of F(v) in the direction F(u).
 Unordered trees with this product form the free pre-Lie algebra (Chapoton and Livernet 2001). Ordered trees
-are grafted to the left of the existing branches, because the field that is frozen last acts first
+are grafted to the left of the existing branches, because the vector field that is frozen last acts first
 (Munthe-Kaas and Wright, Found. Comput. Math. 8 (2008) 227).
 """
 
@@ -35,8 +35,8 @@ def butcher_product(u: Tree, v: Tree) -> Tree:
 
 
 def graft(u: Tree, v: Tree) -> Counter[Tree]:
-    r"""Return the sum of all trees that result if u becomes a branch at one vertex of v; both trees are
-    unordered.
+    r"""Return the sum, over all vertices of v, of the trees in which u is a new branch at the vertex. Both
+    trees are unordered.
 
     >>> sorted(graft(b"\0", b"\0\1\1").items())
     [(b'\x00\x01\x01\x01', 1), (b'\x00\x01\x02\x01', 2)]

@@ -2,8 +2,8 @@
 in place.
 
 The sequences of n levels that start at 0 and never rise by more than one are exactly the ordered forests with
-n vertices. The sequences that do not return to 0 are the trees. Both are listed in descending lexicographic
-order.
+n vertices. The sequences that contain the level 0 only at the start are the trees. Both are listed in
+descending lexicographic order.
 """
 
 from __future__ import annotations

@@ -13,7 +13,7 @@ from orderconds.trees.levels import Tree
 
 def rooted_trees(vertices: int) -> Iterator[Tree]:
     """Yield every rooted tree with ``vertices`` vertices exactly once, in canonical form, from the tall tree
-    to the bushy tree.
+    (a path) to the bushy tree (all vertices except the root are leaves).
 
     >>> from orderconds.trees.levels import text
     >>> [text(tree) for tree in rooted_trees(4)]
@@ -24,8 +24,8 @@ def rooted_trees(vertices: int) -> Iterator[Tree]:
     levels = bytearray(range(vertices))
     while True:
         yield bytes(levels)
-        # Let p be the last vertex that is not a child of the root, and q its parent. The levels from p on are
-        # replaced by copies of the levels from q to p - 1.
+        # Let p be the last vertex that is neither the root nor a child of the root, and let q be the parent
+        # of p. The levels from p on are replaced by copies of the levels from q to p - 1.
         last = len(levels.rstrip(b"\1")) - 1
         if last < 1:
             return

@@ -1,1 +1,1 @@
-"""Order conditions as papers and notebooks show them: LaTeX with trees, labels and a legend, and HTML."""
+"""Order conditions for papers and notebooks: LaTeX with trees, labels and a legend, and HTML."""

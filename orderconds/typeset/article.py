@@ -1,4 +1,4 @@
-r"""Conditions for a paper: numbered equations with a column of trees, labels, and a legend."""
+r"""Order conditions in LaTeX for a paper: numbered equations with labels, a column of trees, and a legend."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from orderconds.typeset.legend import legend
 
 
 def article(family: str, by_order: Sequence[Sequence[OrderCondition]], *, explain: bool = False) -> str:
-    r"""Return the conditions of a family in LaTeX; with ``explain`` comments name elementary differentials.
+    r"""Return the conditions of a family in LaTeX. If ``explain`` is true, comments name the elementary
+    differentials.
 
     The first line lists the packages. The label of condition k of order n is ``FAMILY:n:k``.
 
@@ -60,7 +61,7 @@ def _comment(condition: OrderCondition, *, explain: bool) -> str:
 
 
 def _signs(diagram: Diagram) -> list[str]:
-    """Return the signs of all vertices, and the directions of all edges."""
+    """Return the signs of all vertices and the directions of all edges that occur in the drawings."""
     signs = list[str]()
     for vertex in diagram:
         signs.append(vertex.sign)
@@ -76,7 +77,7 @@ MEANINGS = {
     "transport": "a diamond is a coadjoint action on the momentum",
     "bracket": "two branches at a point are a commutator",
 }
-"""The meaning of each sign in drawings of trees that needs an explanation."""
+"""The explanations of those signs in drawings of trees that are not self-explanatory."""
 
 
 def _trees(kind: kinds.Kind | None, signs: set[str]) -> str:

@@ -1,4 +1,4 @@
-"""The legend of printed conditions: the definition of every symbol that occurs in them."""
+"""The legend of printed conditions, which defines every symbol that occurs in the conditions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from orderconds.formula.notation import LATEX
 def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     r"""Return one sentence in LaTeX that defines the coefficients in the conditions of a family.
 
-    Abscissae are defined by row sums, so the definition of a row sum also defines the coefficients in it.
+    Abscissae are defined as row sums of other coefficients. Therefore the sentence also defines the
+    coefficients in these row sums.
 
     >>> from orderconds.derivation import derive
     >>> print(legend("rk", derive("rk", order=2)).replace("; ", ";\n"))
@@ -24,7 +25,7 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
     symbols = [x for formula in formulas for x in coefficients(formula)]
     known = families.family_class(family.partition("(")[0]).symbols
     names = list(dict.fromkeys(x.name for x in symbols))
-    # A symbol that occurs only inside the definition of another one is defined, too.
+    # A symbol that occurs only inside the definition of another symbol is also defined.
     used = [name for name in known if name in names]
     inner = [name for name in known if name not in used and any(_occurs(name, known[u]) for u in used)]
     defined = [known[name] for name in used]
@@ -35,12 +36,13 @@ def legend(family: str, conditions: Iterable[OrderCondition]) -> str:
 
 
 def _range(indices: set[str]) -> str:
-    """Return a sentence on the range of sums, given the first characters of all indices."""
+    """Return a sentence that states the range of the sums. The argument contains the first character of each
+    index."""
     if any(index.isupper() for index in indices):
         return " Lower-case indices run over all stages, upper-case indices over all exponentials."
     return " Sums run over all stages." if any(index.isalpha() for index in indices) else ""
 
 
 def _occurs(name: str, definition: str) -> bool:
-    """Whether a coefficient occurs in a definition."""
+    """Return True if a coefficient occurs in the definition of another coefficient."""
     return f"{LATEX.names.get(name, name)}_" in definition.replace(r"\bar", "")

@@ -1,4 +1,4 @@
-r"""Conditions in a notebook: a table of trees and equations in HTML, and a displayed formula in LaTeX.
+r"""Conditions for a notebook: a table of trees and equations in HTML, or a displayed formula in LaTeX.
 
 Equations are LaTeX between dollar signs, which notebooks typeset with MathJax.
 """
@@ -16,14 +16,14 @@ from orderconds.formula.notation import latex_fraction
 from orderconds.typeset.legend import legend
 
 MOST = 300
-"""A table has at most this number of conditions."""
+"""The largest number of conditions in a table."""
 
 WIDE = 90
 """The largest width of a left-hand side in characters."""
 
 
 def formula(conditions: Sequence[OrderCondition]) -> str:
-    r"""Return a displayed formula with one equation on each line.
+    r"""Return a displayed LaTeX formula with one equation on each line.
 
     >>> from orderconds.derivation import derive
     >>> print(formula(derive("rk", order=2).conditions))
@@ -44,7 +44,8 @@ def _lines(condition: OrderCondition) -> str:
 
 
 def table(family: str, by_order: Sequence[Sequence[OrderCondition]]) -> str:
-    """Return a table with order, tree and equation of each condition, and the legend below it.
+    """Return a table with the order, the tree and the equation of each condition. The legend is below the
+    table.
 
     >>> from orderconds.derivation import derive
     >>> table("rk", derive("rk", order=2).by_order).count("<svg")

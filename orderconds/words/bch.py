@@ -2,9 +2,9 @@
 of words.
 
 A Lie element is determined by its coefficients at Lyndon words. A bracketed Lyndon word is equal to the word
-itself plus greater words. Hence the coordinates are computed by forward substitution within each multidegree
-(Reutenauer, Free Lie Algebras, Thm 5.1). The coefficients have a closed form (Goldberg, Duke Math. J. 23
-(1956) 13), so no exponentials or logarithms are expanded.
+itself plus greater words. Hence, for each multidegree (numbers of letters A and B), the coordinates are
+computed by forward substitution (Reutenauer, Free Lie Algebras, Thm 5.1). The coefficients have a closed form
+(Goldberg, Duke Math. J. 23 (1956) 13), so no exponentials or logarithms are expanded.
 """
 
 from __future__ import annotations
@@ -80,8 +80,8 @@ def _run_polynomial(s: int) -> UnivariatePolynomial:
 
 
 def _coordinates(words: list[str], expansions: dict[str, Expansion]) -> dict[str, Fraction]:
-    """Return the coordinates within one multidegree (fixed numbers of letters A and B). ``words`` are the
-    Lyndon words of this multidegree in ascending order."""
+    """Return the coordinates of one multidegree, that is, for fixed numbers of letters A and B. ``words`` are
+    the Lyndon words of this multidegree in ascending order."""
     coordinates: dict[str, Fraction] = {}
     of_multidegree: dict[int, list[str]] = {}
     for word in words:

@@ -1,10 +1,10 @@
-"""Convolution of functions on words, and power series of a function with respect to convolution. Each call
+"""Convolution of functions on words, and power series in which powers are convolution powers. Each call
 computes the value on one word.
 
 A function on words represents a series. The product of two functions is a sum over all divisions of the word
-into two parts, of which the first belongs to the first factor and acts first. Values are elements of any
-ring. If a function is zero on the empty word, each of its power series is a finite sum on every word. Hence
-nothing is truncated.
+into two parts. The first function is evaluated on the first part, which acts first, and the second function
+on the second part. Values are elements of any ring. If a function is zero on the empty word, each of its
+power series is a finite sum on every word. Hence nothing is truncated.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ def convolution(f: Function, g: Function, word: Word, zero: Element = Fraction(0
 def power_series(f: Function, word: Word, scales: Sequence[Element], zero: Element = Fraction(0)) -> Element:
     """Return the value on a non-empty ``word`` of sum_{m>=1} scales[m - 1] f^m.
 
-    f must vanish on the empty word and is not evaluated there. Only the first n entries of ``scales`` are
-    used for a word of n letters.
+    The value of f on the empty word must be zero; f is not evaluated on the empty word. Only the first n
+    entries of ``scales`` are used for a word of n letters.
 
     >>> letters = {("A",): Fraction(2), ("B",): Fraction(3)}
     >>> power_series(lambda word: letters.get(word, Fraction(0)), ("A", "B"), exponential_scales(2))

@@ -1,4 +1,5 @@
-"""Hall bases of free Lie algebras with any grading, and the rewriting of brackets in them.
+"""Hall bases of free Lie algebras with any grading, and the rewriting of brackets as combinations of basis
+elements.
 
 Brackets are sorted by weight; brackets of equal weight are sorted by the order of their construction. A
 bracket [x, y] of basis elements belongs to the basis iff x < y, and y is a letter or y = [y', y''] with y' <=
@@ -20,7 +21,8 @@ Coordinates = dict[Bracket, Fraction]
 class HallBasis:
     """The Hall basis of the free Lie algebra on ``letters``, up to a weight.
 
-    ``letters`` are in rising order; ``weigh`` returns the weight of a letter, a positive integer.
+    ``letters`` are in ascending order. The function ``weigh`` returns the weight of a letter, a positive
+    integer.
 
     >>> HallBasis("AB", 4).of_weight(4)
     (('A', ('A', ('A', 'B'))), ('B', ('A', ('A', 'B'))), ('B', ('B', ('A', 'B'))))
@@ -47,8 +49,8 @@ class HallBasis:
         self._known: dict[tuple[Bracket, Bracket], Coordinates] = {}
 
     def of_weight(self, n: int) -> tuple[Bracket, ...]:
-        """Return the basis elements of exactly this weight, in rising order. A bracket [x, y] is the pair (x,
-        y)."""
+        """Return the basis elements of exactly this weight, in ascending order. A bracket [x, y] is the pair
+        (x, y)."""
         return self._of_weight[n]
 
     def rewrite(self, bracket: Bracket) -> Coordinates:
@@ -115,7 +117,7 @@ class HallBasis:
         if (x, y) in self._place:
             return {(x, y): Fraction(1)}
         if (x, y) not in self._known:
-            # [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The rewriting ends, because x < u < v.
+            # [x, [u, v]] = [[x, u], v] + [u, [x, v]]. The rewriting terminates, because x < u < v.
             u, v = y
             result = self._bracket(self._pair(x, u), {v: Fraction(1)})
             _add(result, Fraction(1), self._bracket({u: Fraction(1)}, self._pair(x, v)))

@@ -26,8 +26,8 @@ S = TypeVar("S", str, Word)
 
 
 def standard_factors(word: S, key: Key | None = None) -> tuple[S, S]:
-    """Return the two parts of a Lyndon word of two or more letters; the second part is its longest proper
-    Lyndon suffix.
+    """Return the standard factors of a Lyndon word of two or more letters. The second factor is the longest
+    proper suffix that is a Lyndon word.
 
     >>> standard_factors("AABB")
     ('A', 'ABB')
@@ -78,9 +78,9 @@ def coordinates_from_values(
     """Return the coordinates of a Lie element over any ring, computed only from the values of the element on
     Lyndon words.
 
-    ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in rising
-    order. ``value`` returns the coefficient of a word, read as a product. The function does not test whether
-    the series is a Lie element.
+    ``words`` contains all Lyndon words of one weight, or all Lyndon words with the same letters, in ascending
+    order. The function ``value`` returns the coefficient of a word, where the word xy denotes the product xy.
+    The function does not test whether the series is a Lie element.
 
     >>> element = expand(("A", ("A", "B")))
     >>> coordinates_from_values(lambda word: element.get(word, Fraction(0)), [tuple("AAB"), tuple("ABB")])

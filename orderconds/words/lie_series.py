@@ -27,10 +27,10 @@ Coordinates = dict[Word, Fraction]
 
 @dataclass(frozen=True)
 class LieSeries:
-    """A Lie series: a summary, its letters in rising order, the weights of the letters, and a function for
-    its coordinates.
+    """A Lie series: a one-line description, its letters in ascending order, the weights of the letters, and a
+    function that computes its coordinates.
 
-    ``letters`` maps the largest weight to the letters of at most that weight.
+    The function ``letters`` returns all letters up to a given weight.
 
     >>> SERIES["bch"].letters(5), SERIES["magnus"].letters(3)
     (('A', 'B'), ('X1', 'X2', 'X3'))
@@ -159,8 +159,8 @@ def _numbered(weight: int) -> tuple[str, ...]:
 
 
 def _linear_in_x(expand: Callable[[int], dict[Word, Fraction]]) -> Callable[[int], Coordinates]:
-    """Return a function for the coordinates of a series of brackets ad_U^k X. The Lyndon words of this series
-    are U ... U X."""
+    """Return a function that computes the coordinates of a series of brackets ad_U^k X. The only Lyndon words
+    in this series are U ... U X."""
 
     def coordinates(weight: int) -> Coordinates:
         series = expand(weight)

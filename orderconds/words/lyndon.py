@@ -20,8 +20,8 @@ def lyndon_words(
 ) -> Iterator[tuple[Letter, ...]]:
     """Yield the Lyndon words of exactly this weight, in lexicographic order.
 
-    ``letters`` are in rising order. ``weigh`` returns the weight of a letter, a positive integer; weights
-    need not be in rising order.
+    ``letters`` are in ascending order. The function ``weigh`` returns the weight of a letter, a positive
+    integer; the weights need not be in ascending order.
 
     >>> ["".join(word) for word in lyndon_words("AB", 4)]
     ['AAAB', 'AABB', 'ABBB']
@@ -77,7 +77,7 @@ def lyndon_factors(
 
 
 def is_lyndon(word: Sequence[Letter], key: Callable[[Letter], Ordered] | None = None) -> bool:
-    """Whether a word is a Lyndon word. The empty word is not a Lyndon word.
+    """Return True if a word is a Lyndon word. The empty word is not a Lyndon word.
 
     >>> is_lyndon("AAB"), is_lyndon("ABAB")
     (True, False)

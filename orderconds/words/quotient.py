@@ -1,9 +1,9 @@
 """The linear functionals on words that vanish on a two-sided ideal of the free algebra.
 
 The values of these functionals determine an element of the quotient of the free algebra by the ideal. They
-are therefore coordinates on the group of the quotient. Modulo products of functionals of lower weight, they
-form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras, Chapters 1 and 6; Milnor and
-Moore, Ann. Math. 81 (1965) 211).
+are therefore coordinates on the group of group-like elements of the quotient. Modulo products of functionals
+of lower weight, they form the dual of the Lie algebra of the quotient (Reutenauer, Free Lie Algebras,
+Chapters 1 and 6; Milnor and Moore, Ann. Math. 81 (1965) 211).
 """
 
 from __future__ import annotations
@@ -19,7 +19,8 @@ from orderconds.words.lyndon import is_lyndon
 from orderconds.words.shuffle import Series, Word
 
 Functional = tuple[tuple[Word, int], ...]
-"""A functional: words with coprime integer coefficients. The first word is the name of the functional."""
+"""A linear functional on words, as a linear combination of words with coprime integer coefficients. The first
+word is the name of the functional."""
 
 
 def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int) -> tuple[Functional, ...]:
@@ -33,8 +34,8 @@ def orthogonal(generators: Sequence[Series], letters: Sequence[int], length: int
     """
     functionals: list[Functional] = []
     for content, words in sorted(_by_content(letters, length).items()):
-        # Pivot columns are chosen from the left. Hence the remaining columns, whose words name the
-        # functionals, are at the right.
+        # Pivot columns are chosen from the left. Hence the columns without pivot, whose words are the names
+        # of the functionals, are at the right.
         columns = sorted(words, key=lambda word: (is_lyndon(word), word))
         rows = list(_ideal(generators, letters, length, content))
         functionals += _kernel(rows, columns)

@@ -3,7 +3,7 @@
 Let a word have the Lyndon factors l_1^{i_1} ... l_k^{i_k}, l_1 > ... > l_k. The shuffle product of all
 factors, divided by i_1! ... i_k!, is this word plus smaller words (Reutenauer, Free Lie Algebras, Thm 6.1).
 For a product of exponentials, the value on a shuffle product is the product of the values on its factors.
-Hence the polynomials are also relations between the values on words.
+Hence the polynomials also express the value on a word in terms of the values on Lyndon words.
 """
 
 from __future__ import annotations

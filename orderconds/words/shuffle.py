@@ -58,7 +58,7 @@ def concatenate(
     weight: int,
     weigh: Callable[[Letter], int] = lambda a: 1,
 ) -> Series:
-    """Return the product of two series by concatenation, without words of weight above ``weight``.
+    """Return the product of two series by concatenation. Words of weight above ``weight`` are omitted.
 
     >>> concatenate({("A",): Fraction(2)}, {("B",): Fraction(3), ("B", "B"): Fraction(1)}, 2)
     {('A', 'B'): Fraction(6, 1)}

@@ -74,8 +74,10 @@ class Probe(Action):
     name = "probe"
 
     def velocity(self, d, group, x, y):
-        """Return zero."""
-        return tuple(d.rational(0) for _ in y)
+        """Return the derivative of :meth:`act` as a central difference."""
+        step = d.rational(1, 10**12)
+        ends = [self.act(d, group, tuple(sign * step * a for a in x), y) for sign in (1, -1)]
+        return tuple((a - b) / (2 * step) for a, b in zip(*ends, strict=True))
 
     def act(self, d, group, g, y):
         """Return the results of all operations."""

@@ -151,7 +151,7 @@ MALFORMED = {
     "a step with a float": (
         SPLITTING + 'step = [["T", 0.5]]\n',
         "step[1][2]: a value of type float",
-        "quote",
+        "write it in quotation marks",
     ),
     "rkn of no part": (SPLITTING + 'rkn = "W"\nstep = [["T", 1]]\n', "rkn = 'W'", "the name of the part V"),
     "unknown key of a splitting": (
@@ -277,7 +277,7 @@ def test_without_claims_the_format_names_the_family() -> None:
         ("cayley", MAGNUS + 'exponents = [{ "1" = 1 }]', "use the family 'magnus'"),
         ("fer", MAGNUS + 'exponents = [{ "1" = 1 }, { "[1,2]" = 1 }]', "last exponent"),
         ("rk", MAGNUS + 'exponents = [{ "1" = 1 }]', "is not a Runge-Kutta method"),
-        ("magnus", SPLITTING + 'step = [["T", 1]]', "cannot be read in family magnus"),
+        ("magnus", SPLITTING + 'step = [["T", 1]]', "is not a method of family magnus"),
     ],
 )
 def test_a_family_refuses_what_is_no_member_of_it(family: str, text: str, message: str) -> None:
