@@ -11,10 +11,10 @@ from fractions import Fraction
 
 from codegen.errors import SceneError
 from codegen.groups.capabilities import Coadjoint, MatrixElements, Projection, RightTrivialisation
-from codegen.groups.linear_algebra import S, Vector, invert, matmul, transposed
+from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, product, transposed
 from codegen.groups.matrix_algebra import Sparse, matrix_algebra, sparse
 from codegen.ir.domain import Domain
-from codegen.ir.vector_function import EXPANDED
+from codegen.ir.matrix_functions import EXPANDED
 
 Rows = Sequence[Sequence[int | Fraction]]
 """A rational matrix."""
@@ -66,7 +66,7 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
 
     def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
         """Return the matrix product."""
-        return matmul(g, k, self.n)
+        return product(d, g, k, self.n)
 
     def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g^-1. A group of isometries overrides this method by a transposition."""
@@ -85,7 +85,7 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
         total, term = tuple(x + y for x, y in zip(unit, a, strict=True)), a
         for k in range(2, self.algebra.nilpotency):
             factor: S = d.rational(1, k)
-            term = tuple(factor * x for x in matmul(a, term, self.n))
+            term = tuple(factor * x for x in product(d, a, term, self.n))
             total = tuple(x + y for x, y in zip(total, term, strict=True))
         return total
 
@@ -103,30 +103,40 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
         return self._exponential(d, tuple(-x for x in a))
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
-        """Return [x, y] by the structure constants."""
+        """Return [x, y], by the structure constants or by matrices, whichever is shorter."""
+        if self._has_long_brackets:
+            return self.vee(d, d.vector(f"commutator{self.n}", (*self.hat(d, x), *self.hat(d, y))))
         total: list[S] = [d.rational(0)] * self.dim
         for i, j, k, c in self.constants:
             total[k] = _added(d, total[k], c, x[i] * y[j])
         return tuple(total)
 
     def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
-        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>."""
+        """Return ad*_x mu: <ad*_x mu, y> = <mu, [x, y]>. Its matrix is [a^T, M] with a = hat(x) and the
+        matrix M of mu."""
+        if self._has_long_brackets:
+            a = transposed(self.hat(d, x), self.n)
+            return self.dual_vee(d, d.vector(f"commutator{self.n}", (*a, *self.dual_hat(d, mu))))
         total: list[S] = [d.rational(0)] * self.dim
         for i, j, k, c in self.constants:
             total[j] = _added(d, total[j], c, mu[k] * x[i])
         return tuple(total)
+
+    @property
+    def _has_long_brackets(self) -> bool:
+        return self.n >= LOOPED and len(self.constants) > self.size
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g x g^-1."""
         return self._conjugated(d, g, x, self.inverse(d, g))
 
     def _conjugated(self, d: Domain, g: Vector[S], x: Vector[S], inverse: Vector[S]) -> Vector[S]:
-        return self.vee(d, matmul(matmul(g, self.hat(d, x), self.n), inverse, self.n))
+        return self.vee(d, product(d, product(d, g, self.hat(d, x), self.n), inverse, self.n))
 
     def _dual_conjugated(self, d: Domain, g: Vector[S], mu: Vector[S], inverse: Vector[S]) -> Vector[S]:
         """Return the element of the dual with the matrix g^T M g^-T."""
-        moved = matmul(transposed(g, self.n), self.dual_hat(d, mu), self.n)
-        return self.dual_vee(d, matmul(moved, transposed(inverse, self.n), self.n))
+        moved = product(d, transposed(g, self.n), self.dual_hat(d, mu), self.n)
+        return self.dual_vee(d, product(d, moved, transposed(inverse, self.n), self.n))
 
     def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
         """Return Ad*_g mu: <Ad*_g mu, y> = <mu, Ad_g y>. With the matrix M of mu it is g^T M g^-T."""
@@ -142,7 +152,7 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
             return self._dual_series(d, x, mu)
         a: Vector[S] = tuple(-t for t in self.hat(d, x))
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, mu), self.n))
-        result = matmul(slope, self.opposite_exponential(d, a, exponential), self.n)
+        result = product(d, slope, self.opposite_exponential(d, a, exponential), self.n)
         return self.dual_vee(d, transposed(result, self.n))
 
     def _dual_series(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
@@ -165,18 +175,18 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
             return super().transport(d, x, n, mu)
         a = self.hat(d, x)
         exponential, slope = self._with_derivative(d, a, transposed(self.dual_hat(d, n), self.n))
-        moved = matmul(exponential, transposed(self.dual_hat(d, mu), self.n), self.n)
+        moved = product(d, exponential, transposed(self.dual_hat(d, mu), self.n), self.n)
         total = tuple(s + t for s, t in zip(moved, slope, strict=True))
-        result = matmul(total, self.opposite_exponential(d, a, exponential), self.n)
+        result = product(d, total, self.opposite_exponential(d, a, exponential), self.n)
         return self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return hat(x) g."""
-        return matmul(self.hat(d, x), g, self.n)
+        return product(d, self.hat(d, x), g, self.n)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return the coordinates of v g^-1."""
-        return self.vee(d, matmul(v, self.inverse(d, g), self.n))
+        return self.vee(d, product(d, v, self.inverse(d, g), self.n))
 
 
 class IsometryGroup(MatrixGroup, Projection):
@@ -204,17 +214,17 @@ class IsometryGroup(MatrixGroup, Projection):
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g (3 - J^-1 g^T J g)/2: one Newton step towards the polar factor of g."""
         half, three = d.rational(1, 2), d.rational(3)
-        gram = matmul(self.inverse(d, g), g, self.n)
+        gram = product(d, self.inverse(d, g), g, self.n)
         defect: Vector[S] = tuple(
             half * ((three - x) if k % (self.n + 1) == 0 else -x) for k, x in enumerate(gram)
         )
-        return matmul(g, defect, self.n)
+        return product(d, g, defect, self.n)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations g^-1 g = 1, where g^-1 is the transpose of the form."""
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)
-        pairs = zip(matmul(self.inverse(d, g), g, self.n), unit, strict=True)
+        pairs = zip(product(d, self.inverse(d, g), g, self.n), unit, strict=True)
         return tuple((name, x - e) for x, e in pairs)
 
 

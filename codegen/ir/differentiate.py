@@ -8,7 +8,7 @@ from collections.abc import Container, Sequence
 from codegen.ir.elementary import ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
-from codegen.ir.vector_function import component, partial
+from codegen.ir.vector_calls import component, partial
 
 
 class NotDifferentiable(ValueError):

@@ -15,7 +15,8 @@ from typing import Any, Protocol, TypeAlias
 
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
-from codegen.ir.vector_function import VectorFunction, vector_function
+from codegen.ir.vector_calls import vector_function
+from codegen.ir.vector_function import VectorFunction
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Ring
 

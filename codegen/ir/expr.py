@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.number import Number
-from codegen.ir.vector_function import component
+from codegen.ir.vector_calls import component, vector_function
 
 if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
@@ -269,8 +269,12 @@ class Space:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
+        called = vector_function(function)
+        if called is None:
+            message = f"unknown vector function {function}"
+            raise ValueError(message)
         given = tuple(args)
-        return tuple(self._make("call", given, f"{function}.{k}") for k in range(len(given)))
+        return tuple(self._make("call", given, f"{function}.{k}") for k in range(called.size))
 
 
 def _joinable(a: Expr, b: Expr) -> bool:

@@ -26,7 +26,7 @@ from typing import Any
 
 from codegen.ir.domain import Domain
 from codegen.ir.expr import Expr, power
-from codegen.ir.vector_function import vector_function
+from codegen.ir.vector_calls import vector_function
 from codegen.run.identifiers import Identifiers, identify
 from codegen.run.language import (
     RAISES_STATUS,
@@ -458,9 +458,10 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
 
-        def fill(given: Sequence[Any], results: list[Any]) -> Sequence[Any]:
+        def fill(*arrays: list[Any]) -> Sequence[Any]:
             # A domain has the same operations as the function of the unit, and is faster.
-            results[:] = domain.vector(function, given)
+            *given, results = arrays
+            results[:] = domain.vector(function, [x for array in given for x in array])
             return ()
 
         return fill

@@ -11,8 +11,8 @@ from cffi import FFI
 
 from codegen.build import build
 from codegen.ir.domain import FloatDomain, PreciseDomain
+from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.precision import DOUBLE
-from codegen.ir.vector_function import MatrixExponential, MatrixInverse
 from codegen.printers.c.functions import FunctionPrinter as InC
 from codegen.printers.c.words import RESERVED as WORDS_OF_C
 from codegen.printers.python.functions import FunctionPrinter as InPython
