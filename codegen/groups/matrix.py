@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from codegen.errors import SceneError
-from codegen.groups.capabilities import Coadjoint, MatrixElements, Projection, RightTrivialisation
-from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, product, transposed
+from codegen.groups.capabilities import Coadjoint, MatrixElements, Projection, RightTrivialisation, Rotations
+from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, matvec, product, transposed
 from codegen.groups.matrix_algebra import Sparse, matrix_algebra, sparse
 from codegen.ir.domain import Domain
 from codegen.ir.matrix_functions import EXPANDED
@@ -226,6 +226,18 @@ class IsometryGroup(MatrixGroup, Projection):
         unit: Vector[S] = self.identity(d)
         pairs = zip(product(d, self.inverse(d, g), g, self.n), unit, strict=True)
         return tuple((name, x - e) for x, e in pairs)
+
+
+class RotationGroup(IsometryGroup, Rotations):
+    """A group of orthogonal matrices: g^T g = 1."""
+
+    def __init__(self, name: str, basis: Sequence[Rows]) -> None:
+        super().__init__(name, basis)
+        self.form = tuple((i, 1) for i in range(self.n))
+
+    def rotate(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return exp(x) y."""
+        return matvec(self.exp(d, x), y)
 
 
 def _weighted(d: Domain, rows: Sequence[Sparse], values: Sequence[S]) -> Vector[S]:

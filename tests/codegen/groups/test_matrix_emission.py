@@ -91,7 +91,7 @@ MORE = [
 ]
 MORE += [
     ("hamiltonian", name, method)
-    for name in ("SO(4)", "SU(2)", "Sp(2)", "GL(2)", "Aff(1)", "H(3)")
+    for name in ("SO(4)", "SO(5)", "SU(2)", "Sp(2)", "GL(2)", "Aff(1)", "H(3)")
     for method in (
         *("rkmk:rk4", "cg:cg3", "cf:cf4", "vcg:midpoint", "vcg:triple_jump", "vrkmk:gauss2", "vcf:cf4"),
         *("slgi:midpoint", "rkmk(0):midpoint"),
