@@ -87,6 +87,7 @@ CASES = {
     "vcg2": Case("dipole", "vcg:midpoint", "dipole_vcg2", 0.01, 150_000, sweeps=True),
     "vrkmk4": Case("dipole", "vrkmk(2):gauss2", "dipole_vrkmk4", 0.01, 100_000, sweeps=True),
     "vcf4": Case("dipole", "vcf:cf4", "dipole_vcf4", 0.01, 60_000, sweeps=True),
+    "body_rkmk4": Case(str(HERE / "free_body.py"), "rkmk:rk4", "free_body_rkmk4", 0.02, 400_000),
 }
 
 
@@ -167,7 +168,7 @@ def row(case: Case, pairs: int) -> list[str]:
     ratio = statistics.median(a / b for a, b, *_ in times)
     casadi = statistics.median(c / b for _, b, c in times) if len(sides) > 2 else None
     return [
-        f"{case.method} on {case.scene}",
+        f"{case.method} on {Path(case.scene).stem}",
         *(f"{x:.1f}" for x in nanoseconds[:2]),
         f"{ratio:.3f}",
         f"{low:.3f} to {high:.3f}",

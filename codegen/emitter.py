@@ -23,6 +23,7 @@ from codegen.ir.kernel import Kernel, Loop
 from codegen.ir.precision import DOUBLE, Precision
 from codegen.ir.precision import precision as known_precision
 from codegen.ir.program import Program
+from codegen.ir.smoothness import features
 from codegen.kernel.column_choice import fastest
 from codegen.kernel.operations import STEP, step_operations
 from codegen.kernel.taylor_expansion import looped_kernel, with_step_control
@@ -42,16 +43,20 @@ from codegen.scene.momentum_frame import with_frame
 from codegen.scene.problem import TIME, Problem
 from codegen.scene.run_time import with_inputs, with_runtime
 from orderconds import __version__
+from orderconds.argument import named_as_arguments, text, texts
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
 
 SINGLE_IS = "single: constants are rounded once, implicit stages converge to single precision"
 
+NOT_SMOOTH = "the order holds for steps in which the solution crosses none of these points"
+"""A remark in the header of a scene whose field is not smooth."""
+
 COUNTED = "; the numbers of sweeps above are for double precision"
 """A remark in the header if the solvers were compared in double precision."""
 
 SWEEPS = 5
-WEIGHTS = {"div": 4, "sqrt": 5}
+WEIGHTS = {"div": 4, "sqrt": 5, "choose": 1, "fabs": 1}
 """The cost of an operation in units of one addition, by which two forms of a step are compared. Additions and
 products cost 1, and functions that are not listed cost 12."""
 
@@ -120,8 +125,9 @@ def compile_method(
     scene (:mod:`codegen.scene.classical_forms`). ``family`` chooses the family for a tableau
     (:func:`codegen.method.method_of`). Errors: SceneError, MethodError, UnknownName, TableauError.
     """
-    if isinstance(scene, str):
-        scene = scenes.load(scene)
+    scene = scenes.problem_of(scene)
+    parameters = texts(parameters, "parameters", "alpha=1/2")
+    inputs = texts(inputs, "inputs", "u")
     if parameters:
         scene = with_runtime(scene, tuple(parameters))
     if inputs:
@@ -196,14 +202,26 @@ def emit(
     """
     known_target(target)
     known_precision(precision)
-    named = {"scene": bare(scene) if isinstance(scene, str) else scene.name}
-    options = {"solver": solver, "form": form, "family": family}
-    compiled = compile_method(
-        scene, method, parameters, inputs, frame, adaptive, jacobian=jacobian, **options
-    )
+    text(prefix, "prefix", "a text")
+    problem = scenes.problem_of(scene)
+    with named_as_arguments():
+        compiled = compile_method(
+            problem,
+            method,
+            parameters,
+            inputs,
+            frame,
+            adaptive,
+            jacobian=jacobian,
+            solver=solver,
+            form=form,
+            family=text(family, "family", "a family, such as rkmk(2)"),
+        )
+    named = {"scene": bare(scene) if isinstance(scene, str) else problem.name}
     whole = isinstance(method, str) and not family
     named["method"] = bare(str(method)) if whole else compiled.method.label
-    return emit_compiled(compiled, target, prefix, named, precision=precision)
+    with named_as_arguments():
+        return emit_compiled(compiled, target, prefix, named, precision=precision)
 
 
 def emit_compiled(
@@ -330,9 +348,12 @@ def emit_kernel(
 def scene_facts(compiled: Compiled) -> tuple[tuple[str, str], ...]:
     """Return the lines of the header about the scene, and about the form of its equations."""
     form = compiled.form
+    chosen = features(compiled.scene.roots)
+    smooth = (("smooth", f"no: {chosen}; {NOT_SMOOTH}"),) if chosen else ()
     if form is None:
-        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"),)
+        return (("scene", f"{compiled.scene.title}, group {compiled.scene.group.name}"), *smooth)
     return (
+        *smooth,
         ("scene", f"{form.scene.title}, group {form.scene.group.name}"),
         ("form", f"{form.name}; {form.state}"),
         *((("to scene", form.conversion),) if form.conversion else ()),

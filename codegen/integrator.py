@@ -1,24 +1,25 @@
 """The interface of loaded modules: steps, runs, trajectories, adaptive runs and Jacobians.
 
-A state is a flat sequence of numbers, a NumPy array, or a pair such as (q, mu); a batch of states is an array
-with one state in each row (:mod:`codegen.state_form`). Results have the form of the argument.
+A state is a flat sequence of numbers, a NumPy array, or a pair (q, mu) in this order; a batch of states is an
+array with one state in each row (:mod:`codegen.state_form`). Results have the form of the argument.
 """
 
 from __future__ import annotations
 
 import math
-import operator
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
+from functools import cached_property
 from typing import Any
 
+from codegen.argument import count, described, monotone, real
 from codegen.artifact import Artifact
 from codegen.ir.kernel import FIXED_POINT, NEWTON, SIMPLIFIED_NEWTON
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
-from codegen.state_form import Batch, State, StateForm, batch_of, read
+from codegen.state_form import Batch, Fields, State, StateForm, batch_of, read
 
 Signals = Callable[[float], Sequence[float]]
 """A function from the time to the run-time inputs."""
@@ -97,7 +98,7 @@ class Begun:
         """
         if status == Status.NOT_CONVERGED:
             others = [s for s in SOLVERS if s not in self.solvers]
-            options = f", or emit with --solver {' or '.join(others)}" if others else ""
+            options = f", or emit with the solver {' or '.join(others)}" if others else ""
             reason += f"; take shorter steps{options}"
         return StepFailed(Status(status), step, self.form.restore(state), reason)
 
@@ -108,6 +109,13 @@ class Integrator(ABC):
     def __init__(self, interface: Interface, defaults: Mapping[str, float]) -> None:
         self.interface, self.defaults = interface, dict(defaults)
         self.artifact: Artifact | None = None
+
+    @cached_property
+    def fields(self) -> Fields:
+        """The names and sizes of the parts of a state, in the order of a tuple; empty if the integrator was
+        not loaded from an artifact."""
+        entries = () if self.artifact is None else self.artifact.manifest.get("state", ())
+        return tuple((entry["name"], len(entry["symbols"])) for entry in entries)
 
     @property
     def initial(self) -> list[float]:
@@ -152,7 +160,7 @@ class Integrator(ABC):
 
         ``inputs`` are the run-time inputs, in the interface's order; they are constant during the step.
         """
-        held = None if inputs is None else tuple(inputs)
+        held = None if inputs is None else _numbers(inputs)
         function = None if held is None else lambda t: held
         return self.run(state, h, 1, t, statistics, function, **parameters)
 
@@ -170,12 +178,12 @@ class Integrator(ABC):
 
         ``inputs`` is a function from the time to the run-time inputs, in the interface's order.
         """
-        if (batch := batch_of(state, self.interface.size)) is not None:
+        if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             return batch.joined(
                 [self.run(x, h, steps, t, statistics, inputs, **parameters) for x in batch.states]
             )
         begun = self._begin(state, parameters, inputs, statistics)
-        final, _ = self._call(begun, t, h, self._checked_count(steps), 0)
+        final, _ = self._call(begun, real(t, "t"), real(h, "h"), count(steps, "steps"), 0)
         return begun.form.restore(final)
 
     def trajectory(
@@ -196,7 +204,7 @@ class Integrator(ABC):
         With ``t_eval`` the result is the states at these times, in monotone order; ``t`` is the time of the
         initial state. Between two times the steps are equal, and at most as long as h.
         """
-        if (batch := batch_of(state, self.interface.size)) is not None:
+        if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             rows = [
                 self.trajectory(x, h, steps, stride, t, statistics, inputs, t_eval=t_eval, **parameters)
                 for x in batch.states
@@ -204,12 +212,11 @@ class Integrator(ABC):
             return batch.joined(rows)
         if (steps is None) is (t_eval is None):
             raise TypeError("expected either steps or t_eval")
-        if stride < 1:
-            raise ValueError(f"expected a stride of at least 1, found {stride}")
+        stride, t, h = count(stride, "stride", 1), real(t, "t"), real(h, "h")
         begun = self._begin(state, parameters, inputs, statistics)
         if t_eval is not None:
             return begun.form.restore(self._sampled(begun, t, h, t_eval))
-        _, states = self._call(begun, t, h, self._checked_count(steps or 0), stride)
+        _, states = self._call(begun, t, h, count(steps, "steps"), stride)
         return begun.form.restore(states)
 
     def _sampled(self, begun: Begun, t: float, h: float, times: Sequence[float]) -> list[Sequence[float]]:
@@ -217,9 +224,12 @@ class Integrator(ABC):
         if not math.isfinite(h) or h == 0:
             raise ValueError(f"expected a step size, found {h}")
         rows: list[Sequence[float]] = []
-        for time in _monotone(t, times):
+        for time in monotone(t, times):
             # A quotient such as 0.3/0.1 is not an integer because of rounding.
-            steps = math.ceil(abs((time - t) / h) * (1 - 1e-12))
+            quotient = abs((time - t) / h) * (1 - 1e-12)
+            if not math.isfinite(quotient):
+                raise ValueError(f"expected a longer step size, found {h}")
+            steps = count(math.ceil(quotient), "steps")
             if steps:
                 final, _ = self._call(begun, t, (time - t) / steps, steps, 0)
                 begun = replace(begun, numbers=list(final))
@@ -248,30 +258,34 @@ class Integrator(ABC):
         is by default the last of them. A batch is integrated state by state; the result has an array of
         states and the counts of all steps.
 
-        TypeError is raised for a module without an error estimate (``emit --adaptive``). StepFailed is raised
-        if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not reach the
-        end.
+        TypeError is raised for a module without an error estimate (``emit(..., adaptive=True)``). StepFailed
+        is raised if a step fails. It is also raised, with the status ``LIMIT``, if ``limit`` steps do not
+        reach the end.
         """
         if not self.interface.adaptive:
-            raise TypeError("this module has no adaptive run; emit it with --adaptive")
-        times = None if t_eval is None else _monotone(t, t_eval)
+            raise TypeError("this module has no adaptive run; emit it with adaptive=True")
+        t, h, limit = real(t, "t"), real(h, "h"), count(limit, "limit")
+        times = None if t_eval is None else monotone(t, t_eval)
         if end is None:
             if not times:
                 raise TypeError("expected end, the time at which the run ends")
             end = times[-1]
-        if (batch := batch_of(state, self.interface.size)) is not None:
+        end = real(end, "end")
+        if times and (end - times[-1]) * (times[-1] - t) < 0:
+            raise ValueError(f"expected an end that is not before the last time in t_eval, found {end}")
+        if (batch := batch_of(state, self.interface.size, self.fields)) is not None:
             options = {"rtol": rtol, "atol": atol, "limit": limit, "statistics": statistics}
             arrivals = [
                 self.adaptive(x, t, end, h, inputs=inputs, t_eval=t_eval, **options, **parameters)  # type: ignore[arg-type]
                 for x in batch.states
             ]
             return _joined(arrivals, batch)
-        tolerances = (float(rtol), float(atol))
+        tolerances = (real(rtol, "rtol"), real(atol, "atol"))
         begun = self._begin(state, parameters, inputs, statistics)
         if times is None:
-            arrival = self._adapt(begun, (float(t), float(end), float(h)), tolerances, operator.index(limit))
+            arrival = self._adapt(begun, (t, end, h), tolerances, limit)
             return replace(arrival, state=begun.form.restore(arrival.state))
-        return self._adapt_through(begun, t, [*times, float(end)], h, tolerances, operator.index(limit))
+        return self._adapt_through(begun, t, [*times, end], h, tolerances, limit)
 
     def _adapt_through(
         self,
@@ -306,17 +320,17 @@ class Integrator(ABC):
         """Return the derivative of one step with respect to the state. The header of the emitted module
         describes its rows and columns.
 
-        TypeError is raised for a module without a Jacobian (``emit --jacobian``), StepFailed if the step
-        fails.
+        TypeError is raised for a module without a Jacobian (``emit(..., jacobian=True)``), StepFailed if the
+        step fails.
         """
         if not self.interface.variations:
-            raise TypeError("this module has no derivative of its step; emit it with --jacobian")
+            raise TypeError("this module has no derivative of its step; emit it with jacobian=True")
         if bool(self.interface.inputs) != (inputs is not None):
             raise TypeError(f"expected values for {', '.join(self.interface.inputs) or 'no inputs'}")
-        held = None if inputs is None else [float(x) for x in inputs]
-        form, numbers = read(state, self.interface.size)
+        held = None if inputs is None else list(_numbers(inputs))
+        form, numbers = read(state, self.interface.size, self.fields)
         begun = Begun(form, numbers, self._values(parameters), solvers=self.interface.solvers)
-        return form.matrix(self._derive(begun, t, h, held))
+        return form.matrix(self._derive(begun, real(t, "t"), real(h, "h"), held))
 
     def _begin(
         self,
@@ -330,7 +344,11 @@ class Integrator(ABC):
         names = self.interface.inputs
         if bool(names) != (inputs is not None):
             raise TypeError(f"expected {'a function for ' + ', '.join(names) if names else 'no inputs'}")
-        form, numbers = read(state, self.interface.size)
+        if inputs is not None and not callable(inputs):
+            raise TypeError(f"expected a function of the time for inputs, found {described(inputs)}")
+        if statistics is not None and not isinstance(statistics, Statistics):
+            raise TypeError(f"expected Statistics for statistics, found {described(statistics)}")
+        form, numbers = read(state, self.interface.size, self.fields)
         return Begun(
             form,
             numbers,
@@ -339,12 +357,6 @@ class Integrator(ABC):
             statistics,
             self.interface.solvers,
         )
-
-    def _checked_count(self, steps: int) -> int:
-        count = operator.index(steps)
-        if count < 0:
-            raise ValueError(f"expected no negative number of steps, found {steps}")
-        return count
 
     def _values(self, parameters: Mapping[str, float]) -> list[float]:
         known = self.interface.parameters
@@ -355,7 +367,7 @@ class Integrator(ABC):
         for name in known:
             if name not in values:
                 raise TypeError(f"the parameter {name} has no value")
-        return [float(values[name]) for name in known]
+        return [real(values[name], name) for name in known]
 
     def _count(self, counts: Any, statistics: Statistics | None) -> None:
         """Add the counts that emitted code has returned to the caller's statistics."""
@@ -383,13 +395,11 @@ class Integrator(ABC):
         """Run with step control; ``span`` is (t, end, h)."""
 
 
-def _monotone(t: float, times: Sequence[float]) -> list[float]:
-    """Return times as floats; ValueError unless they increase or decrease from t."""
-    given = [float(x) for x in times]
-    steps = [b - a for a, b in zip([t, *given], given, strict=False)]
-    if not all(x >= 0 for x in steps) and not all(x <= 0 for x in steps):
-        raise ValueError(f"expected times in t_eval that increase or decrease from t = {t}")
-    return given
+def _numbers(inputs: object) -> tuple[float, ...]:
+    """Return the values of run-time inputs that are constant during a step."""
+    if isinstance(inputs, str) or not isinstance(inputs, Iterable):
+        raise TypeError(f"expected a sequence of numbers for inputs, found {described(inputs)}")
+    return tuple(real(x, "inputs") for x in inputs)
 
 
 def _joined(arrivals: Sequence[Arrival], batch: Batch) -> Arrival:

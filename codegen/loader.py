@@ -6,6 +6,7 @@ A target names the function that loads its modules (:attr:`codegen.printers.Targ
 from __future__ import annotations
 
 from collections.abc import Mapping
+from os import PathLike
 from pathlib import Path
 
 from codegen.artifact import Artifact, read
@@ -15,16 +16,21 @@ from codegen.integrator import Integrator
 from codegen.interpreted_integrator import InterpretedIntegrator
 from codegen.printers import target as known_target
 from codegen.printers.interface import Interface
+from orderconds.argument import described
 from orderconds.errors import InputError
 
 
-def load(source: Artifact | str | Path, module: str = "", target: str = "") -> Integrator:
+def load(source: Artifact | str | PathLike[str], module: str = "", target: str = "") -> Integrator:
     """Return the integrator of an artifact, or of a module in a folder with a manifest.
 
     ``module`` and ``target`` choose a module if the folder has several. C code is compiled, or a compiled
     file is read from the cache. Errors: CompilerMissing, CompileError, and InputError for a folder without
     such a module.
     """
+    if not isinstance(source, Artifact | str | PathLike):
+        raise InputError(
+            described(source), where="load", expected="an emitted module, or the folder that contains it"
+        )
     artifact = source if isinstance(source, Artifact) else read(Path(source), module, target)
     try:
         interface = Interface.from_json(artifact.manifest["interface"])

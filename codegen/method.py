@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from codegen.errors import MethodError
 from codegen.ir.number import Number
+from orderconds.argument import described
 from orderconds.families import Family, family_class, get, names
 from orderconds.families.base import all_nonzero
 from orderconds.ring import QQ
@@ -263,10 +264,17 @@ def method_of(given: Method | Tableau | str, families: Sequence[str], family: st
         return given
     if isinstance(given, str):
         return parse(f"{family}:{given}" if family else given, families)
+    if not isinstance(given, Tableau):
+        raise MethodError(
+            described(given), where="method", expected="a Tableau, or a text such as cf4 or vcg:triple_jump"
+        )
     label = f"{family}:{given.name}" if family else given.name
     if not given.claims.orders:
         given = replace(given, claims=replace(given.claims, orders=tuple(_computed(given, family))))
-    return _method(PATTERN.fullmatch(label), _enclosed(given), label, families)
+    match = PATTERN.fullmatch(label)
+    if match is None or (family and match["family"] is None):
+        raise MethodError(f"{family!r}", where="family", expected="a family, such as cg or rkmk(2)")
+    return _method(match, _enclosed(given), label, families)
 
 
 def _computed(tableau: Tableau, family: str) -> Iterator[OrderClaim]:

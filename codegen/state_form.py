@@ -4,6 +4,9 @@ A compiled step reads and writes one flat list of numbers. A :class:`StateForm` 
 the state, and writes results in the same form: lists for lists, arrays for arrays, tuples for tuples. In a
 tuple, each part may have its own shape, such as a 3 x 3 matrix q and a vector mu; matrices are flattened by
 rows. A batch is an array with a state in each row, or a tuple of such arrays.
+
+The parts of a tuple are in the order of the manifest's entry ``state``, for T*G (q, mu). The sizes of the
+parts are compared with the sizes of these fields. Parts of equal sizes in the wrong order cannot be detected.
 """
 
 from __future__ import annotations
@@ -11,10 +14,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any
+
+from codegen.argument import described, real
 
 State = Any
 """A sequence of floats, a NumPy array, or a tuple of these."""
+
+Fields = tuple[tuple[str, int], ...]
+"""The names and sizes of the parts of a state, in order; empty if they are unknown."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +42,8 @@ class StateForm:
         import numpy as np
 
         table = np.array(values, dtype=float)
+        if not table.size:  # no rows
+            table = np.empty((0, sum(map(math.prod, self.shapes))))
         rows, parts, start = table.shape[:-1], [], 0
         for shape, array in zip(self.shapes, self.arrays, strict=True):
             end = start + math.prod(shape)
@@ -50,23 +61,59 @@ class StateForm:
         return np.array(rows, dtype=float)
 
 
-def read(state: State, size: int) -> tuple[StateForm, list[float]]:
-    """Return the form of a state and its numbers; ValueError unless it has ``size`` real numbers.
+def read(state: State, size: int, fields: Fields = ()) -> tuple[StateForm, list[float]]:
+    """Return the form of a state and its numbers.
+
+    ValueError is raised unless the state has ``size`` real numbers, and unless each part of a tuple has the
+    size of its field, or of several consecutive fields.
 
     >>> form, numbers = read(([[1, 0], [0, 1]], [2, 3]), 6)
     >>> numbers, form.restore(numbers)
     ([1.0, 0.0, 0.0, 1.0, 2.0, 3.0], ([[1.0, 0.0], [0.0, 1.0]], [2.0, 3.0]))
+    >>> read(([2, 3], [[1, 0], [0, 1]]), 6, (("q", 4), ("mu", 2)))
+    Traceback (most recent call last):
+    ValueError: expected the parts (q, mu) of 4 and 2 numbers in state, found parts of 2 and 4 numbers; \
+write the parts in this order
     """
     is_tuple = isinstance(state, tuple) and any(map(_has_entries, state))
     parts = tuple(state) if is_tuple else (state,)
-    shapes, numbers = [], []
+    shapes, numbers, sizes = [], [], []
     for part in parts:
         shape, entries = _flat(part)
         shapes.append(shape)
+        sizes.append(len(entries))
         numbers += entries
+    if is_tuple:
+        _require_fields(sizes, fields)
     if len(numbers) != size:
-        raise ValueError(f"expected {size} numbers in state, found {len(numbers)}")
+        raise ValueError(f"expected {size} numbers in state, found {len(numbers)}{_fields_text(fields)}")
     return StateForm(tuple(shapes), is_tuple, tuple(map(_is_array, parts))), numbers
+
+
+def _require_fields(sizes: Sequence[int], fields: Fields) -> None:
+    """Raise ValueError unless each part has the size of one field or of several consecutive fields.
+
+    A state with one field may be a tuple of any parts, such as the rows of a matrix.
+    """
+    if len(fields) < 2 or sum(sizes) != sum(size for _, size in fields):
+        return
+    ends = set(accumulate(size for _, size in fields))
+    if not ends.issuperset(accumulate(sizes)):
+        names, known = ", ".join(name for name, _ in fields), _listed([size for _, size in fields])
+        raise ValueError(
+            f"expected the parts ({names}) of {known} numbers in state, found parts of {_listed(sizes)} "
+            "numbers; write the parts in this order"
+        )
+
+
+def _listed(sizes: Sequence[int]) -> str:
+    *first, last = map(str, sizes)
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _fields_text(fields: Fields) -> str:
+    """Return the names and sizes of the fields for a message."""
+    return f"; a state is {', '.join(f'{name} ({size} numbers)' for name, size in fields)}" if fields else ""
 
 
 @dataclass(frozen=True)
@@ -84,8 +131,9 @@ class Batch:
         return np.array(results)
 
 
-def batch_of(state: State, size: int) -> Batch | None:
-    """Return the states of a batch; None for a single state.
+def batch_of(state: State, size: int, fields: Fields = ()) -> Batch | None:
+    """Return the states of a batch; None for a single state. ValueError is raised for a tuple whose parts
+    have the wrong sizes, as in :func:`read`.
 
     >>> batch_of([[1, 0, 0], [0, 1, 0]], 3).states
     ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
@@ -108,6 +156,7 @@ def batch_of(state: State, size: int) -> Batch | None:
     if sum(table.size for table in tables) != count * size or not count:
         return None
     if is_tuple:
+        _require_fields([table.size // count for table in tables], fields)
         return Batch(tuple(zip(*tables, strict=True)))
     array = _is_array(state)
     return Batch(tuple(row if array else row.tolist() for row in tables[0]))
@@ -137,16 +186,23 @@ def _flat(part: Any) -> tuple[tuple[int, ...], list[float]]:
     try:
         table = np.asarray(part)
     except ValueError:
-        raise ValueError("expected rows of equal lengths in state, found rows of different lengths") from None
+        raise ValueError(
+            "expected rows of equal lengths in state, found rows of different lengths; write parts of "
+            "different shapes as a tuple"
+        ) from None
     if table.dtype.kind not in "fiub":
         raise ValueError(f"expected real numbers in state, found an array of type {table.dtype}")
     return table.shape, [float(x) for x in table.ravel()]
 
 
-def _real(x: Any) -> float:
-    if isinstance(x, complex):
-        raise ValueError(f"expected real numbers in state, found {x}")
-    return float(x)
+def _real(x: object) -> float:
+    try:
+        return real(x, "state")
+    except (TypeError, OverflowError):
+        raise ValueError(
+            f"expected real numbers in state, found {described(x)}; write a list, a NumPy array, or a tuple "
+            "of these"
+        ) from None
 
 
 def _is_array(part: object) -> bool:

@@ -8,6 +8,7 @@ from itertools import chain
 from typing import overload
 
 from orderconds import families
+from orderconds.argument import CONDITION_ORDER, EXPANDED_STAGES, integer
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 
@@ -106,8 +107,9 @@ def derive(
     in ``"rkmk(1)"``.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown family and
-    :class:`~orderconds.errors.InputError` for an order below 1, or above the highest order for which the
-    family has conditions.
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 20, above the highest
+    order for which the family has conditions, or with too many trees, and for stages that are not an integer
+    from 1 to 12.
 
     >>> derivation = derive("rk", order=3)
     >>> derivation.counts
@@ -117,13 +119,16 @@ def derive(
     >>> print(derive("rk", order=2, stages=2, explicit=True)[1])
     b_2 a_21 = 1/2
     """
+    from orderconds.explain.kinds import refuse_too_many_trees
+
     if explicit and stages is None:
         raise InputError(
             "explicit has no effect without stages", where="derive", expected="a number of stages"
         )
+    order = integer(order, "order", CONDITION_ORDER)
+    stages = None if stages is None else integer(stages, "stages", EXPANDED_STAGES)
     chosen = families.get(family, **options)
-    if order < 1:
-        raise InputError(f"order {order}", where="derive", expected="an order of at least 1")
+    refuse_too_many_trees(chosen, order)
     conditions = chosen.all_conditions if every else chosen.essential_conditions
     by_order = tuple(conditions(n) for n in range(1, order + 1))
     derivation = Derivation(chosen.label(), order, by_order, "" if every else chosen.remark(order))

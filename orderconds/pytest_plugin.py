@@ -59,7 +59,8 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
         or not _asked(file_path, config)
     ):
         return None
-    reason = reason_to_skip(file_path)
+    strict = bool(config.getoption("--orderconds-require-claims"))
+    reason = reason_to_skip(file_path, strict=strict)
     if reason and not (parent.session.isinitpath(file_path) and file_path.suffix != ".py"):
         config.stash.setdefault(SKIPPED, {})[str(file_path)] = reason
         return None
@@ -73,7 +74,10 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
         return None
     from orderconds.exchange.folder import reason_to_skip
 
-    return None if reason_to_skip(module_path) else NoTests.from_parent(parent, path=module_path)
+    strict = bool(parent.config.getoption("--orderconds-require-claims"))
+    return (
+        None if reason_to_skip(module_path, strict=strict) else NoTests.from_parent(parent, path=module_path)
+    )
 
 
 def _asked(path: Path, config: pytest.Config) -> bool:

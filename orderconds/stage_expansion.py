@@ -73,7 +73,7 @@ def _refuse_more_terms(derivation: Derivation, terms: int, most: int) -> None:
             f"the conditions have {'about ' * (most == MAX_COMPUTED)}{terms} terms",
             where=derivation.family,
             expected=f"at most {most}",
-            hint="lower --order or --stages",
+            hint="lower the order or the number of stages",
         )
 
 

@@ -18,9 +18,14 @@ from codegen.groups import (
     GL,
     S3,
     SE2,
+    SE3,
+    SE23,
     SL2,
+    SO2,
     SO3,
+    SU2,
     Cotangent,
+    Galilean,
     LeftMultiplication,
     LieGroup,
     Linear,
@@ -29,9 +34,11 @@ from codegen.groups import (
     Product,
     Rn,
     Rotation,
+    Semidirect,
 )
 from codegen.groups.capabilities import Coadjoint
 from codegen.groups.linear_algebra import invert
+from codegen.groups.representations import MatrixColumns
 from codegen.ir.domain import FloatDomain, PreciseDomain, SeriesDomain
 from codegen.ir.interpret import interpret
 from codegen.lower import lower, problem_for
@@ -62,6 +69,13 @@ GROUPS: dict[str, LieGroup] = {
     "SE(2)": SE2(),
     "SL(2)": SL2(),
     "SO(3) x R^2": Product(SO3(), Rn(2)),
+    "SO(2)": SO2(),
+    "SU(2)": SU2(),
+    "SE(3)": SE3(),
+    "SE(3) over SU(2)": SE3(SU2()),
+    "SE_2(3)": SE23(),
+    "Gal(3)": Galilean(),
+    "affine": Semidirect(GL(2), MatrixColumns(), "affine"),
 }
 """The groups that tests draw from."""
 BASE_GROUPS: dict[str, Any] = {name: group for name, group in GROUPS.items() if group.offers(Coadjoint)}
@@ -153,6 +167,13 @@ def inverse(group: Any, d: Any, g: tuple[Any, ...]) -> tuple[Any, ...]:
         return tuple(x for factor, own in pairs for x in inverse(factor, d, own))
     if isinstance(group, S3):
         return (g[0], *(-x for x in g[1:]))
+    if isinstance(group, Semidirect):
+        q, a = g[: group.linear.size], g[group.linear.size :]
+        back = inverse(group.linear, d, q)
+        moved = group.move(d, back + tuple(x * 0 for x in a), a)
+        return back + tuple(-x for x in moved)
+    if isinstance(group, SO2):
+        return (g[0], -g[1])
     if isinstance(group, SE2):
         c, s, a, b = g
         return (c, -s, -(c * a + s * b), s * a - c * b)

@@ -178,6 +178,11 @@ def slope(k: int, z: Real) -> Taylor:
     return (k * stumpff(k + 2, z) - stumpff(k + 1, z)) / 2
 
 
+def curvature(k: int, z: Real) -> Taylor:
+    """Return the second derivative of c_k."""
+    return (k * (k + 2) * stumpff(k + 4, z) - (2 * k + 1) * stumpff(k + 3, z) + stumpff(k + 2, z)) / 4
+
+
 def quotient(a: Real, b: Real) -> Taylor:
     """Return a/b, and 0 where b vanishes."""
     return Taylor.of(a) / b if Taylor.of(b) else Taylor.of(0)
@@ -216,7 +221,9 @@ class TaylorDomain:
             return ELEMENTARY[function](args[0])
         if function == "quotient":
             return quotient(*args)
-        return (slope if function.startswith("slope") else stumpff)(int(function[-1]), args[0])
+        if "curvature" in function:
+            return curvature(int(function[-1]), args[0])
+        return (slope if "slope" in function else stumpff)(int(function[-1]), args[0])
 
     def settled(self, old: Sequence[Taylor], new: Sequence[Taylor], previous: int | None) -> tuple[bool, int]:
         """Return whether the last change is a rounding error, and the number of sweeps so far."""

@@ -57,6 +57,7 @@ SLOW = [
     ("converge", "dipole --method vcg:midpoint --steps 10,20,40"),
     ("converge", "--protocol strict --method cf4"),
     ("localerror", "free_rigid_body --method cf:cf4"),
+    ("localerror", "dipole --method cf:cf4"),
     ("bench", "free_rigid_body --method cf:cf4 --adaptive ambient:dop853 --against c --budget 0.001"),
     ("longrun", "dipole --method vcg:midpoint --steps 400"),
     ("stability", "driven_spin --method cf:cf4 --quick"),

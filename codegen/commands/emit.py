@@ -108,6 +108,8 @@ def command(
         scene, method, parameters, inputs, frame, adaptive, solver=solver, jacobian=jacobian, form=form
     )
     _warn(compiled, scene, method)
+    if chosen := family_note(compiled, method):
+        click.echo(f"note: {chosen}", err=True)
     named = {"scene": bare(scene), "method": bare(method)}
     records: list[dict[str, object]] = []
     if explain and not as_json:
@@ -115,7 +117,7 @@ def command(
     for name in targets or (DEFAULT,):
         artifact = emit_compiled(compiled, name, prefix, named, precision=precision)
         paths = [str(path) for path in artifact.write(output)] if output is not None else []
-        records.append({**artifact.manifest, "paths": paths})
+        records.append({**artifact.manifest, "family_chosen": bool(chosen), "paths": paths})
         if not as_json:
             for path in paths:
                 click.echo(path)
@@ -135,6 +137,28 @@ def explained(compiled: Compiled) -> dict[str, object]:
         "functions": functions_of(compiled),
         "compared": [list(choice.compared) for choice in compiled.solvers],
     }
+
+
+def family_note(compiled: Compiled, method: str) -> str:
+    """Return which family was chosen for a tableau without family on a Hamiltonian scene; otherwise ''.
+
+    On such a scene, families differ in what they preserve.
+    """
+    from codegen.lower import families_for
+    from codegen.method import PATTERN
+    from orderconds.families import family_class
+
+    match = PATTERN.fullmatch(method.strip())
+    if not compiled.scene.is_hamiltonian or not compiled.method.name or match is None or match["family"]:
+        return ""
+    formats = compiled.method.tableau.family
+    others = [
+        family
+        for family in families_for(compiled.scene)
+        if family != compiled.method.family and formats in family_class(family).formats
+    ]
+    other = f"; another family is {others[0]}:{compiled.method.name}" if others else ""
+    return f"{method.strip()} names no family, and is emitted as {compiled.method.label}{other}"
 
 
 def _warn(compiled: Compiled, scene: str, method: str) -> None:

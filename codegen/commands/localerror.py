@@ -11,7 +11,7 @@ from orderconds.commands.screen import counting, is_shown, print_json, print_tab
 from orderconds.commands.variadic import Variadic
 
 if TYPE_CHECKING:
-    from codegen.lab.orders.exact_order import ExactLocalError
+    from codegen.lab.orders.exact_order import ExactLocalError, NotExact
 
 
 @click.command("localerror", cls=Variadic, short_help="Compute the exact order of emitted steps.")
@@ -25,7 +25,7 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     The step program runs over power series in h with exact coefficients and is compared with the Taylor
     series of the solution. The field must be a rational function of the coordinates. Initial coordinates
     that are not rational are replaced by nearby rational numbers. The exit status is 1 if the exact order is
-    below the order that the order conditions state.
+    below the order that the order conditions state, or undecided because there are no exact coefficients.
 
     \b
     Examples:
@@ -33,14 +33,14 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     """
     from codegen import scenes
     from codegen.lab.default_methods import methods_for
-    from codegen.lab.orders.exact_order import exact_local_error
+    from codegen.lab.orders.exact_order import local_error_or_reason
 
     problem = scenes.load(scenes.with_values(scene, parameters))
     errors = []
     chosen = methods_for(problem, methods)
     with counting("local errors", total=len(chosen)) as done:
         for method in chosen:
-            errors.append(exact_local_error(problem, method))
+            errors.append(local_error_or_reason(problem, method))
             done(method.label)
     if as_json:
         print_json([result.as_json() for result in errors])
@@ -51,12 +51,14 @@ def command(scene: str, methods: tuple[str, ...], parameters: tuple[str, ...], a
     return 0 if all(result.verdict == "holds" for result in errors) else 1
 
 
-def show(result: ExactLocalError, first: bool) -> None:
-    """Print the leading coefficients as a table with the verdict below it."""
+def show(result: ExactLocalError | NotExact, first: bool) -> None:
+    """Print the leading coefficients and the verdict, or the reason why there are none."""
+    from codegen.lab.orders.exact_order import ExactLocalError
+
     if not first:
         click.echo()
     click.echo(f"{result.method} on {result.scene}")
-    if not result.vanishes:
+    if isinstance(result, ExactLocalError) and not result.vanishes:
         power = f"coefficient of h^{result.order + 1}"
         rows = [list(row) for row in zip(result.symbols, result.start, result.coefficients, strict=True)]
         print_table(["coordinate", "initial value", power], rows, indent=2)

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from codegen.lab.efficiency.recommend import Recommendation, Request
 
 
+NOTICED = 0.1
+"""The least part of the budget that is stated if the reference solution takes it."""
+
+
 @click.command("recommend", short_help="Find the fastest method for a scene and an error.")
 @scene_argument()
 @values_option
@@ -28,7 +32,9 @@ if TYPE_CHECKING:
 )
 @click.option("--stack", type=click.IntRange(1), help="The largest stack of a call, in bytes.")
 @click.option("--span", metavar="A:B", help="The interval of time; by default that of the scene.")
-@click.option("--budget", type=float, help="Seconds that the search may take; by default 50.")
+@click.option(
+    "--budget", type=float, help="Seconds for the reference solution and the search; by default 50."
+)
 @click.option(
     "--tableau", "tableaux", multiple=True, help="Search these tableaux only; by default the whole library."
 )
@@ -116,7 +122,14 @@ def control(asked: Request, place: Result) -> str:
 def searched(result: Recommendation) -> str:
     """Return a sentence on the extent of the search."""
     text = f"{result.predicted} methods predicted, {result.raced} raced in {result.seconds:.0f} s"
+    if result.kinks:
+        text += (
+            f"; the solution crosses {result.kinks} points where the field is not smooth, so the order of a "
+        )
+        text += "method is lost there: errors were measured, but other spans may need other steps"
     text += "" if result.complete else "; the budget ended the search, --budget S allows more"
+    if result.referred >= NOTICED:
+        text += f"; the reference solution took {result.referred:.0%} of the budget"
     return text + "".join(f"; {label} loses a conserved quantity in a long run" for label in result.lost)
 
 

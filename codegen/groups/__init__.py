@@ -18,17 +18,23 @@ if TYPE_CHECKING:
     from codegen.groups.affine import Affine
     from codegen.groups.base import LieGroup
     from codegen.groups.cotangent import Cotangent
+    from codegen.groups.galilean import Galilean
     from codegen.groups.gl import GL
     from codegen.groups.matrix import MatrixGroup
     from codegen.groups.product import Product
     from codegen.groups.rn import Rn
     from codegen.groups.s3 import S3
     from codegen.groups.se2 import SE2
+    from codegen.groups.se3 import SE3
+    from codegen.groups.se23 import SE23
+    from codegen.groups.semidirect import Semidirect
     from codegen.groups.sl import SL
     from codegen.groups.sl2 import SL2
     from codegen.groups.so import SO
+    from codegen.groups.so2 import SO2
     from codegen.groups.so3 import SO3
     from codegen.groups.sp import Sp
+    from codegen.groups.su2 import SU2
     from codegen.groups.unitary import SU, Unitary
     from codegen.groups.unitriangular import Heisenberg, Unitriangular
 
@@ -36,14 +42,19 @@ __all__ = [
     "GL",
     "S3",
     "SE2",
+    "SE3",
+    "SE23",
     "SL",
     "SL2",
     "SO",
+    "SO2",
     "SO3",
     "SU",
+    "SU2",
     "Action",
     "Affine",
     "Cotangent",
+    "Galilean",
     "Heisenberg",
     "LeftMultiplication",
     "LieGroup",
@@ -53,6 +64,7 @@ __all__ = [
     "Product",
     "Rn",
     "Rotation",
+    "Semidirect",
     "Sp",
     "Unitary",
     "Unitriangular",
@@ -65,6 +77,7 @@ __all__ = [
 LISTED = (
     "Affine",
     "Cotangent",
+    "Galilean",
     "GL",
     "Heisenberg",
     "MatrixGroup",
@@ -72,12 +85,17 @@ LISTED = (
     "Rn",
     "S3",
     "SE2",
+    "SE23",
+    "SE3",
+    "Semidirect",
     "SL",
     "SL2",
     "SO",
+    "SO2",
     "SO3",
     "Sp",
     "SU",
+    "SU2",
     "Unitary",
     "Unitriangular",
 )
@@ -88,15 +106,21 @@ lazy(
     affine=("Affine",),
     base=("LieGroup",),
     cotangent=("Cotangent",),
+    galilean=("Galilean",),
     gl=("GL",),
     matrix=("MatrixGroup",),
     product=("Product",),
     rn=("Rn",),
     s3=("S3",),
     se2=("SE2",),
+    se23=("SE23",),
+    se3=("SE3",),
+    semidirect=("Semidirect",),
     sl2=("SL2",),
-    sl=("SL",),
+    so2=("SO2",),
     so3=("SO3",),
+    su2=("SU2",),
+    sl=("SL",),
     so=("SO",),
     sp=("Sp",),
     unitary=("SU", "Unitary"),

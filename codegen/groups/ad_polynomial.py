@@ -1,8 +1,8 @@
 """Functions of ad_x as quadratic polynomials in ad_x, on a Lie algebra with ad_x^3 = -z ad_x.
 
 On such an algebra each function of ad_x, each product of functions and each inverse is 1 + b ad_x + c ad_x^2,
-where b and c are functions of z. On so(3), z = x.x. The Stumpff functions c_k of z give the coefficients of
-exponentials.
+where b and c are functions of z. On so(3), z = x.x. On sl(2), z = 4 det x has either sign. The Stumpff
+functions c_k of z give the coefficients of exponentials.
 """
 
 from __future__ import annotations
@@ -16,8 +16,10 @@ from codegen.ir.ad_series import Factor
 from codegen.ir.domain import Domain
 
 
-def ad_polynomial(d: Domain, word: Sequence[Factor], z: S) -> tuple[S, S]:
+def ad_polynomial(d: Domain, word: Sequence[Factor], z: S, *, signed: bool = False) -> tuple[S, S]:
     """Return b and c such that the product of the word's functions of t is 1 + b t + c t^2, where t^3 = -z t.
+
+    If ``signed`` is true, z may be negative.
 
     The product exp(a t) dexp(s t) is formed directly, as (exp((a + s) t) - exp(a t))/(s t). Other factors are
     multiplied one after the other.
@@ -30,20 +32,28 @@ def ad_polynomial(d: Domain, word: Sequence[Factor], z: S) -> tuple[S, S]:
     if differences:
         first, *more = differences
         ends = [(shift + first.scale, 1 / first.scale), (shift, -1 / first.scale)]
-        total = _exponentials(d, [(k, r) for k, r in ends if k], 1, z)
+        total = _exponentials(d, [(k, r) for k, r in ends if k], 1, z, signed)
         rest = [*more, *rest]
     elif shift:
-        total = _exponentials(d, [(shift, Fraction(1))], 0, z)
+        total = _exponentials(d, [(shift, Fraction(1))], 0, z, signed)
     for factor in rest:
-        b, c = _inverted(d, *_single(d, factor, z), z) if factor.power < 0 else _single(d, factor, z)
+        if signed and factor.function == "dexp" and factor.power < 0:
+            b, c = _inverse_dexp(d, factor.scale, z)
+        else:
+            b, c = _single(d, factor, z, signed)
+            if factor.power < 0:
+                b, c = _inverted(d, b, c, z)
         e, f = total
         total = (e + b - z * (e * c + f * b), f + c + e * b - z * (f * c))
     return total
 
 
-def _exponentials(d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S) -> tuple[S, S]:
+def _exponentials(
+    d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int, z: S, signed: bool
+) -> tuple[S, S]:
     """Return b and c of the sum of r exp(k t)/t^j over the pairs (k, r) in ``terms``."""
     sums = []
+    name = "signed_stumpff" if signed else "stumpff"
     for power in (1 + j, 2 + j):
         weights: dict[Fraction, Fraction] = {}
         for k, r in terms:
@@ -53,17 +63,17 @@ def _exponentials(d: Domain, terms: Sequence[tuple[Fraction, Fraction]], j: int,
             if weight:
                 argument = z if square == 1 else d.rational(square.numerator, square.denominator) * z
                 value = value + d.rational(weight.numerator, weight.denominator) * d.call(
-                    f"stumpff{power}", argument
+                    f"{name}{power}", argument
                 )
         sums.append(value)
     return sums[0], sums[1]
 
 
-def _single(d: Domain, factor: Factor, z: S) -> tuple[S, S]:
+def _single(d: Domain, factor: Factor, z: S, signed: bool) -> tuple[S, S]:
     """Return b and c of dexp or of the truncated dexpinv, without the power of the factor."""
     s = factor.scale
     if factor.function == "dexp":
-        return _exponentials(d, [(s, 1 / s)], 1, z)
+        return _exponentials(d, [(s, 1 / s)], 1, z, signed)
     # Horner's rule goes down from the highest power: t^k is a multiple of t for odd k and of t^2 for even k.
     sums: list[S] = [d.rational(0), d.rational(0)]
     for k in range(factor.order, 0, -1):
@@ -71,6 +81,17 @@ def _single(d: Domain, factor: Factor, z: S) -> tuple[S, S]:
         place = (k + 1) % 2
         sums[place] = d.rational(weight.numerator, weight.denominator) - z * sums[place]
     return sums[0], sums[1]
+
+
+def _inverse_dexp(d: Domain, s: Fraction, z: S) -> tuple[S, S]:
+    """Return b and c of 1/dexp(s t) = 1 - s t/2 + (c_2 - c_3)/(4 c_1) s^2 t^2, with c_k at s^2 z/4.
+
+    Nothing cancels for negative z. :func:`_inverted` would subtract numbers of the size exp(2 sqrt(-z)).
+    """
+    argument: S = d.rational((s * s).numerator, 4 * (s * s).denominator) * z
+    c1, c2, c3 = (d.call(f"signed_stumpff{k}", argument) for k in (1, 2, 3))
+    weight: S = d.rational((s * s).numerator, 4 * (s * s).denominator)
+    return d.rational(-s.numerator, 2 * s.denominator), weight * ((c2 - c3) / c1)
 
 
 def _inverted(d: Domain, b: S, c: S, z: S) -> tuple[S, S]:

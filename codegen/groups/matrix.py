@@ -13,6 +13,7 @@ from codegen.errors import SceneError
 from codegen.groups.capabilities import Coadjoint, MatrixElements, Projection, RightTrivialisation, Rotations
 from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, matvec, product, transposed
 from codegen.groups.matrix_algebra import Sparse, matrix_algebra, sparse
+from codegen.groups.rational_rows import rational_rows
 from codegen.ir.domain import Domain
 from codegen.ir.matrix_functions import EXPANDED
 
@@ -33,6 +34,7 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
 
     def __init__(self, name: str, basis: Sequence[Rows]) -> None:
         self.name = name
+        basis = [rational_rows(name, matrix) for matrix in basis]
         self.n = len(basis[0]) if basis else 0
         if not self.n or any(len(rows) != self.n for matrix in basis for rows in (matrix, *matrix)):
             raise SceneError("a basis that is empty or not square", where=name, expected="n x n matrices")

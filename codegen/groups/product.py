@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from itertools import accumulate
+from collections.abc import Callable, Iterator, Sequence
+from itertools import accumulate, islice, product
+from string import ascii_lowercase
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
@@ -76,6 +77,10 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
         """Return the products."""
         return self._each(LieGroup, lambda f, a, b: f.mul(d, a, b), g, k)
 
+    def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return exp(x) g of each factor."""
+        return self._each(LieGroup, lambda f, a, b: f.expmul(d, a, b), x, g)
+
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return the brackets."""
         return self._each(LieGroup, lambda f, a, b: f.ad(d, a, b), x, y)
@@ -135,6 +140,21 @@ class Product(DirectProduct, LeftTranslation, RightTrivialisation, Projection):
         return tuple(law for f, a in pairs for law in f.laws(d, a))
 
     def symbols(self, name: str) -> list[sympy.Symbol]:
-        """Return the factors' symbols: ``name``, a letter for the factor, and its own indices."""
-        letters = (chr(ord("a") + k) for k in range(len(self.factors)))
-        return [s for f, letter in zip(self.factors, letters, strict=True) for s in f.symbols(name + letter)]
+        """Return the factors' symbols: ``name``, the label of the factor, and its own indices."""
+        pairs = zip(self.factors, labels(len(self.factors)), strict=True)
+        return [s for f, label in pairs for s in f.symbols(name + label)]
+
+
+def labels(count: int) -> Iterator[str]:
+    """Yield labels of equal length for the factors: a to z for up to 26 factors, then aa to zz, and so on.
+
+    Labels of different length could give two factors the same symbol: factor ac of a product, and factor c of
+    a product that is factor a.
+
+    >>> list(labels(3)), list(labels(28))[-3:]
+    (['a', 'b', 'c'], ['az', 'ba', 'bb'])
+    """
+    length = 1
+    while len(ascii_lowercase) ** length < count:
+        length += 1
+    return islice(map("".join, product(ascii_lowercase, repeat=length)), count)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from codegen.groups.capabilities import LeftTranslation, Projection, RightTrivialisation
+from codegen.groups.cubic_ad import CubicAd
 from codegen.groups.linear_algebra import S, Vector, cross, dot, rescaled
 from codegen.ir.domain import Domain
 from codegen.ir.normal_form import Relation
 from codegen.ir.number import Number
 
 
-class S3(LeftTranslation, RightTrivialisation, Projection):
+class S3(CubicAd, LeftTranslation, RightTrivialisation, Projection):
     """Unit quaternions (q0, q1, q2, q3), real part first, under Hamilton's product.
 
     The algebra is R^3, the pure quaternions (H. Marthinsen's thesis, section 2.6): [x, y] = x y - y x = 2 x
@@ -39,6 +40,11 @@ class S3(LeftTranslation, RightTrivialisation, Projection):
         z = dot(x, x)
         c0, c1 = d.call("stumpff0", z), d.call("stumpff1", z)
         return (c0, *(c1 * a for a in x))
+
+    def squared_rate(self, d: Domain, x: Vector[S]) -> S:
+        """Return 4 x.x, the square of the angle of the rotation exp(x)."""
+        four: S = d.rational(4)
+        return four * dot(x, x)
 
     def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
         """Return 2 x cross y."""

@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
-from codegen.groups.capabilities import Projection
+from codegen.groups.capabilities import Coadjoint, Projection
+from codegen.groups.cubic_ad import CubicAd
 from codegen.groups.linear_algebra import S, Vector, dot, rescaled, units
 from codegen.groups.matrix import MatrixGroup
 from codegen.ir.domain import Domain
 
 
-class SL2(MatrixGroup, Projection):
+class SL2(CubicAd, MatrixGroup, Projection):
     """Matrices of determinant 1, row by row; sl(2) with the basis X, Y, H.
 
     The basis is the basis of H. Marthinsen's thesis, section 2.2: X = [[0, 1], [0, 0]], Y = [[0, 0], [1, 0]],
     H = [[1, 0], [0, -1]]; [X, Y] = H, [H, X] = 2X, [H, Y] = -2Y. A traceless matrix A has A^2 = -det A, so
     exp A = c_0(det A) + c_1(det A) A with the Stumpff functions, which are hyperbolic functions for det A <
-    0.
+    0. The eigenvalues of ad_A are differences of those of A, so dexp_A = 1 + c_2(4 det A) ad_A + c_3(4 det A)
+    ad_A^2.
     """
+
+    signed = True
 
     def __init__(self) -> None:
         super().__init__("SL(2)", [[[0, 1], [0, 0]], [[0, 0], [1, 0]], [[1, 0], [0, -1]]])
 
     def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
         """Return c_0 + c_1 A for the matrix A of x."""
-        z = -(x[2] * x[2] + x[0] * x[1])
+        z = _determinant(x)
         c0, c1 = d.call("signed_stumpff0", z), d.call("signed_stumpff1", z)
         diagonal = c1 * x[2]
         return (c0 + diagonal, c1 * x[0], c1 * x[1], c0 - diagonal)
+
+    def squared_rate(self, d: Domain, x: Vector[S]) -> S:
+        """Return 4 det A."""
+        four: S = d.rational(4)
+        return four * _determinant(x)
 
     def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
         """Return g x g^-1."""
@@ -41,6 +50,14 @@ class SL2(MatrixGroup, Projection):
         """Return Ad*_{g^-1} mu."""
         return self.Adt(d, _adjugate(g), mu)
 
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the adjugate matrix."""
+        return _adjugate(g)
+
+    def transport(self, d: Domain, x: Vector[S], n: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return Ad*_{exp(-x)} mu + dexp*_{-x} n by the closed forms."""
+        return Coadjoint.transport(self, d, x, n, mu)
+
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return (1 + e/2 + 3 e^2/8) g with e = 1 - det g; the error of the determinant is then O(e^3)."""
         return rescaled(d, g, d.rational(1) - (g[0] * g[3] - g[1] * g[2]))
@@ -53,3 +70,8 @@ class SL2(MatrixGroup, Projection):
 def _adjugate(g: Vector[S]) -> Vector[S]:
     """Return g^-1 for a matrix of determinant 1."""
     return (g[3], -g[1], -g[2], g[0])
+
+
+def _determinant(x: Vector[S]) -> S:
+    """Return the determinant of the matrix of x."""
+    return -(x[2] * x[2] + x[0] * x[1])

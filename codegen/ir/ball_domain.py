@@ -23,6 +23,7 @@ from codegen.ir.domain import LARGEST_BITS, NotConverged, Scalar, Value
 from codegen.ir.matrix_functions import MatrixExponential, MatrixInverse
 from codegen.ir.matrix_product import BilinearFunction
 from codegen.ir.number import Number
+from codegen.ir.selection import selected, selects, sign_of_number
 from codegen.ir.vector_calls import vector_function
 from orderconds.ring.precision import precision
 
@@ -100,10 +101,16 @@ class BallDomain:
             raise NotConverged(f"the argument of {function} is not a finite number")
         if function == "quotient":
             return args[0] / args[1] if args[1].mid() != 0 else args[0] * 0
+        if selects(function):
+            centres = tuple(x.mid() for x in args)
+            value = selected(self, function, centres, lambda x: sign_of_number(x.mid()))
+            return value.mid()
         if any(_exponent(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), z)
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), z)
         if "stumpff" in function:
             return self._stumpff(int(function[-1]), z)
         value = getattr(arb, function)(*(x.mid() for x in args)).mid()
@@ -165,6 +172,19 @@ class BallDomain:
             total += term
             j += 1
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
+        return total
+
+    def _curvature(self, k: int, z: arb) -> arb:
+        """Return c_k''(z): by its series for abs(z) up to 1, else by c_{k-2}, c_{k-1} and c_k."""
+        if abs(z) > 1:
+            a, b, c = (self._stumpff(i, z) for i in (k - 2, k - 1, k))
+            return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
+        total, j, term = arb(0), 2, 2 * arb(1) / math.factorial(k + 4)
+        limit = arb((1, -self.bits - 10))
+        while abs(term.mid()) > limit:
+            total += term
+            j += 1
+            term = -term * z * j / ((j - 2) * (2 * j + k) * (2 * j + k - 1))
         return total
 
     def computed(self, name: str, value: Value) -> Value:

@@ -5,9 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Container, Sequence
 
-from codegen.ir.elementary import ELEMENTARY
+from codegen.ir.elementary import ANGLE, ELEMENTARY
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
 from codegen.ir.vector_calls import component, partial
 
 
@@ -45,7 +47,7 @@ def partials(node: Expr, moving: Container[int] | None = None) -> list[Expr]:
     If the ids of the nodes that are not constant are given as ``moving``, the derivatives of a vector
     function with respect to other arguments may be zero.
     The derivatives of ``quotient`` are valid where its divisor is not zero. :class:`NotDifferentiable` is
-    raised for the slopes.
+    raised for second derivatives of Stumpff functions.
     """
     space, args = node.space, node.args
     match node.op:
@@ -80,6 +82,13 @@ def _derivatives(node: Expr) -> list[Expr]:
     space, x = node.space, node.args[0]
     half = space.const(Number.rational(1, 2))
     match node.payload:
+        case PiecewisePolynomial() as table:
+            return [space.call(table.derivative(), x) if table.degree else space.zero]
+        case name if name in (ABSOLUTE, CHOOSE):
+            return _selection(node)
+        case name if name == ANGLE:
+            size = x * x + node.args[1] * node.args[1]
+            return [node.args[1] / size, -(x / size)]
         case "sqrt":
             # The derivative 1/(2 sqrt x) contains the root, which is already computed.
             return [half * (space.one / node)]
@@ -101,10 +110,12 @@ def _derivatives(node: Expr) -> list[Expr]:
         # slope2 and slope3 evaluate the derivatives c_2' and c_3' directly.
         case "stumpff2" | "stumpff3" as name:
             return [space.call(f"slope{name[-1]}", x)]
+        case "slope2" | "slope3" as name:
+            return [space.call(f"curvature{name[-1]}", x)]
         case name if name in ELEMENTARY:
             return [ELEMENTARY[name].slope(x, node)]
-        case "signed_stumpff1":
-            return [space.call("signed_slope1", x)]
+        case "signed_stumpff1" | "signed_stumpff2" | "signed_stumpff3" as name:
+            return [space.call(f"signed_slope{name[-1]}", x)]
         case "quotient":
             # 1/b is also a ``quotient``, which is 0 where b = 0; with a division the derivative would be
             # infinite there.
@@ -113,3 +124,20 @@ def _derivatives(node: Expr) -> list[Expr]:
         case _:
             message = f"{node.payload} is not differentiated"
             raise NotDifferentiable(message)
+
+
+def sign(x: Expr) -> Expr:
+    """Return the sign of an expression, which is 0 at 0."""
+    space = x.space
+    return space.call(CHOOSE, x, space.one, space.call(CHOOSE, -x, -space.one, space.zero))
+
+
+def _selection(node: Expr) -> list[Expr]:
+    """Return the derivatives of an absolute value, which is 0 at 0, or of the selected formula."""
+    space, (x, *formulas) = node.space, node.args
+    if not formulas:
+        return [sign(x)]
+    # An adjoint that is added to a number is never read, so it is not formed.
+    one, zero = space.one, space.zero
+    factors = (space.call(CHOOSE, x, one, zero), space.call(CHOOSE, x, zero, one))
+    return [zero, *(zero if a.op == "const" else f for a, f in zip(formulas, factors, strict=True))]

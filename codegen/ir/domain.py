@@ -13,10 +13,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, Protocol, TypeAlias
 
+from codegen.ir.elementary import ANGLE
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
-from codegen.ir.vector_calls import vector_function
-from codegen.ir.vector_function import VectorFunction
+from codegen.ir.selection import Kink, selected, selects, sign_of_number
+from codegen.ir.vector_calls import named
 from orderconds.ring import PowerSeries
 from orderconds.ring.protocol import Ring
 
@@ -70,7 +71,7 @@ class Differenced(Domain, Protocol):
 
 
 def stumpff(k: int, z: float) -> float:
-    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z >= 0; for k = 0 and 1 also for z < 0.
+    """Return c_k(z) = sum_j (-z)^j/(2j+k)! for k = 0..3 and z of either sign.
 
     The error is a few units in the last place of the amplitude of the oscillation at z. Beyond z = 2^52 the
     result is NaN, as in emitted code: the angle sqrt z exceeds 2^26 there, so its number of full
@@ -80,9 +81,15 @@ def stumpff(k: int, z: float) -> float:
     """
     if z > 2.0**52:
         return math.nan
-    if z < 0:
+    if z < 0 and (k < 3 or z < -4):
         root = math.sqrt(-z)
-        return math.cosh(root) if k == 0 else math.sinh(root) / root
+        if k == 0:
+            return math.cosh(root)
+        if k == 2:
+            ratio = math.sinh(root / 2) / (root / 2)
+            return ratio * ratio / 2
+        ratio = math.sinh(root) / root
+        return ratio if k == 1 else (1 - ratio) / z
     if k == 0:
         return math.cos(math.sqrt(z))
     # c_3 uses its series on a longer interval: sqrt z - sin sqrt z cancels while the angle is below about 2.
@@ -104,7 +111,7 @@ def stumpff(k: int, z: float) -> float:
 
 
 def slope(k: int, z: float) -> float:
-    """Return c_k'(z) for k = 1, 2, 3 and z >= 0; for k = 1 also for z < 0.
+    """Return c_k'(z) for k = 1, 2, 3 and z of either sign.
 
     The series is used for abs(z) up to 1, else the closed form (c_{k-1} - k c_k)/(2 z).
 
@@ -120,12 +127,21 @@ def slope(k: int, z: float) -> float:
     return total
 
 
-def _vector(name: str) -> VectorFunction:
-    """Return a vector function; ValueError for an unknown name."""
-    function = vector_function(name)
-    if function is None:
-        raise ValueError(f"unknown vector function {name}")
-    return function
+def curvature(k: int, z: float) -> float:
+    """Return c_k''(z) for k = 2, 3 and z >= 0.
+
+    The series is used for z up to 1, else (c_{k-2} - (2 k + 1) c_{k-1} + k (k + 2) c_k)/(2 z)^2.
+
+    >>> curvature(2, 0.0) == 2 / 720
+    True
+    """
+    if abs(z) > 1:
+        last = k * (k + 2) * stumpff(k, z)
+        return (stumpff(k - 2, z) - (2 * k + 1) * stumpff(k - 1, z) + last) / (4 * z * z)
+    total = 0.0
+    for j in range(12, 1, -1):
+        total = j * (j - 1) / math.factorial(2 * j + k) - z * total
+    return total
 
 
 class FloatDomain:
@@ -154,14 +170,18 @@ class FloatDomain:
             return stumpff(int(function[-1]), args[0])
         if "slope" in function:
             return slope(int(function[-1]), args[0])
+        if "curvature" in function:
+            return curvature(int(function[-1]), args[0])
         if function == "quotient":
             return args[0] / args[1] if args[1] else 0.0
+        if selects(function):
+            return float(selected(self, function, args, sign_of_number))
         result: float = getattr(math, function)(*args)
         return result
 
     def vector(self, function: str, args: Sequence[float]) -> tuple[float, ...]:
         """Return the results of a vector function, with the operations of emitted code."""
-        return _vector(function).in_doubles(args)
+        return named(function).in_doubles(args)
 
     def settled(self, old: Sequence[float], new: Sequence[float], previous: Scalar) -> tuple[bool, float]:
         """Return whether the changes are at rounding level, and the size of the last change."""
@@ -232,10 +252,14 @@ class PreciseDomain:
         """Evaluate a function with mpmath; Stumpff functions use their series for arguments up to 1."""
         if function == "quotient":
             return args[0] / args[1] if args[1] else args[0] * 0
+        if selects(function):
+            return selected(self, function, args, sign_of_number)
         if any(self.context.mag(x) > LARGEST_BITS for x in args):
             raise OverflowError(f"an argument of {function} exceeds 2^{LARGEST_BITS}")
         if "slope" in function:
             return self._slope(int(function[-1]), args[0])
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), args[0])
         if "stumpff" not in function:
             return getattr(self.context, function)(*args)
         k, z = int(function[-1]), args[0]
@@ -257,7 +281,7 @@ class PreciseDomain:
 
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function."""
-        return _vector(function).in_digits(self.context, self.digits, args)
+        return named(function).in_digits(self.context, self.digits, args)
 
     def _slope(self, k: int, z: Scalar) -> Scalar:
         """Return c_k'(z): by its series for abs(z) up to 1, else by c_{k-1} and c_k."""
@@ -269,6 +293,19 @@ class PreciseDomain:
             total += term
             j += 1
             term = -term * z * j / ((j - 1) * (2 * j + k) * (2 * j + k - 1))
+        return total
+
+    def _curvature(self, k: int, z: Scalar) -> Scalar:
+        """Return c_k''(z): by its series for abs(z) up to 1, else by c_{k-2}, c_{k-1} and c_k."""
+        if abs(z) > 1:
+            a, b, c = (self.call(f"stumpff{i}", z) for i in (k - 2, k - 1, k))
+            return (a - (2 * k + 1) * b + k * (k + 2) * c) / (4 * z * z)
+        total, j = self.context.mpf(0), 2
+        term = 2 * self.context.mpf(1) / math.factorial(k + 4)
+        while abs(term) > self.context.eps / 1024:
+            total += term
+            j += 1
+            term = -term * z * j / ((j - 2) * (2 * j + k) * (2 * j + k - 1))
         return total
 
     def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
@@ -316,6 +353,10 @@ class SeriesDomain:
         z = args[0]
         if function == "quotient":
             return self._quotient(z, args[1])
+        if selects(function):
+            return selected(self, function, args, self._sign)
+        if function == ANGLE:
+            return self._angle(z, args[1])
         one = self.ring.one
         starts = {
             "sin": (1, 2, z),
@@ -332,6 +373,11 @@ class SeriesDomain:
             # c_k' = (k c_{k+2} - c_{k+1})/2: the series below are valid for every k.
             c, d = (self.call(f"stumpff{k + i}", z) for i in (2, 1))
             return (k * c - d) * self.ring.rational(1, 2)
+        if "curvature" in function:
+            k = int(function[-1])
+            # The rule for c_k', applied twice.
+            c, d, e = (self.call(f"stumpff{k + i}", z) for i in (4, 3, 2))
+            return (k * (k + 2) * c - (2 * k + 1) * d + e) * self.ring.rational(1, 4)
         if "stumpff" in function:
             k = int(function[-1])
             return self._sum(k, 2, self.ring.rational(1, math.factorial(k)), z)
@@ -348,9 +394,22 @@ class SeriesDomain:
         power = z * z if step == 2 else z
         return self._sum(k, step, first, power if function in ("sin", "cos") else -power)
 
+    def _sign(self, z: Scalar) -> int:
+        """Return the sign of a series for small h; :class:`Kink` if it vanishes at h = 0."""
+        start = z.coefficients[0]
+        if self.base.is_zero(start) is not False:
+            raise Kink("the field is not smooth at the initial state")
+        return -1 if self.base.approximate(start).startswith("-") else 1
+
+    def _angle(self, y: Scalar, x: Scalar) -> Scalar:
+        """Return atan2(y, x) near the positive x-axis; all other angles are transcendental."""
+        if self.base.is_zero(y.coefficients[0]) is not True or self._sign(x) < 0:
+            raise ArithmeticError("atan2 is exact only at a point of the positive x-axis")
+        return self._arc("atan", y / x)
+
     def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
         """Return the results of a vector function, exactly."""
-        return _vector(function).over_series(self.ring, args)
+        return named(function).over_series(self.ring, args)
 
     def _arc(self, function: str, z: Scalar) -> Scalar:
         """Return atan z = sum (-1)^j z^(2j+1)/(2j+1) or asin z = sum binom(2j, j)/4^j z^(2j+1)/(2j+1)."""
@@ -419,7 +478,7 @@ class ExprDomain:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return a call node for each result, or the results themselves if they are short."""
-        expanded = _vector(function).expanded(args)
+        expanded = named(function).expanded(args)
         return self.space.vector(function, args) if expanded is None else expanded
 
     def sample(self, names: Sequence[str], t: Expr) -> dict[str, Expr]:

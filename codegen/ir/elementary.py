@@ -76,3 +76,6 @@ ELEMENTARY = {
 MATHEMATICAL = ("sqrt", "sin", "cos", "exp", "log", *ELEMENTARY)
 """All functions of one argument with this name in the mathematical libraries of C, Python, mpmath and
 python-flint."""
+
+ANGLE = "atan2"
+"""The angle of the point (x, y), from -pi to pi, as a function of y and x."""

@@ -15,9 +15,11 @@ import operator
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.number import Number
-from codegen.ir.vector_calls import component, vector_function
+from codegen.ir.selection import ABSOLUTE, CHOOSE, SELECTING
+from codegen.ir.table import PiecewisePolynomial
+from codegen.ir.vector_calls import component, named
 
 if TYPE_CHECKING:
     from codegen.ir.domain import Domain, Scalar
@@ -28,19 +30,28 @@ exponent for ``pow``, and None for all other operations."""
 
 FUNCTIONS = (
     *MATHEMATICAL,
+    ANGLE,
+    *SELECTING,
     # Stumpff functions c_k(z) = sum_j (-z)^j/(2j+k)!: c_0 = cos sqrt z, c_1 = sin(sqrt z)/sqrt z, ...
     "stumpff0",
     "stumpff1",
     "stumpff2",
     "stumpff3",
-    # c_0 and c_1 for z of either sign: cosh and sinh where z < 0
+    # c_k for z of either sign: cosh and sinh where z < 0
     "signed_stumpff0",
     "signed_stumpff1",
+    "signed_stumpff2",
+    "signed_stumpff3",
     # derivatives of stumpff2 and stumpff3: c_2' = (2 c_4 - c_3)/2 and c_3' = (3 c_5 - c_4)/2
     "slope2",
     "slope3",
-    # derivative of signed_stumpff1: c_1' = (c_3 - c_2)/2 for z of either sign
+    # second derivatives of stumpff2 and stumpff3
+    "curvature2",
+    "curvature3",
+    # derivatives of signed_stumpff1, signed_stumpff2 and signed_stumpff3
     "signed_slope1",
+    "signed_slope2",
+    "signed_slope3",
     # a/b, and 0 where b = 0, for removable singularities with the limit 0
     "quotient",
 )
@@ -260,8 +271,13 @@ class Space:
         return self._make("pow", (a,), n)
 
     def call(self, function: str, *args: Expr) -> Expr:
-        """Return function(args) for a function of :data:`FUNCTIONS`, or for a result of a vector function."""
-        if function not in FUNCTIONS and component(function) is None:
+        """Return function(args) for a function of :data:`FUNCTIONS`, a table, or a result of a vector
+        function."""
+        known = _folded(function, args)
+        if known is not None:
+            return known
+        table = isinstance(function, PiecewisePolynomial)
+        if function not in FUNCTIONS and not table and component(function) is None:
             # Without this test an unknown name would cause an error only later, in a printer.
             message = f"unknown scalar function {function}"
             raise ValueError(message)
@@ -269,12 +285,25 @@ class Space:
 
     def vector(self, function: str, args: Sequence[Expr]) -> tuple[Expr, ...]:
         """Return the results of a vector function (:mod:`codegen.ir.vector_function`), one node each."""
-        called = vector_function(function)
-        if called is None:
-            message = f"unknown vector function {function}"
-            raise ValueError(message)
-        given = tuple(args)
-        return tuple(self._make("call", given, f"{function}.{k}") for k in range(called.size))
+        given, size = tuple(args), named(function).size
+        return tuple(self._make("call", given, f"{function}.{k}") for k in range(size))
+
+
+def _folded(function: str, args: tuple[Expr, ...]) -> Expr | None:
+    """Return the value of a selection that is known; None if it is not known."""
+    if function == CHOOSE and args[1] is args[2]:
+        return args[1]
+    if function == CHOOSE and args[0].op == "call" and args[0].payload == CHOOSE:
+        test, *values = args[0].args
+        # A comparison with 1 and -1 as results is the comparison itself.
+        if [v.payload.text() if v.op == "const" else "" for v in values] == ["1", "-1"]:
+            return test.space.call(CHOOSE, test, *args[1:])
+    if function not in SELECTING or args[0].op != "const" or not args[0].payload.is_rational:
+        return None
+    value = args[0].payload.fraction()
+    if function == ABSOLUTE:
+        return -args[0] if value < 0 else args[0]
+    return args[1] if value > 0 else args[2]
 
 
 def _joinable(a: Expr, b: Expr) -> bool:

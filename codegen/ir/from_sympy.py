@@ -10,9 +10,14 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
-from codegen.ir.elementary import MATHEMATICAL
-from codegen.ir.expr import Expr, Space
-from codegen.ir.number import Number
+from codegen.ir.conditions import Condition, always, both, negation, positive, read_condition
+from codegen.ir.decimals import decimal
+from codegen.ir.differentiate import sign
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
+from codegen.ir.expr import Expr, Space, walk
+from codegen.ir.number import Number, is_normal
+from codegen.ir.selection import ABSOLUTE
+from codegen.ir.table import PiecewisePolynomial
 
 if TYPE_CHECKING:
     import sympy
@@ -20,12 +25,20 @@ if TYPE_CHECKING:
 CALLS = frozenset(MATHEMATICAL) - {"sqrt"}
 """The functions that formulas may call; sympy writes roots as powers."""
 
+SELECTIONS = ("Abs", "Heaviside", "Max", "Min", "Piecewise", "sign")
+"""The functions of sympy that select one of several formulas."""
+
+JUMPING = ("floor", "ceiling", "frac", "Mod")
+
+SAFE = {"log": 1, "exp": 0, "sinh": 0, "cosh": 0, "asin": 0, "acos": 0}
+"""Arguments at which functions with a limited range are finite. A branch of a Piecewise formula evaluates the
+functions at these arguments where the branch is not selected."""
+
 
 def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
     """Return a sympy expression as a node of space; a :class:`SceneError` names a part that cannot be read.
 
-    Rational numbers stay exact. Floats are refused, because the order of a method is computed exactly and
-    needs exact formulas.
+    Rational numbers stay exact. A float means the shortest decimal that prints it, so 0.1 is 1/10.
     """
     import sympy
 
@@ -39,28 +52,34 @@ def read(space: Space, expression: sympy.Basic | int, where: str = "") -> Expr:
 
 @dataclass
 class _Reader:
-    """Reads one formula; equal subexpressions are read once."""
+    """Reads one formula; equal subexpressions are read once.
+
+    Inside a branch of a Piecewise formula, ``guard`` is positive exactly where the branch is selected.
+    """
 
     space: Space
     where: str
-    known: dict[sympy.Basic, Expr] = field(default_factory=dict)
+    known: dict[tuple[sympy.Basic, int], Expr] = field(default_factory=dict)
+    guard: Expr | None = None
 
     def node(self, e: sympy.Basic) -> Expr:
         """Return an expression as a node."""
         # Sympy expressions share subexpressions. The table stores the result for each of them; without it the
         # time could grow exponentially with the depth of the formula.
-        if e not in self.known:
-            self.known[e] = self._read(e)
-        return self.known[e]
+        key = e, -1 if self.guard is None else self.guard.id
+        if key not in self.known:
+            self.known[key] = self._read(e)
+        return self.known[key]
 
     def _read(self, e: sympy.Basic) -> Expr:
         import sympy
 
         if isinstance(e, sympy.Symbol):
             return self.space.sym(e.name)
-        # A rational number stays exact. A float fails this test and is refused below.
         if isinstance(e, sympy.Rational):
             return self.space.const(Number.rational(int(e.p), int(e.q)))
+        if isinstance(e, sympy.Float):
+            return self._float(e)
         # A sum is read as a chain of binary additions in sorted order, so that its rounding errors depend
         # only on the formula.
         if isinstance(e, sympy.Add):
@@ -69,13 +88,81 @@ class _Reader:
             return self._product(e)
         if isinstance(e, sympy.Pow):
             return self._power(self.node(e.base), e.exp, e)
-        if isinstance(e, sympy.Function) and e.func.__name__ in CALLS:
-            return self.space.call(e.func.__name__, self.node(e.args[0]))
-        if isinstance(e, sympy.Float):
-            hint = "write Rational(1, 10) for 0.1"
-            raise SceneError(f"the float {e}", where=self.where, expected="exact numbers", hint=hint)
-        allowed = "symbols, rationals, + - * /, integer and half-integer powers, " + ", ".join(sorted(CALLS))
+        name = e.func.__name__
+        if isinstance(e, sympy.Function) and name in CALLS:
+            argument = self.node(e.args[0])
+            return self.space.call(name, self.guarded(argument, SAFE[name]) if name in SAFE else argument)
+        if isinstance(e, sympy.Function) and name == ANGLE:
+            y, x = map(self.node, e.args)
+            return self.space.call(ANGLE, y, self.guarded(x, 1))
+        if name in SELECTIONS:
+            return self._selection(name, e)
+        table = getattr(e, "polynomial", None)
+        if isinstance(table, PiecewisePolynomial):
+            return self.space.call(table, self.node(e.args[-1]))
+        if name in JUMPING:
+            hint = "write a Piecewise formula, or a table, for the range that the state reaches"
+            raise SceneError(f"{name} in {e}", where=self.where, expected="finitely many pieces", hint=hint)
+        calls = ", ".join([*sorted(CALLS), ANGLE, *SELECTIONS, "table"])
+        allowed = f"symbols, numbers, + - * /, integer and half-integer powers, {calls}"
         raise SceneError(f"{type(e).__name__} in {e}", where=self.where, expected=allowed)
+
+    def _float(self, e: sympy.Float) -> Expr:
+        value = decimal(e)
+        if not is_normal(value):
+            expected = "0, or an absolute value between 1e-307 and 1e308"
+            raise SceneError(f"the float {e}", where=self.where, expected=expected)
+        return self.space.const(Number.rational(*value.as_integer_ratio()))
+
+    def guarded(self, x: Expr, safe: int) -> Expr:
+        """Return x, or the number ``safe`` where the branch that contains x is not selected."""
+        # Without this, a root or quotient of a branch that is not selected would be a NaN, or an exception in
+        # Python, and the product of its derivative with zero would be a NaN.
+        if self.guard is None or all(n.op != "sym" for n in walk([x])):
+            return x
+        return positive(self.guard)(x, self.space.const(Number.rational(safe)))
+
+    def _selection(self, name: str, e: sympy.Basic) -> Expr:
+        """Return a formula that is a selection of formulas."""
+        space = self.space
+        match name:
+            case "Abs":
+                return space.call(ABSOLUTE, self.node(e.args[0]))
+            case "sign":
+                return sign(self.node(e.args[0]))
+            case "Heaviside":
+                x, middle = map(self.node, e.args)
+                return positive(x)(space.one, positive(-x)(space.zero, middle))
+            case "Min":
+                return _fold(lambda a, b: positive(b - a)(a, b), [self.node(a) for a in _sorted(e)])
+            case "Max":
+                return _fold(lambda a, b: positive(a - b)(a, b), [self.node(a) for a in _sorted(e)])
+            case _:
+                return self._piecewise(e)
+
+    def _piecewise(self, e: sympy.Piecewise) -> Expr:
+        """Return a Piecewise formula. The formula of a branch is evaluated everywhere, and then selected."""
+        import sympy
+
+        if e.args[-1][1] != sympy.true:
+            raise SceneError(
+                f"a Piecewise formula without a default branch: {e}",
+                where=self.where,
+                expected="a last branch (formula, True)",
+            )
+        outer, rest = self.guard, always if self.guard is None else positive(self.guard)
+        branches: list[tuple[Condition, Expr]] = []
+        for formula, condition in e.args:
+            self.guard = outer
+            holds = read_condition(condition, self.node, self.where)
+            self.guard = both(rest, holds)(self.space.one, -self.space.one)
+            branches.append((holds, self.node(formula)))
+            rest = both(rest, negation(holds))
+        self.guard = outer
+        (_, total) = branches.pop()
+        for holds, formula in reversed(branches):
+            total = holds(formula, total)
+        return total
 
     def _product(self, e: sympy.Mul) -> Expr:
         """Return a product; factors with negative powers form one divisor, so that the product has one
@@ -86,7 +173,7 @@ class _Reader:
         for a in _sorted(e):
             # A quotient a/b is the product a b^-1 in sympy.
             if isinstance(a, sympy.Pow) and a.exp.is_Rational and a.exp < 0:
-                below.append(self._power(self.node(a.base), -a.exp, a))
+                below.append(self._power(self.guarded(self.node(a.base), 1), -a.exp, a))
             else:
                 above.append(self.node(a))
         # Numerator and divisor are formed as separate products, because x/(y z) has one division and x y^-1
@@ -95,10 +182,15 @@ class _Reader:
         return self.space.div(product, _fold(self.space.mul, below)) if below else product
 
     def _power(self, base: Expr, exponent: sympy.Expr, e: sympy.Pow) -> Expr:
+        import sympy
+
         space = self.space
+        if exponent.is_Float:
+            exponent = sympy.Rational(*decimal(exponent).as_integer_ratio())
         if exponent.is_Integer:
-            return space.pow(base, int(exponent))
+            return space.pow(base if exponent > 0 else self.guarded(base, 1), int(exponent))
         if exponent.is_Rational and exponent.q == 2:
+            base = self.guarded(base, 1)
             root, n = space.call("sqrt", base), int(exponent.p)
             # x^(n/2) = x^(n div 2) sqrt x for odd n: all half-integer powers of one base share one root.
             value = space.mul(space.pow(base, abs(n) // 2), root)

@@ -11,13 +11,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import factorial
 
+from codegen.ir.differentiate import sign
 from codegen.ir.elementary import ELEMENTARY, MATHEMATICAL
 from codegen.ir.expr import Expr, Space, walk
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
 
 STEP = "h"
 
-EXPANDED = frozenset({*MATHEMATICAL, *(f"stumpff{k}" for k in range(4))})
+EXPANDED = frozenset({*MATHEMATICAL, ABSOLUTE, *(f"stumpff{k}" for k in range(4))})
 """The functions with a rule for their expansion."""
 
 Pair = tuple[Expr, Expr]
@@ -103,7 +106,9 @@ def _visit(node: Expr, args: list[_Dual], place: dict[str, int], space: Space) -
                 # Products are truncated one by one, so no coefficient of h^2 is formed.
                 result = _product(space, result, args[0])
             return result
-        case _ if node.payload in EXPANDED:
+        case _ if node.payload == CHOOSE:
+            return _chosen(space, *args)
+        case _ if node.payload in EXPANDED or isinstance(node.payload, PiecewisePolynomial):
             return _called(space, node.payload, args[0])
         case _:
             raise NotLinearised(f"{node.payload} is not expanded")
@@ -147,6 +152,19 @@ def _inverse(space: Space, a: _Dual) -> _Dual:
     return _Dual(value, _trimmed(slopes))
 
 
+def _chosen(space: Space, test: _Dual, a: _Dual, b: _Dual) -> _Dual:
+    """Return the expansion of the formula that is selected at h = 0."""
+    none = (space.zero, space.zero)
+
+    def pair(x: Pair, y: Pair) -> Pair:
+        low, high = (space.call(CHOOSE, test.value[0], p, q) for p, q in zip(x, y, strict=True))
+        return low, high
+
+    places = sorted({*a.slopes, *b.slopes})
+    slopes = {k: pair(a.slopes.get(k, none), b.slopes.get(k, none)) for k in places}
+    return _Dual(pair(a.value, b.value), _trimmed(slopes))
+
+
 def _called(space: Space, function: str, a: _Dual) -> _Dual:
     """Return a function of v_0 + v_1 h with its derivatives."""
     low, high = a.value
@@ -170,6 +188,11 @@ def _called(space: Space, function: str, a: _Dual) -> _Dual:
     elif function == "log":
         at, first = space.call("log", low), space.one / low
         second = -(first * first)
+    elif isinstance(function, PiecewisePolynomial):
+        slope_of = function.derivative()
+        at, first, second = (space.call(f, low) for f in (function, slope_of, slope_of.derivative()))
+    elif function == ABSOLUTE:
+        at, first, second = space.call(ABSOLUTE, low), sign(low), space.zero
     elif function in ELEMENTARY:
         at, rule = space.call(function, low), ELEMENTARY[function]
         first, second = rule.slope(low, at), rule.curvature(low, at)

@@ -12,9 +12,12 @@ from dataclasses import dataclass, field
 
 from codegen.ir.expr import Expr, Space
 from codegen.ir.number import Number
+from codegen.ir.selection import CHOOSE
 from codegen.ir.taylor_recurrence import Recurrence
 from codegen.ir.taylor_series import (
+    Angle,
     Antiderivative,
+    Chosen,
     Circular,
     Convolution,
     Exponential,
@@ -27,6 +30,7 @@ from codegen.ir.taylor_series import (
     Series,
     Slope,
     Square,
+    Start,
     Sum,
 )
 
@@ -205,6 +209,16 @@ class _Loop:
             case Circular(slope=slope, other=other, minus=minus):
                 mean = space.sym(INVERSE) * self.beyond(slope, other)
                 return -mean if minus else mean
+            case Chosen(test=test, a=a, b=b):
+                pair = (space.zero if x is None else x for x in (self.known[id(a)], self.known[id(b)]))
+                return space.call(CHOOSE, self.value(test.term(0)), *pair)
+            case Angle(slopes=slopes, rates=rates):
+                pairs = zip(slopes, rates, strict=True)
+                means = [self.beyond(s, r) for s, r in pairs if self.known[id(s)] is not None]
+                if len(means) == 2:
+                    return space.sym(INVERSE) * (means[0] - means[1])
+                (mean,) = means
+                return space.sym(INVERSE) * (mean if self.known[id(slopes[0])] is not None else -mean)
             case Antiderivative(slope=slope, rate=rate):
                 return space.sym(INVERSE) * self.beyond(slope, rate)
             case Logarithm(a=a, slope=slope):
@@ -222,8 +236,12 @@ def _operands(series: Series) -> Sequence[Series]:
             return a, slope
         case Exponential(slope=slope) | Circular(slope=slope) | Antiderivative(slope=slope):
             return (slope,)
+        case Chosen(a=a, b=b):
+            return a, b
+        case Angle(slopes=slopes):
+            return slopes
         case Multiple(a=a) | Square(a=a) | Slope(a=a) | Root(a=a) | Logarithm(a=a):
             return (a,)
-        case Given():
+        case Given() | Start():
             return ()
     raise AssertionError(type(series))

@@ -12,11 +12,15 @@ from fractions import Fraction
 
 from codegen.errors import SceneError
 from codegen.ir.domain import Domain, Scalar
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
 from codegen.ir.taylor_series import (
+    Angle,
     Antiderivative,
+    Chosen,
     Circular,
     Coefficient,
     Convolution,
@@ -31,6 +35,7 @@ from codegen.ir.taylor_series import (
     Slope,
     Square,
     Sum,
+    composed,
     multiplied,
 )
 
@@ -145,6 +150,14 @@ class _Builder:
                     return self.multiple(Number.rational(1) / c, Quotient(domain, arg(0), below))
                 other = self.power(below, divisor, -e)
                 return self.multiple(Number.rational(1) / c, Convolution(domain, arg(0), other))
+            case "call" if node.payload == ANGLE:
+                return Angle(domain, arg(0), arg(1))
+            case "call" if node.payload == CHOOSE:
+                return Chosen(domain, arg(0), arg(1), arg(2))
+            case "call" if node.payload == ABSOLUTE:
+                return Chosen(domain, arg(0), arg(0), Multiple(domain, Number.rational(-1), arg(0)))
+            case "call" if isinstance(node.payload, PiecewisePolynomial):
+                return composed(domain, node.payload, arg(0))
             case _:
                 return self.function(node.payload, node.args[0], arg(0))
 

@@ -13,13 +13,17 @@ with a constant or with the time therefore has at most two terms for each coeffi
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
+from functools import partial
 from typing import TypeAlias
 
 from codegen.ir.domain import Domain, Scalar
+from codegen.ir.elementary import ANGLE
 from codegen.ir.expr import power
 from codegen.ir.number import Number
+from codegen.ir.selection import CHOOSE
+from codegen.ir.table import PiecewisePolynomial
 
 Coefficient: TypeAlias = Scalar
 """A scalar, or None for a coefficient that is zero for all states."""
@@ -255,6 +259,71 @@ class Circular(Series):
             return self.domain.call(self.name, self.a.term(0))
         mean = _mean(self.domain, self.slope, self.other, n)
         return None if mean is None else -mean if self.minus else mean
+
+
+class Angle(Series):
+    """The angle of the point (x, y), from r = x^2 + y^2 and angle' = (x/r) y' - (y/r) x'."""
+
+    def __init__(self, domain: Domain, y: Series, x: Series) -> None:
+        super().__init__(domain)
+        self.y, self.x = y, x
+        size = Sum(domain, Square(domain, x), Square(domain, y), False)
+        self.slopes = Slope(domain, y), Slope(domain, x)
+        self.rates = Quotient(domain, x, size), Quotient(domain, y, size)
+
+    def following(self, n: int) -> Coefficient:
+        """Return sum_{j>0} (j y_j (x/r)_{n-j} - j x_j (y/r)_{n-j})/n."""
+        if n == 0:
+            return self.domain.call(ANGLE, self.y.term(0), self.x.term(0))
+        means = [_mean(self.domain, s, r, n) for s, r in zip(self.slopes, self.rates, strict=True)]
+        return _subtract(*means)
+
+
+class Chosen(Series):
+    """The series of a or b, chosen by the sign of another series at the beginning of the step."""
+
+    def __init__(self, domain: Domain, test: Series, a: Series, b: Series) -> None:
+        super().__init__(domain)
+        self.test, self.a, self.b = test, a, b
+
+    def following(self, n: int) -> Coefficient:
+        """Return a_n or b_n."""
+        a, b = self.a.term(n), self.b.term(n)
+        if a is None and b is None:
+            return None
+        pair = (self.domain.rational(0) if x is None else x for x in (a, b))
+        return self.domain.call(CHOOSE, self.test.term(0), *pair)
+
+
+class Start(Series):
+    """The constant f(a_0), for a function f of the value of a at the beginning of the step."""
+
+    def __init__(self, domain: Domain, a: Series, function: Callable[[Scalar], Scalar]) -> None:
+        super().__init__(domain)
+        self.a, self.function = a, function
+
+    def following(self, n: int) -> Coefficient:
+        """Return f(a_0), and None for all further coefficients."""
+        return self.function(self.a.term(0)) if n == 0 else None
+
+
+def composed(domain: Domain, table: PiecewisePolynomial, a: Series) -> Series:
+    """Return the series of a table at a: the polynomial of the interval that contains a_0."""
+    # f(a) = sum_k f^(k)(a_0)/k! (a - a_0)^k is a finite sum. Horner's rule needs a product for each power.
+    step = Sum(domain, a, Start(domain, a, lambda x: x), True)
+    derivatives, factors = [table], [Fraction(1)]
+    while derivatives[-1].degree:
+        factors.append(factors[-1] / len(derivatives))
+        derivatives.append(derivatives[-1].derivative())
+    starts: list[Series] = []
+    for derivative, factor in zip(derivatives, factors, strict=True):
+        start = Start(domain, a, partial(domain.call, derivative))
+        number = Number.rational(*factor.as_integer_ratio())
+        starts.append(start if number.is_one else Multiple(domain, number, start))
+    total: Series = starts[-1]
+    for constant in reversed(starts[:-1]):
+        total = Sum(domain, constant, Convolution(domain, step, total), False)
+    return total
 
 
 def convolution(domain: Domain, a: Series, b: Series, n: int) -> Coefficient:

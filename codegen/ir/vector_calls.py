@@ -36,6 +36,14 @@ def vector_function(name: str) -> VectorFunction | None:
     return _OF_MATRICES[kind](int(n)) if kind in _OF_MATRICES else MatrixExponential(int(n), int(level))
 
 
+def named(name: str) -> VectorFunction:
+    """Return the vector function called name; ValueError for any other name."""
+    function = vector_function(name)
+    if function is None:
+        raise ValueError(f"unknown vector function {name}")
+    return function
+
+
 @cache
 def component(payload: str) -> tuple[VectorFunction, int] | None:
     """Return the vector function and the index of the result that a call node denotes; None for other calls.

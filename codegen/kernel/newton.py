@@ -26,9 +26,10 @@ Rows = tuple[tuple[Expr, ...], ...]
 
 AT_ZERO = {
     **{f"stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
-    **{f"signed_stumpff{k}": Fraction(1) for k in range(2)},
+    **{f"signed_stumpff{k}": Fraction(1, factorial(k)) for k in range(4)},
     **{f"slope{k}": Fraction(-1, factorial(k + 2)) for k in (2, 3)},
-    "signed_slope1": Fraction(-1, factorial(3)),
+    **{f"curvature{k}": Fraction(2, factorial(k + 4)) for k in (2, 3)},
+    **{f"signed_slope{k}": Fraction(-1, factorial(k + 2)) for k in (1, 2, 3)},
     **{"sin": Fraction(0), "cos": Fraction(1), "exp": Fraction(1), "sqrt": Fraction(0), "log": None},
     **{name: function.at_zero for name, function in ELEMENTARY.items()},
 }

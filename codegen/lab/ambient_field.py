@@ -10,14 +10,14 @@ from __future__ import annotations
 
 from flint import arb
 
-from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.number import Number
+from codegen.lab.number_functions import of_scalars
 from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision, working_bits
 
-FUNCTIONS = {name: getattr(arb, name) for name in MATHEMATICAL}
+FUNCTIONS = of_scalars(arb)
 
 
 def ambient_field(scene: Problem) -> Evaluate:

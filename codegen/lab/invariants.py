@@ -10,15 +10,15 @@ import math
 
 from codegen.groups import LeftMultiplication
 from codegen.ir.domain import ExprDomain
-from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
 from codegen.ir.values import Kind
+from codegen.lab.number_functions import of_scalars
 from codegen.lab.number_types import Evaluate, Vector
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
 
-FUNCTIONS = {name: getattr(math, name) for name in MATHEMATICAL}
+FUNCTIONS = of_scalars(math)
 
 MANIFOLD = "manifold"
 """The key of the manifold equations in the dictionaries of conserved quantities."""

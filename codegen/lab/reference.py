@@ -9,7 +9,9 @@ of different order and tolerance must agree, and their distance is the stated un
 from __future__ import annotations
 
 import math
+import time
 from dataclasses import dataclass
+from functools import partial
 
 from flint import arb
 
@@ -18,6 +20,7 @@ from codegen.ir.domain import PreciseDomain
 from codegen.lab.ambient_field import ambient_field
 from codegen.lab.measurement_cache import MeasurementCache, user_cache
 from codegen.lab.number_types import Evaluate, Scalar, Vector
+from codegen.lab.piecewise_field import PiecewiseField, Sided
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 from orderconds.ring.precision import precision
@@ -47,12 +50,14 @@ class Reference:
 
     ``state`` holds mpmath numbers of :data:`DIGITS` digits in the order of ``scene.symbols``;
     ``uncertainty`` is the largest difference of a coordinate between two runs of different order and
-    tolerance.
+    tolerance. ``kinks`` has an entry for each point of the solution where the field is not smooth: the number
+    of its continuous derivatives there, -1 for a jump.
     """
 
     scene: str
     state: Vector
     uncertainty: float
+    kinks: tuple[int, ...] = ()
 
     def digits(self, count: int = 30) -> tuple[str, ...]:
         """Return the state as decimal strings of ``count`` significant digits."""
@@ -63,25 +68,31 @@ class Reference:
 
 @dataclass(frozen=True)
 class _Stored:
-    """A reference as the cache stores it: decimal strings, and the uncertainty."""
+    """A reference as the cache stores it: decimal strings, the uncertainty, and the kinks."""
 
     state: tuple[str, ...]
     uncertainty: float
+    kinks: tuple[int, ...] = ()
 
 
-def cached_reference(scene: Problem, cache: MeasurementCache | None = None) -> Reference:
+def cached_reference(
+    scene: Problem, cache: MeasurementCache | None = None, end: float = math.inf
+) -> Reference:
     """Return the reference of a scene from the cache; compute and store it if it is missing.
 
-    The default of ``cache`` is the cache of this user. Errors: those of :func:`reference`.
+    The default of ``cache`` is the cache of this user. The computation ends at the time ``end``. Errors:
+    those of :func:`reference`.
     """
 
     def compute() -> _Stored:
-        computed = reference(scene)
-        return _Stored(computed.digits(DIGITS), computed.uncertainty)
+        computed = reference(scene, end)
+        return _Stored(computed.digits(DIGITS), computed.uncertainty, computed.kinks)
 
     stored = (cache or user_cache()).get(_key(scene), _Stored, compute)
     context = PreciseDomain(0, DIGITS).context
-    return Reference(scene.name, tuple(map(context.mpf, stored.state)), stored.uncertainty)
+    return Reference(
+        scene.name, tuple(map(context.mpf, stored.state)), stored.uncertainty, tuple(stored.kinks)
+    )
 
 
 def _key(scene: Problem) -> tuple[object, ...]:
@@ -99,13 +110,14 @@ def _key(scene: Problem) -> tuple[object, ...]:
     )
 
 
-def reference(scene: Problem) -> Reference:
+def reference(scene: Problem, end: float = math.inf) -> Reference:
     """Return the reference of a scene at the end of its span, with its measured uncertainty.
 
-    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, or if
-    the two runs do not agree to 28 digits.
+    Raises :class:`codegen.errors.SceneError` if the equations cannot be evaluated along the solution, if the
+    two runs do not agree to 28 digits, or if they are not finished at the time ``end`` of the clock
+    ``time.monotonic``.
     """
-    checked, answer = (_end(scene, columns, exponent) for columns, exponent in RUNS)
+    (checked, _), (answer, kinks) = (_end(scene, columns, exponent, end) for columns, exponent in RUNS)
     size = max(1.0, *(float(abs(x)) for x in answer))
     gap = max(float(abs(a - b)) for a, b in zip(checked, answer, strict=True))
     if not gap <= AGREEMENT * size:
@@ -115,40 +127,67 @@ def reference(scene: Problem) -> Reference:
             expected=f"agreement to {AGREEMENT:g}",
             hint="shorten the span, or look for a discontinuity of the field",
         )
-    return Reference(scene.name, answer, gap)
+    return Reference(scene.name, answer, gap, kinks)
 
 
-def _end(scene: Problem, columns: int, exponent: int) -> Vector:
-    """Return the final state of one run of the extrapolation method, with step-size control."""
+def _end(scene: Problem, columns: int, exponent: int, finish: float) -> tuple[Vector, tuple[int, ...]]:
+    """Return the final state of one run of the extrapolation method, with step-size control, and the
+    kinks."""
     context = PreciseDomain(0, DIGITS)
     with precision(BITS):
-        field = ambient_field(scene)
-        y = tuple(arb(context.context.nstr(x, DIGITS + 5)) for x in scene.initial(context))
-        final = _integrate(scene, field, tuple(x.mid() for x in y), columns, 10.0**exponent)
-        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final)
+        piecewise = PiecewiseField(scene)
+        y = tuple(arb(context.context.nstr(x, DIGITS + 5)).mid() for x in scene.initial(context))
+        smooth = None if piecewise.nodes else ambient_field(scene)
+        final, kinks = _integrate(scene, smooth or Sided(piecewise), y, columns, 10.0**exponent, finish)
+        return tuple(context.context.mpf(x.str(DIGITS + 5, radius=False)) for x in final), kinks
 
 
-def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, tolerance: float) -> Vector:
-    """Return the state at the end of the span as midpoints of balls in the working precision."""
+def _integrate(
+    scene: Problem, field: Evaluate | Sided, y: Vector, columns: int, tolerance: float, finish: float
+) -> tuple[Vector, tuple[int, ...]]:
+    """Return the state at the end of the span as midpoints of balls in the working precision, and the
+    kinks.
+
+    ``finish`` is the latest permitted time of the clock ``time.monotonic``.
+    """
     t, end = (arb(x.numerator) / x.denominator for x in scene.span)
     whole = float(end - t)
     step = whole / 8
     reason = "extrapolation does not converge"
+    sided = field if isinstance(field, Sided) else None
+    if sided is not None:
+        sided.begin(y, t, whole * LEAST_STEP)
     for _ in range(MOST_STEPS):
         if step <= whole * LEAST_STEP:
             break
+        if time.monotonic() > finish:
+            raise SceneError(
+                "the reference solution is not finished in time",
+                where=scene.name,
+                expected="a part of the budget",
+                hint="allow more time, or shorten the span",
+            )
         left = (end - t).mid()
         last = arb(step) >= left
+        length = left if last else arb(step)
         try:
-            new, error = _extrapolate(field, y, t, left if last else arb(step), columns)
+            new, error = _extrapolate(field, y, t, length, columns)
         except ArithmeticError as failure:  # a long trial step may leave the domain of the field
             reason, step = str(failure), step / 5
             continue
         size = max(1.0, *(abs(float(x)) for x in new))
         if error <= tolerance * size:
+            if sided is not None and sided.leaves(y, t, new, length):
+                step = float(length)
+                moved = sided.cross(y, t, length, partial(_extrapolate, columns=columns))
+                if moved is None:
+                    step /= 2
+                else:
+                    t, y = moved
+                continue
             t, y = (t + step).mid(), new
             if last:
-                return y
+                return y, () if sided is None else tuple(sided.kinks)
         # The difference of the last two columns is O(step^(2 columns - 1)).
         ratio = (tolerance * size / error) ** (1 / (2 * columns - 1)) if error else 4.0
         step = min(step, float(left)) * max(0.2, min(4.0, 0.9 * ratio))
@@ -162,7 +201,9 @@ def _integrate(scene: Problem, field: Evaluate, y: Vector, columns: int, toleran
     )
 
 
-def _extrapolate(field: Evaluate, y: Vector, t: Scalar, step: Scalar, columns: int) -> tuple[Vector, float]:
+def _extrapolate(
+    field: Evaluate | Sided, y: Vector, t: Scalar, step: Scalar, columns: int
+) -> tuple[Vector, float]:
     """Return the extrapolated state after one step, and an estimate of its error.
 
     The state is the last entry of the extrapolation table, the estimate its distance from the previous entry
@@ -183,7 +224,7 @@ def _extrapolate(field: Evaluate, y: Vector, t: Scalar, step: Scalar, columns: i
     return tuple(x.mid() for x in row[-1]), error
 
 
-def _midpoint(field: Evaluate, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
+def _midpoint(field: Evaluate | Sided, y: Vector, slope: Vector, t: Scalar, step: Scalar, n: int) -> Vector:
     """Return the state after n substeps (n even) of the explicit midpoint rule, started by an Euler step."""
     h = step / n
     twice = 2 * h

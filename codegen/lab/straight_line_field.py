@@ -7,12 +7,13 @@ type of numbers (floats, balls, arrays of another library) or as the body of a C
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr, walk
 from codegen.ir.number import Number
+from codegen.lab.number_functions import Functions, chosen
 from codegen.lab.number_types import Evaluate, Scalar
 from codegen.printers.expression import number
 from codegen.scene.problem import TIME, Problem
@@ -33,18 +34,18 @@ class StraightLine:
     results: tuple[str, ...]
     functions: tuple[str, ...]
 
-    def python(self, constant: Callable[[Number], Scalar], functions: Mapping[str, Scalar]) -> Evaluate:
+    def python(self, constant: Callable[[Number], Scalar], functions: Functions) -> Evaluate:
         """Return the code as a Python function (y, t) -> tuple for one type of numbers.
 
         ``constant`` converts an exact number to this type. ``functions`` maps names such as ``sqrt`` to
-        functions of this type.
+        functions of this type (:mod:`codegen.lab.number_functions`).
         """
         body = [f"    {name} = {_multiplied(text)}" for name, text in self.lines]
         source = "\n".join(
             ["def field(y, t):", *body, f"    return ({''.join(f'{r}, ' for r in self.results)})"]
         )
         names: dict[str, Scalar] = {f"c{k}": constant(x) for k, x in enumerate(self.constants)}
-        names |= {name: functions[name] for name in self.functions}
+        names |= {str(name): chosen(functions, name, constant) for name in self.functions}
         exec(compile(source, f"<{self.scene}>", "exec"), names)
         field: Evaluate = names["field"]
         return field

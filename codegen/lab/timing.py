@@ -20,8 +20,9 @@ FEWER = 3
 
 LONG = 0.2
 
-LEAST_STEPS = 200
-"""Runs with fewer steps are continued beyond the span while they are timed."""
+LEAST_STEPS, RESOLVED = 200, 1e-4
+"""Runs with fewer steps are continued beyond the span while they are timed, unless they take RESOLVED
+seconds. The overhead of a call is about a hundredth of this time."""
 
 CONFIRMED, MOST = 0.03, 21
 """The least time is confirmed if a second batch takes at most CONFIRMED longer. Otherwise batches are
@@ -60,6 +61,27 @@ def samples(call: Callable[[], object], batch: float = BATCH, batches: int = BAT
 def cost(call: Callable[[], object], batch: float = BATCH, batches: int = BATCHES) -> float:
     """Return the CPU seconds of one call: the least of several batches."""
     return samples(call, batch, batches)[0]
+
+
+def spans(run: Callable[[int], object], steps: int) -> int:
+    """Return the number of spans over which a run of ``steps`` steps a span is timed.
+
+    ``run(n)`` runs over n spans. The number is doubled until the run takes :data:`RESOLVED` seconds, has
+    :data:`LEAST_STEPS` steps, or fails because the solution ends beyond the span.
+    """
+    count = 1
+    while 2 * count * max(steps, 1) <= LEAST_STEPS and _least(run, count) < RESOLVED:
+        try:
+            run(2 * count)
+        except ArithmeticError:
+            break
+        count *= 2
+    return count
+
+
+def _least(run: Callable[[int], object], count: int) -> float:
+    # The first call of a module is slow.
+    return min(_batch(lambda: run(count), 1) for _ in range(3))
 
 
 def spread(times: Sequence[float]) -> float | None:

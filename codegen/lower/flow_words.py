@@ -22,7 +22,6 @@ from codegen.ir.values import Coefficient, Kind, Var
 from codegen.ir.verify import verify
 from codegen.lower.base import Lowering, Objection
 from codegen.method import Method
-from codegen.scene.orbit import orbit_of
 from codegen.scene.problem import Problem
 from orderconds.tableau import AdjointComposition
 
@@ -109,8 +108,8 @@ class FlowLowering(Lowering):
     def read(self, scene: Problem, method: Method) -> Reading:
         """Return the word, the carrier and the conditions of a method on a Hamiltonian scene with parts.
 
-        :class:`codegen.errors.MethodError` is raised for parts that do not add up to H, a part without exact
-        flow, a tableau for another number of parts, and parts that all depend on time.
+        :class:`codegen.errors.MethodError` is raised for a part without exact flow, a tableau for another
+        number of parts, and parts that all depend on time.
         """
         parts = parts_of(scene, f"{method.family}:{method.tableau.name} on {scene.name}")
         word, conditions = self.word(parts, method)
@@ -143,17 +142,6 @@ class FlowLowering(Lowering):
 
 def parts_of(scene: Problem, where: str) -> Parts:
     """Return the parts of a scene with their exact flows; errors as for :meth:`FlowLowering.read`."""
-    assert scene.hamiltonian is not None
-    rest = scene.hamiltonian
-    for summand in scene.parts.values():
-        rest = rest - summand
-    # The sum is compared on the orbit: H and the sum of parts may differ by a relation such as |q|^2 = 1.
-    if not orbit_of(scene).vanish([rest]):
-        raise MethodError(
-            f"the parts {', '.join(scene.parts)} do not add up to H",
-            where=where,
-            expected="all summands of H",
-        )
     parts = recognise(scene)
     for part in parts:
         if not part.summands:

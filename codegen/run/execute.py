@@ -457,14 +457,8 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
     if function == "invert":
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
-
-        def fill(*arrays: list[Any]) -> Sequence[Any]:
-            # A domain has the same operations as the function of the unit, and is faster.
-            *given, results = arrays
-            results[:] = domain.vector(function, [x for array in given for x in array])
-            return ()
-
-        return fill
+        # A domain has the same operations as the function of the unit, and is faster.
+        return lambda *x: operator.setitem(x[-1], slice(None), domain.vector(function, sum(x[:-1], []))) or ()
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
         together = getattr(domain, "together", None)

@@ -13,7 +13,7 @@ from functools import cache
 
 from codegen.ir.domain import FloatDomain
 from codegen.ir.precision import DOUBLE
-from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, economised, limit, slopes
+from codegen.snippets.stumpff import SMALL, SWITCH, TINY, constants, curvatures, economised, limit, slopes
 
 
 class EmittedFloats(FloatDomain):
@@ -69,21 +69,29 @@ class EmittedFloats(FloatDomain):
         (z, *_) = args
         if function.startswith("signed_stumpff"):
             k = int(function[-1])
-            if z >= 0:
-                return self.together([k], z)[0]
-            r = math.sqrt(-z)
-            return math.cosh(r) if k == 0 else math.sinh(r) / r
+            return self.together([k], z)[0] if z >= 0 else _hyperbolic(k, z)
         if function.startswith("stumpff"):
             return self.together([int(function[-1])], z)[0]
         if "slope" in function:
-            return self._slope(int(function[-1]), z)
+            return self._slope(int(function[-1]), z, signed=function.startswith("signed"))
+        if "curvature" in function:
+            return self._curvature(int(function[-1]), z)
         return super().call(function, *args)
 
-    def _slope(self, k: int, z: float) -> float:
+    def _curvature(self, k: int, z: float) -> float:
+        if z > 1.0:
+            a, b, c = self.together([k - 2, k - 1, k], z)
+            return 0.25 * ((a - float(2 * k + 1) * b) + float(k * (k + 2)) * c) / (z * z)
+        *rest, total = curvatures(k)
+        for term in reversed(rest):
+            total = term + z * total
+        return total
+
+    def _slope(self, k: int, z: float, *, signed: bool) -> float:
         # The quotient divides by z and cancels for small z; there the series is used.
         if abs(z) > 1.0:
-            if k == 1:
-                before, c = (self.call(f"signed_stumpff{i}", z) for i in range(2))
+            if signed:
+                before, c = (self.call(f"signed_stumpff{i}", z) for i in (k - 1, k))
             else:
                 before, c = self.together([k - 1, k], z)
             return 0.5 * (before - float(k) * c) / z
@@ -92,6 +100,21 @@ class EmittedFloats(FloatDomain):
         for term in reversed(rest):
             total = term + z * total
         return total
+
+
+def _hyperbolic(k: int, z: float) -> float:
+    """Return c_k(z) for z < 0."""
+    r = math.sqrt(-z)
+    if k == 0:
+        return math.cosh(r)
+    if k == 2:
+        half = 0.5 * r
+        ratio = math.sinh(half) / half
+        return 0.5 * (ratio * ratio)
+    if k == 3 and z >= -SWITCH[3]:
+        return _series(3, z)
+    ratio = math.sinh(r) / r
+    return ratio if k == 1 else (1.0 - ratio) / z
 
 
 @cache

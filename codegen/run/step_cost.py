@@ -71,6 +71,10 @@ WEIGHTS = Amounts(
 """Nanoseconds of each kind on the machine of the measurements; choices depend on ratios of weights alone."""
 
 
+CHEAP = ("add", "mul", "choose", "fabs")
+"""Operations that take about one cycle."""
+
+
 def of_operations(counts: Mapping[str, int]) -> Amounts:
     """Return the amounts of counted operations.
 
@@ -79,7 +83,7 @@ def of_operations(counts: Mapping[str, int]) -> Amounts:
     ... )
     True
     """
-    arithmetic, divisions = counts.get("add", 0) + counts.get("mul", 0), counts.get("div", 0)
+    arithmetic, divisions = sum(counts.get(name, 0) for name in CHEAP), counts.get("div", 0)
     # All calls count alike, because nearly all calls are Stumpff functions of small arguments, which are
     # computed by short polynomials.
     calls = sum(counts.values()) - arithmetic - divisions

@@ -181,8 +181,9 @@ class Stopping:
 
         The matrix is exact to first order in h, so the rate of the step before is valid in the first sweep. A
         loop that contracts ends if the predicted next change is below four roundings of the sum of the
-        unknowns. A loop that does not contract ends after the second sweep or later, if the change is below
-        the tolerance or below the rounding errors of the state.
+        unknowns. A loop that contracts slowly ends if the sum of all later changes, a geometric series, is
+        below this bound. A loop whose changes no longer decrease ends after the second sweep or later, if the
+        change is below the tolerance or below the rounding errors of the state.
         """
         form, rate = self.plan.format, self.rate
         close, tolerance = (form.scaled(x) for x in (FOUR_ROUNDINGS, self.loop.tolerance))
@@ -201,7 +202,15 @@ class Stopping:
                     flag("contracts"),
                     CHANGE * (rate + LEAST_RATE) <= close * SCALE,
                     # After a single sweep that does not contract, the distance to the solution is unknown.
-                    both(SWEEPS > 1, either(CHANGE <= tolerance * SCALE, self.lost())),
+                    both(
+                        SWEEPS > 1,
+                        # A small change that still decreases is no rounding error: at the rate 0.9, later
+                        # changes add nine times as much.
+                        either(
+                            CHANGE * rate <= close * SCALE * (1.0 - rate),
+                            both(rate >= 1.0, either(CHANGE <= tolerance * SCALE, self.lost())),
+                        ),
+                    ),
                 ),
             ),
         ]

@@ -1,7 +1,7 @@
 """Scenes, which a user writes, and problems, which the compiler evaluates.
 
 A scene file imports its names from this package:
-``from codegen.scene import FieldScene, HamiltonianScene, param, signal``.
+``from codegen.scene import FieldScene, HamiltonianScene, param, signal, table``.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ if TYPE_CHECKING:
     from codegen.scene.parameters import param as param
     from codegen.scene.parameters import signal as signal
     from codegen.scene.problem import Problem as Problem
+    from codegen.scene.tables import table as table
 
-__all__ = ["FieldScene", "HamiltonianScene", "Problem", "param", "signal"]
+__all__ = ["FieldScene", "HamiltonianScene", "Problem", "param", "signal", "table"]
 
 lazy(
     __name__,
@@ -27,4 +28,5 @@ lazy(
     hamiltonian_scene=("HamiltonianScene",),
     parameters=("Parameter", "Signal", "param", "signal"),
     problem=("Problem",),
+    tables=("table",),
 )

@@ -9,6 +9,7 @@ from codegen.errors import SceneError
 from codegen.groups.actions import Action
 from codegen.groups.base import LieGroup
 from codegen.groups.linear_algebra import Vector
+from codegen.ir.decimals import exact
 from codegen.ir.domain import ExprDomain
 from codegen.ir.expr import Expr
 from codegen.scene.formulas import Reader
@@ -55,12 +56,13 @@ def _refuse(name: str, what: str, value: object, example: str) -> NoReturn:
 def read_span(name: str, span: tuple[sympy.Expr, sympy.Expr]) -> tuple[Fraction, Fraction]:
     """Return the time interval; raise :class:`SceneError` unless it consists of two rational times in
     order."""
-    import sympy
-
     try:
-        first, last = (Fraction(int(r.p), int(r.q)) for r in map(sympy.Rational, span))
-    except (TypeError, ValueError, AttributeError):  # AttributeError: sympy's infinities have no p and q
-        raise SceneError(f"the span {span}", where=name, expected="two rational times") from None
+        times = [exact(x) for x in span]
+    except TypeError:
+        times = []
+    if len(times) != 2 or times[0] is None or times[1] is None:
+        raise SceneError(f"the span {span}", where=name, expected="two rational times")
+    first, last = times[0], times[1]
     if not last > first:
         raise SceneError(
             f"the span ({first}, {last})", where=name, expected="an end later than the beginning"

@@ -19,6 +19,10 @@ from codegen.scene.problem import TIME, Problem
 if TYPE_CHECKING:
     import mpmath
 
+ROUNDING = 1e-12
+ROUNDED = "the numbers are rounded: write exact ones, such as cos(Rational(1, 10)) for cos(0.1)"
+"""The hint for an initial state that is wrong by a rounding error."""
+
 Stated = Mapping[str, tuple[tuple[Expr, ...], tuple[Expr, ...] | None]]
 """Formulas that a scene contains, by the name that messages use, and the computed formulas that they must
 equal. If the computed formulas are None, the formulas of the scene must equal the velocity f.y."""
@@ -30,7 +34,28 @@ def check_problem(problem: Problem, stated: Stated) -> None:
     check_start(orbit)
     for what, (formulas, derived) in stated.items():
         check_equal(orbit, formulas, what, derived)
+    check_parts(orbit, problem)
     check_invariants(orbit, problem.invariants)
+
+
+def check_parts(orbit: Orbit, problem: Problem) -> None:
+    """Raise :class:`SceneError` if the parts of a Hamiltonian do not add up to it.
+
+    They are compared on the orbit: H and the sum may differ by a relation such as |q|^2 = 1.
+    """
+    if not problem.parts or problem.hamiltonian is None:
+        return
+    parts = tuple(problem.parts.values())
+    for point in orbit.points:
+        values = orbit.values((problem.hamiltonian, *parts), point)
+        if values is not None and not orbit.sized(values[0] - sum(values[1:]), values):
+            names = ", ".join(problem.parts)
+            raise SceneError(
+                f"the parts {names} add up to {orbit.text(sum(values[1:]))} {_place(orbit, point)}",
+                where=orbit.name,
+                expected=f"{orbit.text(values[0])}, the value of H",
+                hint="name every summand of H in parts, and no other terms",
+            )
 
 
 def check_start(orbit: Orbit) -> None:
@@ -45,6 +70,7 @@ def check_start(orbit: Orbit) -> None:
                 f"an initial state that violates {law} by {orbit.text(defect)}",
                 where=orbit.name,
                 expected=f"an element of {orbit.group.name}",
+                hint=ROUNDED if abs(defect) < ROUNDING else "",
             )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from codegen.errors import SceneError
@@ -103,7 +103,7 @@ class Reader:
         shape = getattr(formula, "shape", None)
         if shape == (1, 1):
             formula = formula[0]
-        elif shape is not None:
+        elif shape:
             raise SceneError(f"{what} has shape {shape}", where=self.name, expected="a scalar")
         root = read(self.space, formula, f"{self.name}, {what}")
         known = () if constant else (*self.coordinates, *more, TIME)
@@ -113,11 +113,14 @@ class Reader:
             elif isinstance(symbol, Signal) and not constant:
                 self._admit_signal(symbol)
             elif symbol.name not in known:
+                hint = f'write {symbol.name} = param("{symbol.name}", 1) to make it a parameter'
+                if symbol.name in RESERVED or symbol.name in self.coordinates:
+                    hint = f"{what} is the state at the beginning of the span: write its value there"
                 raise SceneError(
                     f"the symbol {symbol.name} in {what} has no value",
                     where=self.name,
                     expected="numbers and parameters" if constant else "coordinates, t and parameters",
-                    hint=f'write {symbol.name} = param("{symbol.name}", 1) to make it a parameter',
+                    hint=hint if symbol.name != "h" or constant else RESERVED["h"],
                 )
         return root
 
@@ -131,7 +134,7 @@ class Reader:
     ) -> tuple[Expr, ...]:
         """Return n formulas."""
         try:
-            entries = list(formulas)
+            entries = list(_flat(formulas))
         except TypeError:
             raise SceneError(
                 f"{what} is {formulas}", where=self.name, expected=f"a column of {n} components"
@@ -139,6 +142,16 @@ class Reader:
         if len(entries) != n:
             raise SceneError(f"{what} has {len(entries)} components", where=self.name, expected=str(n))
         return tuple(self.scalar(e, f"{what}[{k}]", constant, more) for k, e in enumerate(entries))
+
+
+def _flat(formulas: Iterable[sympy.Expr]) -> Iterator[sympy.Expr]:
+    """Yield the entries of a matrix row by row: a matrix of sympy, an array of NumPy, or a list of rows."""
+    # A matrix of sympy yields its entries, but an array of NumPy and a list of rows yield rows.
+    for entry in formulas:
+        if isinstance(entry, list | tuple) or getattr(entry, "ndim", 0) > 0:
+            yield from _flat(entry)
+        else:
+            yield entry
 
 
 def _free_symbols(formula: sympy.Expr) -> Iterable[sympy.Symbol]:

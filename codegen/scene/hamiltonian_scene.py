@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from codegen.errors import SceneError
 from codegen.groups.actions import LeftMultiplication
@@ -55,11 +55,13 @@ def HamiltonianScene(
     = -(D_1 H).q^-1 (:mod:`codegen.scene.canonical_equations`) are computed by differentiation. If ``xi`` or
     ``n`` is given, it must equal the computed formulas. ``wrench`` is a column of ``group.dim`` components,
     in space, of a force without potential: mu' = n + wrench - ad*_xi mu, so a given ``n`` does not contain
-    the wrench. A scene with a wrench has no energy and no parts. If H does not depend on time and there is no
-    wrench, the energy is an invariant. :class:`SceneError` is raised in the same cases as by
-    :func:`FieldScene`.
+    the wrench. A scene with a wrench has no energy, and may have no parts. The parts must add up to H. If H
+    does not depend on time and there is no wrench, the energy is an invariant. :class:`SceneError` is raised
+    in the same cases as by :func:`FieldScene`.
     """
     reader = _reader(name, group, q, mu)
+    if wrench is not None and parts:
+        _refuse_parts(name, parts)
     system = _CanonicalSystem.read(reader, group, q, mu, H, parts or {}, wrench)
     state = system.state(q0, mu0)
     (energy,) = reader.closed((system.hamiltonian,))
@@ -72,7 +74,7 @@ def HamiltonianScene(
         *(name, title or name, group, LeftMultiplication(), state, roots),
         *(None if system.loads else energy, known, read_span(name, span), reader.parameters()),
         paired=True,
-        parts={} if system.loads else {key: reader.closed((x,))[0] for key, x in system.summands.items()},
+        parts={key: reader.closed((x,))[0] for key, x in system.summands.items()},
         signals=reader.signals,
         open_roots=system.open_roots,
         forced=bool(system.loads),
@@ -83,6 +85,15 @@ def HamiltonianScene(
         rates = velocity(group, system.qs, system.mus, problem.parts[key])
         check_flow(orbit_of(problem), key, formulas, rates, TAU)
     return problem
+
+
+def _refuse_parts(name: str, parts: Mapping[str, sympy.Expr]) -> NoReturn:
+    raise SceneError(
+        f"a wrench beside the parts {', '.join(parts)}",
+        where=name,
+        expected="parts without a wrench, or a wrench without parts",
+        hint="splittings compose exact flows of H, and a wrench has none: remove parts",
+    )
 
 
 def _reader(name: str, group: LieGroup, q: Column, mu: Column) -> Reader:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 import sympy
 
 from codegen.errors import SceneError
+from codegen.ir.decimals import exact
 from codegen.ir.number import is_normal
 
 
@@ -54,22 +53,20 @@ class Signal(sympy.Symbol):  # type: ignore[misc]
 def param(name: str, default: object) -> Parameter:
     """Return a sympy symbol for a parameter with a rational default.
 
-    Emitted code contains the default as a constant, unless the parameter is requested as a run-time argument.
+    A float means the shortest decimal that prints it: 0.1 is 1/10. Emitted code contains the default as a
+    constant, unless the parameter is requested as a run-time argument.
     :class:`SceneError` is raised for a default that is not rational.
     """
-    try:
-        value = sympy.Rational(default)
-    except TypeError:
-        value = None
-    if value is None or not value.is_Rational:
+    value = exact(default)
+    if value is None:
         raise SceneError(f"the default {default}", where=f"parameter {name}", expected="a rational number")
-    if not is_normal(Fraction(int(value.p), int(value.q))):
+    if not is_normal(value):
         raise SceneError(
-            f"the default {sympy.N(value, 3)}",
+            f"the default {sympy.N(sympy.Rational(value.numerator, value.denominator), 3)}",
             where=f"parameter {name}",
             expected="0, or an absolute value between 1e-307 and 1e308",
         )
-    return Parameter(name, int(value.p), int(value.q))
+    return Parameter(name, value.numerator, value.denominator)
 
 
 def signal(name: str, formula: object = 0) -> Signal:

@@ -14,6 +14,7 @@ from dataclasses import replace
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
+from os import PathLike, fspath
 from pathlib import Path
 
 from codegen.errors import SceneError
@@ -21,6 +22,8 @@ from codegen.scene.extended_phase_space import extended
 from codegen.scene.problem import Problem
 from codegen.scene.run_time import with_runtime
 from codegen.scene.stiff_variant import StiffVariant
+from codegen.scenes.neighbours import neighbours_of
+from orderconds.argument import described
 from orderconds.errors import InputError, UnknownName
 from orderconds.input_file import read_bytes
 
@@ -98,6 +101,24 @@ def load(name: str) -> Problem:
     return _load(name)
 
 
+def problem_of(scene: Problem | str | PathLike[str]) -> Problem:
+    """Return the scene that an argument of a function in Python denotes: a problem, a name, or the path of a
+    Python file.
+
+    >>> problem_of("dipole").name
+    'dipole'
+    """
+    if isinstance(scene, Problem):
+        return scene
+    if not isinstance(scene, str | PathLike):
+        raise SceneError(
+            described(scene),
+            where="scene",
+            expected="a scene, a name of the gallery, or a path of a Python file",
+        )
+    return load(fspath(scene))
+
+
 def with_values(name: str, parameters: Sequence[str]) -> str:
     """Return the name of a scene with other values of parameters, each given as ``NAME=VALUE``.
 
@@ -157,8 +178,8 @@ def _run(name: str, path: Path) -> Problem:
     read_bytes(path, "a Python file that defines `scene`", error=SceneError)
     try:
         # A scene may print messages, but stdout is reserved for the result of the command.
-        with redirect_stdout(sys.stderr):
-            scene = runpy.run_path(str(path)).get("scene")
+        with redirect_stdout(sys.stderr), neighbours_of(path):
+            names = runpy.run_path(str(path))
     except InputError as error:
         at = f"{_line(name, path, error)}: {error.where}"
         raise SceneError(error.found, where=at, expected=error.expected, hint=error.hint) from error
@@ -167,16 +188,21 @@ def _run(name: str, path: Path) -> Problem:
     except BaseException as error:  # a scene may also raise SystemExit, or its own BaseException
         at = _line(name, path, error)
         raise SceneError(f"the scene raises {type(error).__name__}: {error}", where=at) from error
+    scene = names.get("scene")
     if not isinstance(scene, Problem):
         raise SceneError(
             "no scene is defined", where=name, expected="scene = FieldScene(...) or HamiltonianScene(...)"
         )
-    return _named(scene, path.stem)
+    return _named(scene, path.stem, names.get("__doc__") or "")
 
 
-def _named(scene: Problem, name: str) -> Problem:
-    """Return the scene with another name; a scene without a title gets the name as its title."""
-    return replace(scene, name=name, title=name if scene.title == scene.name else scene.title)
+def _named(scene: Problem, name: str, about: str = "") -> Problem:
+    """Return the scene with another name.
+
+    A scene without a title gets the first line of ``about`` as its title, or else the name.
+    """
+    first = next((line.strip() for line in about.splitlines() if line.strip()), "").removesuffix(".")
+    return replace(scene, name=name, title=(first or name) if scene.title == scene.name else scene.title)
 
 
 def _line(name: str, path: Path, error: BaseException) -> str:

@@ -13,12 +13,13 @@ from typing import Any
 
 import networkx as nx
 
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
 from codegen.ir.precision import DOUBLE, Precision
+from codegen.ir.table import PiecewisePolynomial
 from codegen.snippets import stumpff
 from codegen.templates import environment
 
-LIBRARY = ("fabs", "isfinite", *sorted(MATHEMATICAL))
+LIBRARY = (ANGLE, "fabs", "isfinite", *sorted(MATHEMATICAL))
 """Functions that both targets have in their mathematical library."""
 
 
@@ -39,6 +40,7 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     already short.
     """
     listed = [Snippet("greater", "greater"), Snippet("quotient", "quotient")]
+    listed.append(Snippet("choose", "choose"))
     listed.append(Snippet("largest", "largest", ("fabs",)))
     listed.append(Snippet("power", "power"))
     listed.append(Snippet("all_finite", "all_finite", ("isfinite",)))
@@ -46,14 +48,16 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
     for k in (2, 3):
         variables = {"k": k, "terms": stumpff.slopes(k, precision)}
         listed.append(Snippet(f"slope{k}", "slope", (f"stumpff_{k - 1}{k}",), variables))
-    for k, hyperbolic in enumerate(("cosh", "sinh")):
-        needs = (f"stumpff_{k}", "sqrt", hyperbolic)
-        listed.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k}))
-    values_of_both = ("signed_stumpff0", "signed_stumpff1")
-    listed.append(
-        Snippet("signed_slope1", "signed_slope", values_of_both, {"terms": stumpff.slopes(1, precision)})
-    )
+        variables = {"k": k, "terms": stumpff.curvatures(k, precision)}
+        listed.append(Snippet(f"curvature{k}", "curvature", (f"stumpff_{k - 2}{k - 1}{k}",), variables))
     switch = [float(z) for z in stumpff.SWITCH]
+    for k, hyperbolic in enumerate(("cosh", "sinh", "sinh", "sinh")):
+        needs = (f"stumpff_{k}", "sqrt", hyperbolic, *(("stumpff_series_3",) if k == 3 else ()))
+        listed.append(Snippet(f"signed_stumpff{k}", "signed_stumpff", needs, {"k": k, "last": -switch[k]}))
+    for k in (1, 2, 3):
+        variables = {"k": k, "terms": stumpff.slopes(k, precision)}
+        needs = (f"signed_stumpff{k - 1}", f"signed_stumpff{k}")
+        listed.append(Snippet(f"signed_slope{k}", "signed_slope", needs, variables))
     for k in range(4):
         first, *rest = stumpff.constants(k, None, precision)
         values: dict[str, Any] = {"k": k, "first": first, "even": rest[::2], "odd": rest[1::2]}
@@ -87,6 +91,15 @@ def snippets(precision: Precision = DOUBLE) -> tuple[Snippet, ...]:
             Snippet(name, "stumpff_near", calls, values | {"tiny": tiny, "small": small, "far": far})
         )
     return tuple(listed)
+
+
+def snippet_of_table(table: PiecewisePolynomial, precision: Precision = DOUBLE) -> Snippet:
+    """Return the helper that evaluates a table: a binary search and Horner's rule."""
+    knots = tuple(map(precision.round, table.knots))
+    pairs = zip(table.bases, table.rows, strict=True)
+    rows = [tuple(map(precision.round, (base, *row))) for base, row in pairs]
+    values = {"name": str(table), "knots": knots, "rows": rows}
+    return Snippet(str(table), "table", (), values)
 
 
 @cache
@@ -136,6 +149,11 @@ def needed(
     """
     wanted = sorted(set(functions))
     whole = graph(precision)
+    tables = [snippet_of_table(f, precision) for f in wanted if isinstance(f, PiecewisePolynomial)]
+    if tables:
+        whole = whole.copy()
+        for table in tables:
+            whole.add_node(table.name, snippet=table)
     nodes = {m for name in wanted for m in (name, *nx.descendants(whole, name))}
     order = reversed(list(nx.lexicographical_topological_sort(whole.subgraph(nodes))))
     ordered = [whole.nodes[name]["snippet"] for name in order]
@@ -167,6 +185,8 @@ def _text(target: str, snippet: Snippet, precision: Precision, given: dict[str, 
             values[name] = number(value)
         elif isinstance(value, list | tuple) and value and isinstance(value[0], float):
             values[name] = [number(x) for x in value]
+        elif isinstance(value, list | tuple) and value and isinstance(value[0], tuple):
+            values[name] = [[number(x) for x in row] for row in value]
         else:
             values[name] = value
     return templates.get_template(f"snippets/{snippet.template}.j2").render(values).strip()

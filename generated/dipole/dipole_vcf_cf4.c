@@ -1186,9 +1186,10 @@ static inline int dipole_vcf_cf4_advance(double state[static 12], double h,
         const int contracts = rate_1 < 0.5;
         const int converged = contracts
             ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : (sweep > 1
+            && (change * rate_1 <= 8.881784197001252e-16 * scale * (1.0 - rate_1) || (rate_1 >= 1.0
             && (change <= 5.684341886080802e-14 * scale
             || (change * fabs(h) <= 7.105427357601002e-15 * dipole_vcf_cf4_largest(state, 9)
-            && change * fabs(h) <= 7.105427357601002e-15 * dipole_vcf_cf4_largest(state + 9, 3))));
+            && change * fabs(h) <= 7.105427357601002e-15 * dipole_vcf_cf4_largest(state + 9, 3))))));
         status = isfinite(change) ? (memory->age_1 > 0 && converged ? DIPOLE_VCF_CF4_OK
             : DIPOLE_VCF_CF4_NOT_CONVERGED) : DIPOLE_VCF_CF4_NOT_FINITE;
         make_1 = 0;

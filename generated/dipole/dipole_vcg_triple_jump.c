@@ -502,9 +502,10 @@ static inline int dipole_vcg_triple_jump_substep(double state[static 12], double
         const int contracts = rate_1 < 0.5;
         const int converged = contracts
             ? change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale : (sweep > 1
+            && (change * rate_1 <= 8.881784197001252e-16 * scale * (1.0 - rate_1) || (rate_1 >= 1.0
             && (change <= 5.684341886080802e-14 * scale || (change * fabs(h)
             <= 7.105427357601002e-15 * dipole_vcg_triple_jump_largest(state, 9) && change * fabs(h)
-            <= 7.105427357601002e-15 * dipole_vcg_triple_jump_largest(state + 9, 3))));
+            <= 7.105427357601002e-15 * dipole_vcg_triple_jump_largest(state + 9, 3))))));
         status = isfinite(change) ? (converged ? DIPOLE_VCG_TRIPLE_JUMP_OK
             : DIPOLE_VCG_TRIPLE_JUMP_NOT_CONVERGED) : DIPOLE_VCG_TRIPLE_JUMP_NOT_FINITE;
         make_1 = 0;

@@ -507,9 +507,11 @@ def _substep(state, h, memory, statistics):
             contracts = rate_1 < 0.5
             converged = (
                 change * (rate_1 + 0.0001220703125) <= 8.881784197001252e-16 * scale
-                if contracts else sweep > 1 and (change <= 5.684341886080802e-14 * scale
+                if contracts else sweep > 1
+                and (change * rate_1 <= 8.881784197001252e-16 * scale * (1.0 - rate_1)
+                or (rate_1 >= 1.0 and (change <= 5.684341886080802e-14 * scale
                 or (change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[0:9]))
-                and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12]))))
+                and change * abs(h) <= 7.105427357601002e-15 * max(map(abs, state[9:12]))))))
             )
             status = (
                 (OK if converged else NOT_CONVERGED) if isfinite(change) else NOT_FINITE

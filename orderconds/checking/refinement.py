@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from os import PathLike
 
+from orderconds.argument import DIGITS, integer
 from orderconds.checking.exact_forms import exact_forms
 from orderconds.proof import refine as newton
 from orderconds.proof.certificate import Certificate, certify
@@ -39,9 +40,10 @@ class Refinement:
 def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refinement:
     """Make the coefficients of a tableau exact or more precise.
 
-    If the tableau has a table ``[proof]``, ``digits`` places of its decimals are computed and proved.
-    Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the exact
-    method has at least the order of the given one. ``tableau`` may also be a file or a name of the library.
+    If the tableau has a table ``[proof]``, ``digits`` (10 to 1000) places of its decimals are computed and
+    proved. Otherwise doubles and rounded decimals are recognised as fractions or numbers p + q sqrt(d); the
+    exact method has at least the order of the given one. ``tableau`` may also be a file or a name of the
+    library.
 
     Raises :class:`~orderconds.proof.krawczyk.NotProved` if no solution near the decimals is proved, or if
     the numbers are not recognised.
@@ -52,6 +54,7 @@ def refine(tableau: Tableau | str | PathLike[str], digits: int = 60) -> Refineme
     (Fraction(2, 3), Fraction(0, 1))
     """
     given = tableau if isinstance(tableau, Tableau) else Tableau.load(tableau)
+    digits = integer(digits, "digits", DIGITS)
     if given.proof is None:
         forms = exact_forms(given)
         if forms is None:

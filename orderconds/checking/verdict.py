@@ -9,12 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orderconds import families
+from orderconds.argument import CONDITION_ORDER, TOLERANCE, described, integer, real
 from orderconds.checking.limits import Limits, Meter
 from orderconds.checking.order import DOUBLE, FamilyOrder, family_order, first_failing
 from orderconds.checking.report import EmbeddedOrder, Report
 from orderconds.errors import InputError
 from orderconds.families import Family
-from orderconds.tableau import Tableau, find
+from orderconds.tableau import Tableau
 from orderconds.tableau.properties import properties, undecided
 from orderconds.tableau.tolerance import with_tolerance
 
@@ -54,22 +55,21 @@ def check(
     ('holds', [('rk', 4, 'exact')])
     >>> check("rk4", family="rk", order=3).verdict, check("rk4", family="rkmk(3)").conclusion
     ('holds', 'order 4; no order claimed')
-    >>> print(check("kutta3", family="rkmk(0)").orders[0].order)
+    >>> check("kutta3", family="rkmk(0)").orders[0].order
     2
     """
+    order, tolerance = _bounds(order, tolerance, limits)
     if not isinstance(tableau, Tableau):
         tableau = read(tableau)
     given, tableau = tableau, with_tolerance(tableau, tolerance)
-    wanted = list(_wanted(tableau, family))
+    wanted = [*_wanted(tableau, family)]
     proof, broken = _proof(tableau)
     enclosed = proof.tableau if proof else tableau
     facts = proof.facts if proof else ()
     embedded = _embedded(enclosed, [f for f, _ in wanted])
     computed = properties(tableau)
-    if family is None:
-        broken += _broken_claims(tableau, computed, embedded)
-    if complete:
-        broken += _missing_claims(enclosed, tableau)
+    broken += _broken_claims(tableau, computed, embedded) if family is None else []
+    broken += _missing_claims(enclosed, tableau) if complete else []
     orders = _named(_orders(enclosed, wanted, facts, order, Meter(limits or Limits())), tableau)
     if certified:
         broken += [f"{f.family}: certificate {f.certificate}" for f in orders if f.certificate in NOT_PROVED]
@@ -86,6 +86,16 @@ def check(
         embedded=embedded,
         properties_claimed=bool(tableau.claims.properties),
         hint=_hint(given, orders),
+    )
+
+
+def _bounds(order: object, tolerance: object, limits: object) -> tuple[int | None, float | None]:
+    """Return order and tolerance as numbers; raise InputError for other types and values."""
+    if limits is not None and not isinstance(limits, Limits):
+        raise InputError(described(limits), where="limits", expected="Limits")
+    return (
+        None if order is None else integer(order, "order", CONDITION_ORDER),
+        None if tolerance is None else real(tolerance, "tolerance", TOLERANCE),
     )
 
 
@@ -304,14 +314,12 @@ def read(given: str | PathLike[str], *, execute: bool = False) -> Tableau:
     >>> read("rk4").name
     'rk4'
     """
-    path = Path(given)
-    if path.suffix and path.suffix != ".toml":
+    if execute and Path(given).suffix == ".py":
         from orderconds.exchange import load_foreign
 
-        if (foreign := load_foreign(path, execute=execute)) is not None:
+        if (foreign := load_foreign(Path(given), execute=True)) is not None:
             return foreign
-    bare = path.name == str(given) and path.suffix != ".toml"
-    return Tableau.load(find(path.name) if bare and not path.exists() else path)
+    return Tableau.load(given)
 
 
 def _wanted(tableau: Tableau, family: str | None) -> Iterator[tuple[Family, int | None]]:

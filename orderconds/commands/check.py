@@ -15,6 +15,8 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
+from orderconds import families
+from orderconds.argument import CONDITION_ORDER, TOLERANCE
 from orderconds.checking.limits import MAX_CONDITIONS, Limits
 from orderconds.commands import screen
 from orderconds.commands.names import completing, tableau_names
@@ -49,7 +51,10 @@ WIDTH = 200
 )
 @click.option("--family", "-f", help="Check only this family (vcg, 'rkmk(1)'), even without a claim.")
 @click.option(
-    "--order", "-p", type=click.IntRange(1, 20), help="Ignore the claims; require at least this order."
+    "--order",
+    "-p",
+    type=click.IntRange(*CONDITION_ORDER),
+    help="Ignore the claims; require at least this order.",
 )
 @click.option(
     "--complete",
@@ -63,12 +68,15 @@ WIDTH = 200
     "file DIR/DECIMAL.",
 )
 @click.option(
-    "--require-claims", is_flag=True, help="Exit with 1 if a tableau claims no order that is checked."
+    "--require-claims",
+    is_flag=True,
+    help="Exit with 1 if a tableau claims no order that is checked, and with 2 if a file of a directory is "
+    "neither a tableau nor plainly other data.",
 )
 @click.option("--skip-others", is_flag=True, help="Skip named files that hold no tableau, as in a directory.")
 @click.option(
     "--tolerance",
-    type=click.FloatRange(0, 2**40),
+    type=click.FloatRange(*TOLERANCE),
     metavar="UNITS",
     help="The uncertainty of coefficients that are binary floats, in units of rounding (2^-53 of the number, "
     "or of 1 if the number is smaller). Default: 8. With 0 the floats are exact numbers.",
@@ -110,6 +118,10 @@ def command(
     order. A file claims an order with `order = 4`, or with `rk = 4` among its claims. If a limit ends the
     search, the computed order is a lower bound.
 
+    Files of a directory that hold no tableau are skipped and named. A file is plainly other data if it has no
+    array of a tableau: a CSV file whose header names other columns, a JSON file without a matrix, a Python
+    module that assigns no matrix A and no list b, a NumPy archive with other names.
+
     Exits with 0 if all claims hold, 1 if a claim fails or is undecided, 2 if something could not be read.
 
     \b
@@ -118,10 +130,8 @@ def command(
         orderconds check tableaux --require-claims
         orderconds check mine.toml --family 'rkmk(2)' --order 4
     """
-    from orderconds.families import get
-
     if family is not None:
-        get(family)  # report an unknown family once, not for each file
+        families.get(family)  # report an unknown family once, not for each file
     job = _Job(
         path="",
         family=family,
@@ -134,27 +144,31 @@ def command(
         as_json=as_json,
         detailed=len(tableaux) == 1 and not os.path.isdir(tableaux[0]),
     )
-    jobs = _jobs(tableaux, job, skip_others)
+    jobs = _jobs(tableaux, job, skip_others, strict=require_claims)
     outcomes = list(_outcomes(jobs, as_json))
     verdicts = [outcome.verdict for outcome in outcomes]
-    accepted = ("holds",) if require_claims else ("holds", UNCLAIMED)
-    held = all(verdict in accepted for verdict in verdicts)
+    held = set(verdicts) <= {"holds", "holds" if require_claims else UNCLAIMED}
     if as_json:
         import json
 
         screen.print_json([json.loads(outcome.text) for outcome in outcomes if outcome.verdict])
     elif len(outcomes) > 1 and screen.is_shown(held):
         _print_summary(verdicts)
-    if require_claims and UNCLAIMED in verdicts:
-        count = verdicts.count(UNCLAIMED)
-        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
+    if require_claims:
+        _report_missing_claims(verdicts)
     return 2 if None in verdicts else 0 if held else 1
 
 
-def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool) -> list[_Job]:
+def _report_missing_claims(verdicts: Sequence[str | None]) -> None:
+    """Write the number of tableaux without a claim to stderr, if there are any."""
+    if count := verdicts.count(UNCLAIMED):
+        click.echo(f"--require-claims: {count} of {len(verdicts)} claim no order; {HOW_TO_CLAIM}", err=True)
+
+
+def _jobs(arguments: Sequence[str], job: _Job, skip_others: bool, *, strict: bool) -> list[_Job]:
     """Return a job for each tableau, with the options of ``job``."""
     excused = _excused(arguments)
-    paths = list(_files(arguments, skip_others))
+    paths = list(_files(arguments, skip_others, strict))
     return [
         replace(
             job,
@@ -258,10 +272,11 @@ def _excused(arguments: Sequence[str]) -> set[str]:
     return names
 
 
-def _files(arguments: Sequence[str], skip_others: bool) -> Iterator[str]:
+def _files(arguments: Sequence[str], skip_others: bool, strict: bool) -> Iterator[str]:
     """Yield each argument; a directory is replaced by the tableau files below it, in sorted order.
 
-    The skipped files are named on stderr, with the reason.
+    The skipped files are named on stderr, with the reason. If ``strict`` is true, only files that are plainly
+    other data are skipped.
     """
     for argument in arguments:
         if not argument.strip():
@@ -274,12 +289,12 @@ def _files(arguments: Sequence[str], skip_others: bool) -> Iterator[str]:
         from orderconds.exchange.folder import SUFFIXES, reason_to_skip, scan
 
         if not os.path.isdir(argument):
-            if reason := reason_to_skip(argument):
+            if reason := reason_to_skip(argument, strict=strict):
                 click.echo(f"skipped {argument}: {reason}", err=True)
             else:
                 yield argument
             continue
-        below = scan(argument)
+        below = scan(argument, strict=strict)
         for path, reason in below.skipped:
             click.echo(f"skipped {path}: {reason}", err=True)
         if below.others:

@@ -6,13 +6,16 @@ from dataclasses import replace
 
 import click
 
+from orderconds.argument import CONSTRUCTED_STAGES
 from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 
 
 @click.command(name="construct", short_help="Compute a Gauss, Radau or Lobatto method from its definition.")
 @click.argument("kind")
-@click.option("--stages", "-s", type=click.IntRange(1, 50), required=True, help="The number of stages.")
+@click.option(
+    "--stages", "-s", type=click.IntRange(*CONSTRUCTED_STAGES), required=True, help="The number of stages."
+)
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON record on stdout and nothing else.")
 def command(kind: str, stages: int, output: str | None, as_json: bool) -> int:

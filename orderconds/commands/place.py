@@ -14,7 +14,10 @@ from orderconds.output_file import write_files
 
 
 class Place(click.ParamType[str]):
-    """The type of an option for an output file or folder; an empty or blank name is an error.
+    """The type of an option for an output file or folder.
+
+    An empty or blank name is an error. A name that begins with ``--`` is an error too: the user forgot the
+    name, and the next option was read in its place.
 
     >>> FOLDER.convert("out", None, None)
     'out'
@@ -27,6 +30,13 @@ class Place(click.ParamType[str]):
         """Return the name."""
         if not value.strip():
             self.fail(f"{value!r} is not the name of a {self.name}; {self.otherwise}", param, ctx)
+        if value.startswith("--"):
+            self.fail(
+                f"the name of a {self.name} is missing before {value}; for a {self.name} of this name type "
+                f"./{value}",
+                param,
+                ctx,
+            )
         return value
 
 

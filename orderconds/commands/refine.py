@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from orderconds.argument import DIGITS
 from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 from orderconds.tableau import Tableau, dumps
@@ -14,7 +15,7 @@ UNKNOWN = "no fractions and no numbers p + q sqrt(d) near the coefficients give 
 @click.command(name="refine", short_help="Replace a tableau's decimals by proved digits or exact numbers.")
 @click.argument("file", metavar="FILE")
 @click.option(
-    "--digits", type=click.IntRange(10, 1000), default=60, show_default=True, help="Decimal places to write."
+    "--digits", type=click.IntRange(*DIGITS), default=60, show_default=True, help="Decimal places to write."
 )
 @click.option("--output", "-o", type=FILE, metavar="FILE", help="Write to this file instead of stdout.")
 @click.option("--json", "as_json", is_flag=True, help="Print digits, fixed decimals and proof as JSON.")
@@ -39,8 +40,7 @@ def command(file: str, digits: int, output: str | None, as_json: bool) -> int:
     from orderconds.checking import read
 
     tableau = read(file)
-    rounded = tableau.file is not None and tableau.file.symbolic.decimals()
-    if tableau.proof is None and (rounded or not file.endswith(".toml")):
+    if tableau.proof is None:
         return _exact(tableau, output, as_json)
     from orderconds.proof.certificate import certify
     from orderconds.proof.krawczyk import NotProved

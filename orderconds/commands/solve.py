@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from orderconds.argument import EXPONENTIALS, PROCESSES, SEED, SOLVED_ORDER, SOLVED_STAGES, STARTS
 from orderconds.commands import screen
 from orderconds.commands.names import completing, family_names
 from orderconds.commands.place import FILE, put
@@ -25,11 +26,13 @@ if TYPE_CHECKING:
 @click.option(
     "--stages",
     "-s",
-    type=click.IntRange(1, 40),
+    type=click.IntRange(*SOLVED_STAGES),
     required=True,
     help="The number of stages. For compositions and splittings: the number of steps.",
 )
-@click.option("--order", "-p", type=click.IntRange(1, 12), required=True, help="The order of the method.")
+@click.option(
+    "--order", "-p", type=click.IntRange(*SOLVED_ORDER), required=True, help="The order of the method."
+)
 @click.option("--explicit", is_flag=True, help="Only explicit methods: a_ij = 0 for j >= i.")
 @click.option("--dirk", is_flag=True, help="Only diagonally implicit methods: a_ij = 0 for j > i.")
 @click.option(
@@ -50,14 +53,14 @@ if TYPE_CHECKING:
 @click.option("--size", metavar="X", help="Only methods with coefficients of absolute value at most X.")
 @click.option(
     "--exponentials",
-    type=click.IntRange(1, 12),
+    type=click.IntRange(*EXPONENTIALS),
     default=2,
     show_default=True,
     help="Families cf and vcf: the number of exponentials in the update.",
 )
 @click.option(
     "--inner",
-    type=click.IntRange(1, 12),
+    type=click.IntRange(*EXPONENTIALS),
     default=2,
     show_default=True,
     help="Families cf and vcf: the number of exponentials in each stage.",
@@ -73,13 +76,13 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--starts",
-    type=click.IntRange(1, 10**7),
+    type=click.IntRange(*STARTS),
     help="The number of random starts for each structure.  [default: 4096, or 1024 if --minimise is given]",
 )
-@click.option("--seed", type=click.IntRange(0, 2**31), default=0, show_default=True)
+@click.option("--seed", type=click.IntRange(*SEED), default=0, show_default=True)
 @click.option(
     "--processes",
-    type=click.IntRange(1, 256),
+    type=click.IntRange(*PROCESSES),
     help="The number of local processes.  [default: one for each processor]",
 )
 @click.option("--dask", metavar="ADDRESS", help="Run on the dask cluster at tcp://host:port.")

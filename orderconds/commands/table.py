@@ -34,7 +34,7 @@ def command(write: str | None, against: str | None, as_json: bool) -> int:
     \b
     Examples:
         orderconds table
-        orderconds table --check README.md
+        orderconds table --check docs/reference/library.md
     """
     texts = {path: _around(path) for path in (write, against) if path is not None}
     rows = list(computed())

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from orderconds.argument import TREE_ORDER
 from orderconds.commands import screen
 from orderconds.commands.place import FILE, put
 
@@ -16,7 +17,9 @@ if TYPE_CHECKING:
 
 @click.command(name="trees", short_help="Enumerate, draw and explain trees, forests and Lyndon words.")
 @click.argument("kind")
-@click.option("--order", "-p", type=click.IntRange(1, 40), required=True, help="The number of vertices.")
+@click.option(
+    "--order", "-p", type=click.IntRange(*TREE_ORDER), required=True, help="The number of vertices."
+)
 @click.option(
     "--count", is_flag=True, help="Print only the number of trees, computed from a generating function."
 )

@@ -2,7 +2,8 @@
 
 A plain Butcher tableau can be read as well. Each of its lines contains c_i and a row of A. A line that begins
 with an empty cell contains b; a second such line contains the embedded weights. Blank cells elsewhere are
-zeros.
+zeros. Cells are separated by commas, semicolons or tabs. Comments (``#``) and a header are left out
+(:mod:`orderconds.exchange.rows`).
 
 Lines ``claims,rk=4`` or ``order,4`` state claims, also in a plain Butcher tableau. An embedded row has a line
 ``embedded_order,3``; without it the order of the row is computed.
@@ -12,8 +13,10 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Sequence
 
 from orderconds.errors import TableauError
+from orderconds.exchange import rows
 from orderconds.exchange.arrays import (
     MATRICES,
     ROWS,
@@ -25,6 +28,13 @@ from orderconds.exchange.arrays import (
     to_arrays,
 )
 from orderconds.tableau.file_format import Data
+
+NAMES = (*TEXTS, *ROWS, *MATRICES)
+"""The names of rows."""
+WEIGHTS = ("b", "embedded_b")
+"""The rows of weights of a plain Butcher tableau may have these names."""
+
+Table = tuple[tuple[str, ...], ...]
 
 
 def write(data: Data) -> bytes:
@@ -48,17 +58,15 @@ def read(content: bytes, where: str) -> Data:
     {'family': 'rk', 'A': [['1/2']], 'b': ['1']}
     """
     try:
-        rows = [
-            row for row in csv.reader(io.StringIO(content.decode()), strict=True) if any(map(str.strip, row))
-        ]
+        table = rows.read(content.decode(), NAMES).rows
     except (csv.Error, UnicodeDecodeError) as problem:
         raise TableauError(str(problem), where=where, expected="CSV") from None
     entries: Arrays = {}
-    if rows and not any(row[0].strip() in (*ROWS, *MATRICES) for row in rows):
-        plain = [row for row in rows if row[0].strip() not in TEXTS]
-        entries = _plain(plain, where) if plain else {}
-        rows = [row for row in rows if row[0].strip() in TEXTS]
-    for name, *cells in ([cell.strip() for cell in row] for row in rows):
+    if table and _is_plain(table):
+        plain = [row for row in table if row[0] not in TEXTS]
+        entries = _plain(plain, where)
+        table = tuple(row for row in table if row[0] in TEXTS)
+    for name, *cells in table:
         if name in TEXTS:
             if name in entries:
                 raise TableauError(f"{name} twice", where=where, expected="it once")
@@ -72,10 +80,16 @@ def read(content: bytes, where: str) -> Data:
     return from_arrays(entries, where)
 
 
-def _plain(rows: list[list[str]], where: str) -> Arrays:
-    """Return the arrays of a plain Butcher tableau: lines of c and A, then b."""
-    stages = [[coefficient(x) for x in row] for row in rows if row[0].strip()]
-    weights = [[coefficient(x) for x in row[1:]] for row in rows if not row[0].strip()]
+def _is_plain(table: Table) -> bool:
+    """Whether a table is a plain Butcher tableau: it has no named matrix, and a row without a name."""
+    first = [row[0] for row in table]
+    return not any(name in MATRICES for name in first) and any(name not in NAMES for name in first)
+
+
+def _plain(table: Sequence[tuple[str, ...]], where: str) -> Arrays:
+    """Return the arrays of a plain Butcher tableau: lines of c and A, then b, without a name or named b."""
+    stages = [[coefficient(x) for x in row] for row in table if row[0] and row[0] not in WEIGHTS]
+    weights = [[coefficient(x) for x in row[1:]] for row in table if not row[0] or row[0] in WEIGHTS]
     if not weights or len(weights) > 2:
         raise TableauError(
             f"{len(weights)} rows of weights",

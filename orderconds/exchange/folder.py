@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from orderconds.errors import InputError
-from orderconds.exchange import FORMATS, find_format
+from orderconds.exchange import FORMATS, csv_table, find_format, rows
 from orderconds.exchange.arrays import MATRICES, ROWS
 from orderconds.tableau.file import KEYS, bytes_of, meant_as_tableau
 
@@ -40,8 +40,10 @@ class Folder:
     """Names of files and hidden folders that no format reads."""
 
 
-def scan(folder: str | Path) -> Folder:
+def scan(folder: str | Path, *, strict: bool = False) -> Folder:
     """Return the files below a folder, sorted by path. Hidden folders are not searched.
+
+    If ``strict`` is true, only files that are plainly other data are skipped.
 
     >>> from orderconds.tableau.library import root
     >>> files = scan(root())
@@ -53,7 +55,7 @@ def scan(folder: str | Path) -> Folder:
         if path.suffix not in SUFFIXES:
             if path.name != EXCUSES:
                 files.others.append(path.name)
-        elif reason := reason_to_skip(path):
+        elif reason := reason_to_skip(path, strict=strict):
             files.skipped.append((str(path), reason))
         else:
             files.tableaux.append(str(path))
@@ -73,69 +75,104 @@ def _is_hidden(name: str) -> bool:
     return name.startswith(".") or name == "__pycache__"
 
 
-def reason_to_skip(path: str | Path) -> str:
+@dataclass(frozen=True)
+class Reason:
+    """Why a file is skipped; ``plain`` is true if the file is plainly other data and not a tableau that no
+    format reads."""
+
+    text: str
+    plain: bool = True
+
+
+def reason_to_skip(path: str | Path, *, strict: bool = False) -> str:
     """Return why a file holds no tableau, or an empty text if it is to be read as a tableau.
 
-    A file that is damaged is to be read, so that its error is reported.
+    A file that is damaged is to be read, so that its error is reported. If ``strict`` is true, a file that is
+    not plainly other data is to be read as well.
 
     >>> from orderconds.tableau import find
     >>> from orderconds.tableau.library import root
     >>> reason_to_skip(find("rk4")), reason_to_skip(root().parent / "pyproject.toml")
     ('', 'no key of a tableau (family, A, b, ...)')
     """
+    reason = _reason(path)
+    return "" if reason is None or (strict and not reason.plain) else reason.text
+
+
+def _reason(path: str | Path) -> Reason | None:
     of = find_format(str(path))
     if of == "toml":
-        return "" if meant_as_tableau(path) else NO_KEY
+        return None if meant_as_tableau(path) else Reason(NO_KEY)
     try:
         content = bytes_of(path)
     except InputError:
-        return ""
-    return _REASONS[of](content) if of in _REASONS else "a suffix that no format has"
+        return None
+    return _REASONS[of](content) if of in _REASONS else Reason("a suffix that no format has")
 
 
-def _of_json(content: bytes) -> str:
+def _of_json(content: bytes) -> Reason | None:
     try:
         data = json.loads(content)
     except (ValueError, RecursionError):
-        return ""
-    return "" if isinstance(data, dict) and not KEYS.isdisjoint(data) else NO_KEY
+        return None
+    if not isinstance(data, dict):
+        return Reason(NO_KEY, plain=not _is_matrix(data))
+    similar = {key.casefold() for key in KEYS} & {key.casefold() for key in data}
+    matrix = any(map(_is_matrix, data.values()))
+    return None if not KEYS.isdisjoint(data) else Reason(NO_KEY, plain=not similar and not matrix)
 
 
-def _of_csv(content: bytes) -> str:
+def _is_matrix(value: object) -> bool:
+    """Whether a value is a list of rows with numbers."""
+    if not isinstance(value, list) or not value or not all(isinstance(row, list) for row in value):
+        return False
+    return any(isinstance(x, int | float | str) for row in value for x in row)
+
+
+def _of_csv(content: bytes) -> Reason | None:
     """Return why a table of text is skipped: it has neither a named array nor rows of weights."""
     try:
-        rows = [row for row in csv.reader(io.StringIO(content.decode())) if row]
+        table = rows.read(content.decode(), csv_table.NAMES)
     except (csv.Error, UnicodeDecodeError):
-        return ""
-    named = any(row[0].strip() in (*MATRICES, *ROWS) for row in rows)
-    weights = any(not row[0].strip() and any(map(str.strip, row)) for row in rows)
-    return "" if named or weights else "no row is named A, b, ..., and no row begins with an empty cell"
+        return None
+    named = any(row[0] in (*MATRICES, *ROWS) for row in table.rows)
+    weights = any(not row[0] for row in table.rows)
+    if named or (weights and not table.plainly_other):
+        return None
+    text = "no row is named A, b, ..., and no row begins with an empty cell"
+    return Reason(text, plain=not table.rows or table.plainly_other)
 
 
-def _of_archive(content: bytes) -> str:
+def _of_archive(content: bytes) -> Reason | None:
     try:
         names = zipfile.ZipFile(io.BytesIO(content)).namelist()
     except (zipfile.BadZipFile, OSError, ValueError, NotImplementedError):
-        return ""
-    arrays = {name.removesuffix(".npy") for name in names} & {*MATRICES, *ROWS}
-    return "" if arrays - {"c"} else "no array is named A, b, ..."
+        return None
+    arrays = {name.removesuffix(".npy") for name in names}
+    if (arrays & {*MATRICES, *ROWS}) - {"c"}:
+        return None
+    unnamed = any(name.casefold() in ("a", "b") or re.fullmatch(r"arr_\d+", name) for name in arrays)
+    return Reason("no array is named A, b, ...", plain=not unnamed)
 
 
-def _of_python(content: bytes) -> str:
+def _of_python(content: bytes) -> Reason | None:
     from orderconds.exchange import python_source
 
-    return python_source.reason_to_skip(content)
+    text = python_source.reason_to_skip(content)
+    return Reason(text, plain=python_source.is_plainly_other(content)) if text else None
 
 
-def _of_latex(content: bytes) -> str:
-    return "" if _LATEX.search(content.decode(errors="replace")) else "no Butcher tableau and no matrix A"
+def _of_latex(content: bytes) -> Reason | None:
+    match = _LATEX.search(content.decode(errors="replace"))
+    return None if match else Reason("no Butcher tableau and no matrix A")
 
 
-def _of_c(content: bytes) -> str:
-    return "" if _ARRAY.search(content.decode(errors="replace")) else "no array is named A, gamma, ..."
+def _of_c(content: bytes) -> Reason | None:
+    match = _ARRAY.search(content.decode(errors="replace"))
+    return None if match else Reason("no array is named A, gamma, ...")
 
 
-_REASONS: dict[str | None, Callable[[bytes], str]] = {
+_REASONS: dict[str | None, Callable[[bytes], Reason | None]] = {
     "json": _of_json,
     "csv": _of_csv,
     "numpy": _of_archive,

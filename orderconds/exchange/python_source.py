@@ -26,8 +26,10 @@ ARRAYS = (*MATRICES, *ROWS)
 COMPLETE = (("A", "b"), ("exponentials", "count", "start"), ("gamma",), ("alpha", "beta"))
 """Sets of arrays, each of which defines a tableau."""
 
-HINT = "write the numbers as literals, or run the file with --execute"
+HINT = "write the numbers as literals, or run the file with orderconds check --execute"
 HARMLESS = ("print",)
+MODULES = ("fractions", "decimal", "math", "numpy", "sympy")
+"""Modules whose functions are understood."""
 _TEXT = re.compile(r"# (\w{1,64}): (.*)")
 
 
@@ -72,6 +74,23 @@ def reason_to_skip(content: bytes) -> str:
     }
     complete = any(assigned.issuperset(names) for names in COMPLETE)
     return "" if complete else "no assignment to A and b"
+
+
+def is_plainly_other(content: bytes) -> bool:
+    """Whether a module is valid and assigns no list or array to A, a or b.
+
+    >>> [is_plainly_other(x) for x in (b"import os", b"a = [[0, 0], [1, 0]]", b"a = f(1)")]
+    [True, False, True]
+    """
+    try:
+        tree = _parsed(_decoded(content, ""), "")
+    except TableauError:
+        return False
+    return not any(
+        name in ("A", "a", "b") and any(isinstance(node, ast.List | ast.Tuple) for node in ast.walk(value))
+        for statement in tree.body
+        for name, value in _assignments(statement)
+    )
 
 
 def _decoded(content: bytes, where: str) -> str:
@@ -122,8 +141,7 @@ def _follow(statement: ast.stmt, values: Values) -> None:
     if isinstance(statement, ast.Import) or (isinstance(statement, ast.Expr) and _is_harmless(statement)):
         return
     if isinstance(statement, ast.ImportFrom):
-        names = [alias.asname or alias.name for alias in statement.names]
-        values.forget(list(values.known) if "*" in names else names, statement.lineno)
+        _import(statement, values)
         return
     if isinstance(statement, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
         changed = [n for node in ast.walk(statement) if isinstance(node, ast.Global) for n in node.names]
@@ -140,6 +158,19 @@ def _follow(statement: ast.stmt, values: Values) -> None:
     elif not _entry_assigned(statement, values):
         mentioned = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
         values.forget(sorted(mentioned), statement.lineno)
+
+
+def _import(statement: ast.ImportFrom, values: Values) -> None:
+    """Take ``from fractions import Fraction as F`` into account; other modules are not understood."""
+    names = [alias.asname or alias.name for alias in statement.names]
+    values.forget(list(values.known) if "*" in names else names, statement.lineno)
+    root = (statement.module or "").partition(".")[0]
+    for alias in statement.names:
+        if root in MODULES:
+            values.functions[alias.asname or alias.name] = alias.name
+        elif alias.name != "*" and root != "__future__":
+            unknown = Computed(f"a name of the module {statement.module}", statement.lineno)
+            values.assign(alias.asname or alias.name, unknown)
 
 
 def _is_harmless(statement: ast.Expr) -> bool:

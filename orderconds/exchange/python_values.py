@@ -80,6 +80,8 @@ class Values:
     text: str
     named: Collection[str]
     known: dict[str, Value] = field(default_factory=dict)
+    functions: dict[str, str] = field(default_factory=dict)
+    """The names of imported functions, by the name in the module."""
     _lines: list[bytes] = field(default_factory=list)
     _entries: int = 0
 
@@ -195,8 +197,10 @@ class Values:
     def _call(self, node: ast.Call) -> Value:
         function = node.func.attr if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
         arguments = node.args
-        if isinstance(node.func, ast.Name) and function in self.known:
-            raise _NotLiteral(node, f"a call of {function}, which the module defines")
+        if isinstance(node.func, ast.Name):
+            if function in self.known:
+                raise _NotLiteral(node, f"a call of {function}, which the module defines or imports")
+            function = self.functions.get(function, function)
         if function in ARRAY_CALLS and len(arguments) == 1:
             _require_doubles(node)
             given = self._value(arguments[0])
@@ -294,7 +298,7 @@ def texts(value: Value, where: str) -> Cells:
             f"{value.reason}, which is not executed",
             where=f"{where}: line {value.line}",
             expected="a number",
-            hint="write the numbers as literals, or run the file with --execute",
+            hint="write the numbers as literals, or run the file with orderconds check --execute",
         )
     if isinstance(value, str):
         return value

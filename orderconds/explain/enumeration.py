@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
 
+from orderconds.argument import TREE_ORDER, integer
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError
 from orderconds.explain import kinds, lines
@@ -120,7 +121,8 @@ def trees(kind: str, order: int) -> ShownTrees:
     """Return all trees, forests or words of ``kind`` and ``order``, as ``orderconds trees`` lists them.
 
     Raises :class:`~orderconds.errors.UnknownName` for an unknown kind, and
-    :class:`~orderconds.errors.InputError` for an order below 1 or with more than :data:`MAX_TREES` trees.
+    :class:`~orderconds.errors.InputError` for an order that is not an integer from 1 to 40, or
+    with more than :data:`MAX_TREES` trees.
 
     >>> trees("rooted", 4)
     <4 rooted of order 4>
@@ -128,14 +130,13 @@ def trees(kind: str, order: int) -> ShownTrees:
     ['[[.]]', '[..]']
     """
     chosen = kinds.get(kind)
-    if order < 1:
-        raise InputError(f"order {order}", where="trees", expected="an order of at least 1")
+    order = integer(order, "order", TREE_ORDER)
     members = chosen.count(order)
     if members > MAX_TREES:
         raise InputError(
             f"there are {members} trees or words of order {order}",
             where=f"trees {kind}",
             expected=f"at most {MAX_TREES}",
-            hint="lower --order, or give --count to print only their number",
+            hint="lower the order; orderconds trees --count prints only their number",
         )
     return ShownTrees(chosen, order)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from orderconds import families
+from orderconds.argument import text
 from orderconds.conditions import OrderCondition
 from orderconds.errors import InputError, UnknownName
 from orderconds.explain.diagram import Diagram
@@ -98,7 +99,7 @@ def get(name: str) -> Kind:
     >>> get("ordered").count(8)
     429
     """
-    if name not in KINDS:
+    if text(name, "kind", f"one of {', '.join(KINDS)}") not in KINDS:
         close = difflib.get_close_matches(name, KINDS, n=1)
         raise UnknownName(
             f"there is no kind of trees {name!r}",
@@ -133,7 +134,7 @@ def refuse_too_many_trees(family: Family, order: int) -> None:
                 f"there are {trees} trees of order {n}, and still more trees of higher orders",
                 where=family.label(),
                 expected=f"at most {MAX_TREES}",
-                hint=f"lower --order to {n - 1}",
+                hint=f"lower the order to {n - 1}",
             )
 
 

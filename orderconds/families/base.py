@@ -314,9 +314,9 @@ class Family(ABC):
             return tableau_form(stages, explicit, self.needs_nonzero_weights)
         raise InputError(
             f"the number of stages does not determine the coefficients of family {self.label()}",
-            where="--stages",
+            where="stages",
             expected="a family whose coefficients follow from the number of stages, such as rk or splitting",
-            hint="leave --stages out",
+            hint="leave the number of stages out",
         )
 
     # Theorems

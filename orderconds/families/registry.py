@@ -7,6 +7,7 @@ import re
 from importlib import import_module
 from typing import TypeVar
 
+from orderconds.argument import text
 from orderconds.errors import InputError, UnknownName
 from orderconds.families.base import Family
 
@@ -211,7 +212,7 @@ def get(name: str, **options: int | None) -> Family:
     >>> get("rkmk(1)").label(), get("vcg").needs_nonzero_weights
     ('rkmk(1)', True)
     """
-    label = _LABEL.fullmatch(name)
+    label = _LABEL.fullmatch(text(name, "family", "the name of a family, such as rk"))
     base, argument = label.groups() if label else (name, None)
     family = family_class(base.replace("-", "_"))
     accepted = tuple(inspect.signature(family).parameters)

@@ -55,7 +55,7 @@ def refuse_explicit(label: str, explicit: bool) -> None:
     if explicit:
         raise InputError(
             f"family {label} has no explicit methods, because its coefficients are not a tableau (A, b)",
-            where="--explicit",
+            where="explicit",
             expected="a family whose coefficients are a_ij and b_i",
-            hint="leave --explicit out",
+            hint="leave the option out",
         )

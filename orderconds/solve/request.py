@@ -10,6 +10,20 @@ from pathlib import Path
 from typing import Literal
 
 from orderconds import families
+from orderconds.argument import (
+    EXPONENTIALS,
+    PROCESSES,
+    SEED,
+    SOLVED_ORDER,
+    SOLVED_STAGES,
+    STARTS,
+    described,
+    integer,
+    named_as_arguments,
+    text,
+    texts,
+)
+from orderconds.errors import InputError
 from orderconds.explain.kinds import refuse_too_many_trees
 from orderconds.solve import solver
 from orderconds.solve.elimination import Infeasible
@@ -88,40 +102,59 @@ def solve(
     name: str = "found",
     report: Callable[[str], object] = str,
 ) -> SearchResult:
-    """Find a method of ``family`` with this number of stages and this order, and prove its order.
+    """Find a method of ``family`` with this number of stages and order, and prove its order.
 
     The constraints are the options of ``orderconds solve``; ``fix`` is a sequence of equations such as
-    ``"a21=1/2"``. Contradictory constraints raise InputError. The result depends on ``seed``, and not on the
-    number of ``processes``. ``report`` is called with lines on the progress.
+    ``"a21=1/2"``. Contradictory constraints raise InputError. ``report`` receives lines on the progress.
 
     >>> heun = solve("rk", stages=2, order=2, explicit=True, fix=["a21=1"])
     >>> heun.tableau.b, heun.certificate
     ((Fraction(1, 2), Fraction(1, 2)), 'exact')
     """
-    # a symmetric method of even order needs only conditions of lower order
-    refuse_too_many_trees(families.get(family), order - 1)
+    order = integer(order, "order", SOLVED_ORDER)
+    refuse_too_many_trees(families.get(family), order - 1)  # symmetric methods need no even orders
     spec = Spec(
-        stages=stages,
+        stages=integer(stages, "stages", SOLVED_STAGES),
         explicit=explicit,
         dirk=dirk,
         symmetric=symmetric,
         fsal=fsal,
-        fix=tuple(fix),
-        positive=tuple(positive),
-        size=None if size is None else Fraction(size),
-        exponentials=exponentials,
-        inner=inner,
+        fix=texts(fix, "fix", "a21=1/2"),
+        positive=texts(positive, "positive", "b1"),
+        size=_size(size),
+        exponentials=integer(exponentials, "exponentials", EXPONENTIALS),
+        inner=integer(inner, "inner", EXPONENTIALS),
         rkn=rkn,
     )
     request = Order(
         family,
         order,
         spec,
-        seed=seed,
-        minimised=minimise is not None,
-        starts=starts,
-        processes=processes,
+        seed=integer(seed, "seed", SEED),
+        minimised=_minimised(minimise),
+        starts=None if starts is None else integer(starts, "starts", STARTS),
+        processes=integer(processes, "processes", PROCESSES),
         checkpoint=None if checkpoint is None else Path(checkpoint),
-        name=name,
+        name=text(name, "name", "a name as a str"),
     )
-    return SearchResult.of(request, solver.solve(request, report))
+    with named_as_arguments():
+        return SearchResult.of(request, solver.solve(request, report))
+
+
+def _minimised(minimise: object) -> bool:
+    if minimise not in (None, "error"):
+        raise InputError(described(minimise), where="minimise", expected='"error" or None')
+    return minimise is not None
+
+
+def _size(size: object) -> Fraction | None:
+    """Return a bound on coefficients; None for None."""
+    if size is None:
+        return None
+    try:
+        bound = Fraction(size)  # type: ignore[call-overload]
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        bound = Fraction(0)
+    if bound <= 0:
+        raise InputError(described(size), where="size", expected="a positive rational number, such as 2")
+    return Fraction(bound)

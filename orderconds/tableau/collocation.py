@@ -32,6 +32,7 @@ from fractions import Fraction
 
 from flint import fmpq, fmpq_poly
 
+from orderconds.argument import CONSTRUCTED_STAGES, integer, text
 from orderconds.errors import InputError, UnknownName
 from orderconds.ring.decimals import endpoints
 from orderconds.ring.field import Algebraic
@@ -209,9 +210,9 @@ def construct(kind: str, stages: int) -> Tableau:
     >>> construct("radau2a", 2).method
     RungeKutta(A=((5/12, -1/12), (3/4, 1/4)), b=(3/4, 1/4))
     """
-    if kind not in KINDS:
+    if text(kind, "kind", f"one of {', '.join(KINDS)}") not in KINDS:
         raise UnknownName(f"unknown kind {kind!r}", expected=f"one of {', '.join(KINDS)}")
-    rule = KINDS[kind]
+    rule, stages = KINDS[kind], integer(stages, "stages", CONSTRUCTED_STAGES)
     if stages < rule.least:
         raise InputError(f"{kind} with {stages} stages", expected=f"at least {rule.least} stages")
     try:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import numbers
 import re
 from collections.abc import Mapping
 
+from orderconds.argument import CONDITION_ORDER, described, integer, text
 from orderconds.errors import TableauError
 from orderconds.tableau.file_format import Coefficient, Data
 from orderconds.tableau.python_numbers import matrix, row
@@ -81,16 +83,28 @@ a row of coefficients, and an update is a list of exponentials
     [{}, {'exp': [['0.5']]}]
     """
     products = [_product(x, f"stages[{i}]") for i, x in enumerate(_listed(stages), start=1)]
-    for stage, start in (starts or {}).items():
-        if not 1 <= stage <= len(products):
-            raise TableauError(
-                f"the stage {stage}", where="starts", expected=f"a stage from 1 to {len(products)}"
-            )
+    for stage, start in _starts(starts, len(products)):
         products[stage - 1]["from"] = start
     data: Data = {"family": "cf", "stage": products, "update": _product(update, "update")}
     if embedded is not None:
         data["embedded"] = {**_product(embedded, "embedded"), "order": 1}
     return data
+
+
+def _starts(starts: object, stages: int) -> list[tuple[int, int]]:
+    """Return pairs of a stage and the earlier stage from which it starts."""
+    if starts is None:
+        return []
+    if not isinstance(starts, Mapping):
+        raise TableauError(
+            described(starts),
+            where="starts",
+            expected="a mapping from stages to earlier stages, such as {4: 2}",
+        )
+    return [
+        (integer(stage, "starts", (1, stages)), integer(start, f"starts[{stage}]", (1, stages)))
+        for stage, start in starts.items()
+    ]
 
 
 def _listed(stages: object) -> list[object]:
@@ -128,9 +142,8 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
         result["source"] = source
     if claims is None:
         return result
-    entries = {data["family"]: claims} if isinstance(claims, int) else dict(claims)
     table: Data = {}
-    for label, value in entries.items():
+    for label, value in _claimed(claims, data["family"]).items():
         with_cutoff = re.fullmatch(r"(\w+)\((\d+)\)", label)
         if with_cutoff is None:
             table[label] = value
@@ -138,3 +151,21 @@ def named(data: Data, name: str, source: str, claims: Claimed) -> Data:
             entry = {"cutoff": int(with_cutoff[2]), "order": value}
             table.setdefault(with_cutoff[1], []).append(entry)
     return result | {"claims": table}
+
+
+def _claimed(claims: object, family: str) -> dict[str, int | bool]:
+    """Return claims by label, each with its order, or whether the method has a property."""
+    if isinstance(claims, numbers.Integral) and not isinstance(claims, bool):
+        claims = {family: claims}
+    if not isinstance(claims, Mapping):
+        raise TableauError(
+            described(claims),
+            where="claims",
+            expected='the order, or a mapping such as {"rk": 4, "explicit": True}',
+        )
+    return {
+        text(label, "claims", 'a family or a property as a str, such as "rk"'): x
+        if isinstance(x, bool)
+        else integer(x, f"claims[{label!r}]", CONDITION_ORDER)
+        for label, x in claims.items()
+    }

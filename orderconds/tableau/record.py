@@ -10,6 +10,8 @@ from os import PathLike
 from pathlib import Path
 from types import ModuleType
 
+from orderconds import argument
+from orderconds.argument import described
 from orderconds.errors import TableauError
 from orderconds.ring.protocol import Element, Ring
 from orderconds.tableau.butcher import tableau_html, tableau_latex
@@ -127,18 +129,25 @@ defined under numbers (none)
         >>> Tableau.load("gauss2").A[0]
         (Fraction(1, 4), 1/4 - sqrt(3)/6)
         """
+        if not isinstance(path, str | PathLike):
+            raise TableauError(
+                described(path),
+                where="tableau",
+                expected="a Tableau, a name of the library, or a path",
+                hint="Tableau.rk(A, b) builds a tableau from arrays",
+            )
         given = Path(path)
         if given.suffix and given.suffix != ".toml":
             read_foreign: Callable[[Path], Tableau | None] = _above("exchange").load_foreign
             if (foreign := read_foreign(given)) is not None:
                 return foreign
         bare = given.name == str(path) and given.suffix != ".toml"
-        return load(find(given.name) if bare and not given.exists() else given)
+        return load(find(given.name) if bare and not _exists(given) else given)
 
     @staticmethod
     def loads(text: str, where: str = "<text>") -> Tableau:
         """Read a tableau from TOML text; ``where`` names it in messages."""
-        return loads(text, where)
+        return loads(argument.text(text, "text", "TOML as a str"), where)
 
     @property
     def s(self) -> int:
@@ -187,6 +196,10 @@ defined under numbers (none)
         if not isinstance(self.method, RungeKutta | PartitionedRungeKutta | CommutatorFree):
             return ""
         return f", {self.s} stage" + "s" * (self.s != 1)
+
+    def __hash__(self) -> int:
+        # Balls and algebraic numbers have no hash. Equal tableaux have equal names and sources.
+        return hash((self.name, self.family, self.source, self.bibtex, self.path, self.doubles))
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {tableau_latex(self)}$"
@@ -309,9 +322,20 @@ def from_data(data: Mapping[str, object], where: str = "<data>", path: str | Non
     )
 
 
+def _exists(path: Path) -> bool:
+    """Whether there is a file or folder; a name that is too long for a file has none."""
+    try:
+        return path.exists()
+    except OSError:
+        return False
+
+
 def _with_embedded_order(data: Data, name: str) -> Tableau:
     """Return the tableau of the keys; the order of an embedded row is computed on vector spaces."""
     tableau = from_data(data, name)
+    family: Callable[[str], object] = _above("families").get
+    for claim in tableau.claims.orders:
+        family(claim.family)  # raises UnknownName
     lower = tableau.lower()
     if lower is None:
         return tableau

@@ -226,7 +226,7 @@ def test_without_a_request_there_is_no_estimate():
         text = "".join(emitted("free_rigid_body", "cf:cf43", target, adaptive=False).files.values())
         for word in ("adaptive", "rtol", "LIMIT", "error != NULL"):
             assert word not in text
-    with pytest.raises(TypeError, match="emit it with --adaptive"):
+    with pytest.raises(TypeError, match="emit it with adaptive=True"):
         load(emitted("free_rigid_body", "cf:cf43", "c", adaptive=False)).adaptive([1, 0, 0], 0, 1)
     assert "--adaptive" in emitted("free_rigid_body", "cf:cf43", "c").manifest["command"]
 

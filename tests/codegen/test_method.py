@@ -5,13 +5,16 @@ from __future__ import annotations
 import pytest
 
 from codegen import scenes
+from codegen.emitter import compile_method
 from codegen.errors import MethodError
+from codegen.groups import LeftMultiplication, Rn
 from codegen.ir.domain import ExprDomain
 from codegen.kernel.translate import to_kernel
 from codegen.lower import families_for, lower, lowering, names
 from codegen.lower.flow_words import FlowLowering
 from codegen.lower.variational import VariationalLowering
 from codegen.method import Method, parse
+from codegen.scene import FieldScene, HamiltonianScene
 from orderconds.errors import InputError, TableauError, UnknownName, ZeroWeight
 from orderconds.families import family_class
 from orderconds.tableau import Tableau
@@ -76,6 +79,22 @@ def test_what_cannot_be_read_is_named(spelling, families, error, message):
         parse(spelling, families)
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_hints_for_scenes_of_users_name_methods_that_are_emitted():
+    group = Rn(1)
+    q, p = group.point("q"), group.dual("p")
+    oscillator = HamiltonianScene(
+        group=group, q=q, mu=p, H=(p[0] ** 2 + q[0] ** 2) / 2, q0=[1], mu0=[0], span=(0, 1)
+    )
+    y = group.point("y")
+    decay = FieldScene(group=group, action=LeftMultiplication(), y=y, f=[-y[0]], y0=[1], span=(0, 1))
+    for scene in (oscillator, decay):
+        families = families_for(scene)
+        for name in ("magnus4", "stormer_verlet"):
+            hint = hint_of(name, families)
+            assert hint
+            compile_method(scene, hint)
 
 
 PLACES = ("driven_spin", "duffing", "heavy_top", "linear_oscillator")

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pickle
 from collections.abc import Sequence
+from fractions import Fraction
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -114,6 +116,125 @@ def test_a_pickled_integrator_gives_the_same_numbers(target: str) -> None:
 def test_a_wrong_state_has_a_message(state: object, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         rigid("python").run(state, 0.1, 1)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(
+    ("state", "message"),
+    [
+        ((MU, Q), r"the parts \(q, mu\) of 9 and 3 numbers in state, found parts of 3 and 9 numbers"),
+        (
+            (np.array([MU, MU]), np.array([Q, Q])),
+            "3 and 9 numbers; write the parts in this order",
+        ),
+        ((Q[:2], np.zeros(6)), "found parts of 6 and 6 numbers"),
+        ((Q,), r"expected 12 numbers in state, found 9; a state is q \(9 numbers\), mu \(3 numbers\)"),
+        ([Q, MU], "write parts of different shapes as a tuple"),
+        ({"q": Q, "mu": MU}, "found an object of type dict"),
+    ],
+)
+def test_parts_in_the_wrong_order_are_refused(target: str, state: object, message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        top(target).step(state, 0.01)
+
+
+def test_flat_matrices_are_parts_of_a_pair() -> None:
+    q, mu = top("python").run((Q.ravel(), MU), 0.01, 5)
+    assert flat(q, mu) == top("python").run(flat(Q, MU), 0.01, 5)
+
+
+def test_rows_of_one_field_may_be_a_tuple() -> None:
+    assert rigid("python").run(([0.6], [0.0], [0.8]), 0.1, 1) == tuple(
+        [x] for x in rigid("python").run(START, 0.1, 1)
+    )
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(
+    "state",
+    [
+        np.array(START)[::-1][::-1],
+        np.asfortranarray([START, START])[0],
+        np.array(START, dtype=np.float64).astype(">f8"),
+        tuple(START),
+        [Fraction(3, 5), 0, np.float64(0.8)],
+    ],
+    ids=["strides", "Fortran order", "byte order", "tuple", "numbers"],
+)
+def test_every_form_of_the_same_numbers_gives_the_same_result(target: str, state: Any) -> None:
+    before = list(state)
+    assert list(rigid(target).run(state, 0.1, 5)) == rigid(target).run(START, 0.1, 5)
+    assert list(state) == before
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((None, 0.1, 1), "expected real numbers in state, found an object of type NoneType"),
+        (((x for x in START), 0.1, 1), "found an object of type generator; write a list"),
+        ((["0.6", "0", "0.8"], 0.1, 1), "found '0.6' of type str"),
+        ((np.ma.array(START, mask=[1, 0, 0]), 0.1, 1), "found an object of type MaskedArray"),
+        (([np.complex64(1j), 0, 0], 0.1, 1), "found 1j of type complex64"),
+        (([10**400, 0, 0], 0.1, 1), "a number of at most 1.8e308"),
+        ((START, "0.1", 1), "expected a real number for h, found '0.1' of type str"),
+        ((START, np.array([0.1]), 1), "expected a real number for h, found an object of type ndarray"),
+        ((START, 0.1, 2.0), "expected an integer for steps, found 2.0 of type float"),
+        ((START, 0.1, -1), "expected steps of at least 0, found -1"),
+        ((START, 0.1, 10**30), "expected steps of at most"),
+        ((START, 0.1, 1, "0"), "expected a real number for t"),
+        ((START, 0.1, 1, 0.0, 3), "expected Statistics for statistics"),
+    ],
+)
+def test_wrong_arguments_of_a_run_have_a_message(target: str, arguments: Any, message: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=message):
+        rigid(target).run(*arguments)
+
+
+def test_no_times_give_no_states() -> None:
+    assert rigid("python").trajectory(START, 0.1, t_eval=[]) == []
+    assert rigid("python").trajectory(np.array(START), 0.1, t_eval=[]).shape == (0, 3)
+    qs, mus = top("python").trajectory((Q, MU), 0.1, t_eval=[])
+    assert (qs.shape, mus.shape) == ((0, 3, 3), (0, 3))
+
+
+@pytest.mark.parametrize(
+    ("times", "message"),
+    [
+        ("abc", "expected a sequence of times for t_eval, found 'abc'"),
+        (3.0, "expected a sequence of times for t_eval"),
+        (np.array(3.0), "expected a sequence of times for t_eval"),
+        ([0, np.nan], "expected finite times in t_eval"),
+        ([0, np.inf], "expected finite times in t_eval"),
+        ([[0, 1]], "expected a real number for t_eval"),
+    ],
+)
+def test_times_that_are_no_times_have_a_message(times: Any, message: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=message):
+        rigid("python").trajectory(START, 0.1, t_eval=times)
+
+
+@pytest.mark.parametrize("target", TARGETS)
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"end": "1"}, "expected a real number for end"),
+        ({"end": 1, "limit": -1}, "expected limit of at least 0, found -1"),
+        ({"end": 1, "limit": 1e5}, "expected an integer for limit"),
+        ({"end": 1, "rtol": np.array([1e-3] * 3)}, "expected a real number for rtol"),
+        ({"end": 0.5, "t_eval": [0, 1]}, "an end that is not before the last time in t_eval, found 0.5"),
+    ],
+)
+def test_wrong_arguments_of_an_adaptive_run_have_a_message(target: str, options: Any, message: str) -> None:
+    with pytest.raises((TypeError, ValueError), match=message):
+        rigid(target, True).adaptive(START, **options)
+
+
+def test_messages_name_the_arguments_of_python() -> None:
+    with pytest.raises(TypeError, match="emit it with adaptive=True"):
+        rigid("python").adaptive(START, end=1)
+    with pytest.raises(TypeError, match="emit it with jacobian=True"):
+        rigid("python").jacobian(START, 0.1)
 
 
 def test_wrong_times_have_a_message() -> None:

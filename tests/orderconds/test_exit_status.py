@@ -107,9 +107,9 @@ def test_refine_without_a_proof_prints_a_document(tmp_path: Path) -> None:
     result = run("refine", str(path), "--json")
     assert result.exit_code == 1
     assert json.loads(result.stdout) == {
-        "decimals": {},
+        "exact": {},
         "proof": None,
-        "reason": "the file has no [proof] that names the equations",
+        "reason": "all coefficients are exact already",
     }
 
 

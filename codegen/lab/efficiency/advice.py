@@ -6,14 +6,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from html import escape
+from math import inf
 from typing import cast
 
 from codegen.artifact import Artifact
 from codegen.emitter import emit
 from codegen.lab.efficiency import recommend as search
+from codegen.lab.efficiency.measured import MOST_SECONDS
 from codegen.lab.efficiency.recommend import Recommendation, Request
 from codegen.lab.progress import Progress
 from codegen.printers import DEFAULT
+from orderconds.argument import described, integer, named_as_arguments, real, text, texts
+from orderconds.errors import InputError
 
 SECONDS = 50.0
 """The seconds that a search may take if the caller does not limit it."""
@@ -94,12 +98,34 @@ def recommend(
     The arguments are those of ``orderconds recommend``; ``needs`` are names such as ``"symplectic"``. Errors:
     SceneError, UnknownName and InputError for wrong arguments.
     """
-    names = tuple(word.strip() for word in needs.split(",")) if isinstance(needs, str) else tuple(needs)
-    interval = None if span is None else (Fraction(span[0]), Fraction(span[1]))
-    request = Request(scene, error, names, stack, interval, budget, tuple(tableaux))
-    result = search.recommend(request, progress)
+    words = needs.split(",") if isinstance(needs, str) else texts(needs, "needs", "symplectic")
+    text(scene, "scene", "a name of the gallery, or a path of a Python file")
+    with named_as_arguments():
+        request = Request(
+            scene,
+            real(error, "error", (0, inf)),
+            tuple(word.strip() for word in words),
+            None if stack is None else integer(stack, "stack", (1, 2**31)),
+            None if span is None else _interval(span),
+            real(budget, "budget", (0, MOST_SECONDS)),
+            texts(tableaux, "tableaux", "rk4"),
+        )
+        result = search.recommend(request, progress)
     record = result.as_json()
     return Advice(scene, _advised(record["recommended"]), _advised(record["runner_up"]), result)
+
+
+def _interval(span: object) -> tuple[Fraction, Fraction]:
+    """Return an interval of time; InputError unless it is a pair of rational numbers."""
+    try:
+        first, last = (Fraction(t) for t in span)  # type: ignore[attr-defined]
+    except (TypeError, ValueError, OverflowError, ZeroDivisionError):
+        raise InputError(
+            described(span), where="span", expected="a pair of rational numbers, such as (0, 1)"
+        ) from None
+    if first >= last:
+        raise InputError(f"{first}, {last}", where="span", expected="an end after the beginning")
+    return first, last
 
 
 def _advised(record: object) -> AdvisedMethod | None:

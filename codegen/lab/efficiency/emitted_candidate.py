@@ -24,7 +24,7 @@ from codegen.lab.efficiency.work_precision import (
 )
 from codegen.lab.reference import Reference
 from codegen.lab.runner import Emitted, RunFailed
-from codegen.lab.timing import LEAST_STEPS, cost, samples, spread
+from codegen.lab.timing import cost, samples, spans, spread
 from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -95,18 +95,14 @@ class EmittedCandidate:
     def _times(self, steps: int) -> list[float]:
         """Return the CPU seconds of a run.
 
-        A run of few steps is timed over several spans, because the time of a call from Python varies more
-        than the time of a step.
+        A short run is timed over several spans, because the time of a call from Python varies more than the
+        time of a step.
         """
-        spans = max(1, LEAST_STEPS // steps)
-        try:
-            self.runner.final(steps, spans=spans)
-        except ArithmeticError:  # the solution ends beyond the span
-            spans = 1
+        count = spans(lambda n: self.runner.final(steps, spans=n), steps)
         times = self._net(
-            lambda: samples(lambda: self.runner.final(steps, spans=spans)), lambda: self.runner.final(0)
+            lambda: samples(lambda: self.runner.final(steps, spans=count)), lambda: self.runner.final(0)
         )
-        return [s / spans for s in times]
+        return [s / count for s in times]
 
     def _net(self, sample: Callable[[], Sequence[float]], nothing: Callable[[], object]) -> list[float]:
         """Return the times of a run without the overhead of a call; ``nothing`` is a call that makes no

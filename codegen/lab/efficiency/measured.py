@@ -11,7 +11,13 @@ from codegen.lab.progress import Progress
 from codegen.method import Method
 from codegen.printers import DEFAULT
 from codegen.scene.problem import Problem
+from codegen.scenes import problem_of
+from orderconds.argument import described, real, text, texts
+from orderconds.errors import InputError
 from orderconds.tableau import Tableau
+
+MOST_SECONDS = 1e5
+"""The longest time that a measurement may take."""
 
 
 def bench(
@@ -30,5 +36,17 @@ def bench(
     The arguments are those of ``orderconds bench``. A notebook shows the result as a diagram. Errors:
     InputError for wrong arguments; a method that cannot be emitted has a row with the reason.
     """
-    prepared = benches.bench(scene, methods, targets, against, budget, output, progress, adaptive, forms)
+    if not isinstance(adaptive, Sequence) or isinstance(adaptive, str):
+        raise InputError(described(adaptive), where="adaptive", expected="a list of methods")
+    prepared = benches.bench(
+        problem_of(scene),
+        methods,
+        texts(targets, "targets", DEFAULT),
+        texts(against, "against", "scipy"),
+        real(budget, "budget", (0, MOST_SECONDS)),
+        None if output is None else text(output, "output", "the path of a folder as a str"),
+        progress,
+        adaptive,
+        texts(forms, "forms", "printed"),
+    )
     return prepared.run(lambda row: progress(f"{row.method} ({row.target})"))

@@ -22,7 +22,7 @@ from codegen.lab.efficiency.features import Features, features
 from codegen.lab.efficiency.work_precision import MOST_STEPS
 from codegen.lab.number_types import Vector
 from codegen.lab.reference import Reference
-from codegen.lab.timing import LEAST_STEPS, samples
+from codegen.lab.timing import samples, spans
 from codegen.loader import load
 from codegen.printers import DEFAULT
 from codegen.printers import target as known_target
@@ -142,11 +142,8 @@ class Racer:
         time.
         """
         steps = self.counts[control]
-        times = max(1, LEAST_STEPS // max(steps, 1))
-        try:
-            taken = self.run(control, times)[1]
-        except ArithmeticError:
-            times, taken = 1, steps
+        times = spans(lambda n: self.run(control, n), steps)
+        taken = self.run(control, times)[1]
         overhead = samples(lambda: self.run(control, 0), batch / 2, 3)[0]
         spent = samples(lambda: self.run(control, times), batch, batches)[0]
         return max(spent - overhead, 0.1 * spent) * steps / max(taken, 1)

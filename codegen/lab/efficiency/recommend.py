@@ -58,7 +58,8 @@ class Recommendation:
 
     ``best`` is the most accurate run if no recipe reaches the error. ``predicted`` and ``raced`` are numbers
     of recipes. ``complete`` is false if the budget ended the search. ``lost`` names the recipes that were
-    excluded by a long run.
+    excluded by a long run. ``referred`` is the part of the budget that the reference solution took. ``kinks``
+    is the number of points of the solution where the field is not smooth.
     """
 
     request: Request
@@ -69,6 +70,8 @@ class Recommendation:
     seconds: float
     complete: bool = True
     lost: tuple[str, ...] = ()
+    referred: float = 0.0
+    kinks: int = 0
 
     def as_json(self) -> dict[str, object]:
         """Return plain data."""
@@ -86,6 +89,7 @@ class Recommendation:
             "raced": self.raced,
             "complete": self.complete,
             "lost": list(self.lost),
+            "kinks": self.kinks,
             "search_seconds": self.seconds,
         }
 
@@ -131,17 +135,29 @@ def recommend(request: Request, progress: Progress = str) -> Recommendation:
         time.monotonic() - search.start,
         search.complete,
         tuple(lost),
+        search.referred,
+        len(search.exact.kinks),
     )
 
 
-def race_all(request: Request, errors: Sequence[float]) -> dict[float, list[Result]]:
-    """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark."""
+def race_all(
+    request: Request, errors: Sequence[float], progress: Progress = str, most: float = math.inf
+) -> tuple[dict[float, list[Result]], int, int]:
+    """Emit every recipe and race it for each error, without predictions; the baseline of a benchmark.
+
+    The race ends after ``most`` seconds. Recipes with few stages are first. The results are followed by the
+    number of recipes that were emitted or refused, and the number of all recipes.
+    """
     search = Search(request.task, (request.goal,))
     results: dict[float, list[Result]] = {error: [] for error in errors}
-    for candidate in in_processes(partial(emitted, request.task), list(search.suited)):
+    recipes, done = sorted(search.suited, key=lambda recipe: recipe.stages), 0
+    for done, candidate in enumerate(in_processes(partial(emitted, request.task), recipes), 1):
+        progress(f"{search.problem.name}: recipe {done} of {len(recipes)}")
         if isinstance(candidate, Entry) and request.goal.met(candidate.features):
             racer = search.racer(candidate)
             for error, known in results.items():
                 best = min((r.seconds for r in known if r.reached), default=math.inf)
                 known.append(racer.reach(error, best))
-    return results
+        if time.monotonic() - search.start > most:
+            break
+    return results, done, len(recipes)

@@ -46,8 +46,11 @@ ROUND = 6
 GROUP = 50
 """Predictions between two messages."""
 
+REFERRING = 0.6
+"""The part of the budget that the reference solution may take."""
+
 PREDICTING = 0.5
-"""The part of the budget that predictions may take."""
+"""The part of the budget after the reference solution that predictions may take."""
 
 UNREACHED = 1e-3
 """The gain of a recipe for a goal that no recipe reaches according to the predictions."""
@@ -83,7 +86,8 @@ class Search:
         self.start = time.monotonic()
         self.problem = self.task.problem()
         self.progress(f"{self.problem.name}: reference solution")
-        self.exact: Reference = cached_reference(self.problem)
+        self.exact: Reference = cached_reference(self.problem, end=self.start + REFERRING * self.task.budget)
+        self.referred = self.spent
         self.results = {goal.error: {} for goal in self.goals}
         self.suited: dict[Recipe, tuple[Goal, ...]] = {}
         needs = dict.fromkeys(goal.needs for goal in self.goals)
@@ -118,7 +122,7 @@ class Search:
                 recipe = jobs.given[k]
                 self.predictions[recipe.method, recipe.form] = prediction
                 jobs.add(recipe, prediction)
-            if self.spent > PREDICTING:
+            if self.spent > self.referred + PREDICTING * (1 - self.referred):
                 self.complete = k + 1 == len(jobs)
                 return
 

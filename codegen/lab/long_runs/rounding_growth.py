@@ -21,12 +21,12 @@ from codegen.emitter import Compiled, emit_compiled
 from codegen.errors import MethodError
 from codegen.integrator import Integrator, StepFailed
 from codegen.ir.domain import NotConverged, PreciseDomain
-from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
 from codegen.lab.long_runs.compensated import compensated
 from codegen.lab.long_runs.drift import CONFIDENCE
 from codegen.lab.long_runs.trajectory import scale
+from codegen.lab.number_functions import of_scalars
 from codegen.lab.number_types import Evaluate, Scalar, Vector
 from codegen.lab.runner import Emitted
 from codegen.lab.stability.extreme_steps import DIGITS, precise_step, solved_step
@@ -195,7 +195,7 @@ def _quantities(
     compiled: Compiled, domain: PreciseDomain, kept: dict[str, tuple[Expr, ...]]
 ) -> dict[str, Evaluate]:
     """Return expressions as functions of numbers with 60 digits."""
-    functions = {name: getattr(domain.context, name) for name in MATHEMATICAL}
+    functions = of_scalars(domain.context)
     scene = compiled.scene
     return {
         name: straight_line(scene.name, scene.symbols, exprs).python(domain.number, functions)

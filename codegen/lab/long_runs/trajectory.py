@@ -14,9 +14,9 @@ from typing import TypeAlias
 import numpy
 
 from codegen.integrator import Integrator, StepFailed
-from codegen.ir.elementary import MATHEMATICAL
 from codegen.ir.expr import Expr
 from codegen.lab.invariants import MANIFOLD, expressions, magnitudes
+from codegen.lab.number_functions import of_arrays
 from codegen.lab.number_types import Evaluate
 from codegen.lab.straight_line_field import straight_line
 from codegen.scene.problem import Problem
@@ -31,7 +31,7 @@ CHUNK = 100_000
 ArrayFunction: TypeAlias = Callable[[numpy.ndarray, numpy.ndarray], numpy.ndarray]
 """A function of two arrays: states, with one coordinate in each row, and times. It returns rows of values."""
 
-FUNCTIONS = {name: getattr(numpy, name) for name in MATHEMATICAL}
+FUNCTIONS = of_arrays(numpy)
 
 
 @dataclass

@@ -32,26 +32,43 @@ FEWEST = 4
 
 @dataclass(frozen=True, repr=False)
 class Convergence:
-    """The runs of one method on one scene, and the order from the order conditions."""
+    """The runs of one method on one scene, and the order from the order conditions.
+
+    ``kinks`` are those of the reference solution (:class:`codegen.lab.reference.Reference`).
+    """
 
     scene: str
     method: str
     target: str
     stated: CertifiedOrder
     refinement: Refinement
+    kinks: tuple[int, ...] = ()
 
     def __repr__(self) -> str:
         return f"<{self.method} on {self.scene}: {self.sentence()}>"
 
     @property
     def observed(self) -> float | None:
-        """The last slope of clean runs."""
-        return self.refinement.observed
+        """The last slope of clean runs; the mean slope if kinks make the slopes irregular."""
+        clean = self.refinement.clean
+        if self.limit >= self.stated.order or len(clean) < 2:
+            return self.refinement.observed
+        first, last = clean[0], clean[-1]
+        return math.log(first.error / last.error) / math.log(first.h / last.h)
 
     @property
     def verdict(self) -> str:
         """``holds``, ``fails`` or ``undecided``."""
+        if self.limit < self.stated.order:
+            return "undecided"
         return self.refinement.verdict(self.stated.order)
+
+    @property
+    def limit(self) -> float:
+        """The highest order that equal steps have across the kinks of the solution."""
+        # Where k derivatives of the field are continuous, the local error of the step that contains the kink
+        # has order k + 2. The number of these steps does not depend on h.
+        return min(self.kinks) + 2 if self.kinks else math.inf
 
     def as_json(self) -> dict[str, object]:
         """Return the JSON object of ``orderconds converge``; an error that is not finite is null."""
@@ -81,11 +98,22 @@ class Convergence:
             reasons = sorted({r.excluded for r in self.refinement.runs if r.excluded})
             return f"undecided: no two consecutive runs are usable ({'; '.join(reasons) or 'too few steps'})"
         about = f"observed order {self.observed:.2f}, stated {self.stated.order} ({self.stated.certificate})"
+        if self.limit < self.stated.order:
+            return f"undecided: {about}; {self._crossed()}"
         if self.verdict == "undecided":
             return f"undecided: {about}, but {self._unsettled()}"
         if self.refinement.short is None or abs(self.refinement.short - self.observed) <= TOLERANCE:
             return f"{self.verdict}: {about}"
         return f"{self.verdict}: {about}; {self._short()}"
+
+    def _crossed(self) -> str:
+        """Return what the kinks of the solution mean for the order."""
+        number = len(self.kinks)
+        places = "one point" if number == 1 else f"{number} points"
+        return (
+            f"the solution crosses {places} where the field is not smooth, and equal steps have at most "
+            f"order {self.limit} there; order {self.stated.order} is expected between these points only"
+        )
 
     def _short(self) -> str:
         """Return the order of very short steps, and why it differs from the observed order."""
@@ -169,8 +197,10 @@ def converge(
         if steps
         else refine(run, runner.most_steps, to_rounding)
     )
-    result = Convergence(scene.name, label, runner.target, stated, refinement)
+    result = Convergence(scene.name, label, runner.target, stated, refinement, exact.kinks)
     proved = stated.certificate not in UNPROVED
+    if result.limit < stated.order:
+        return result
     if result.observed is None or (result.verdict == "holds" and proved):
         return result
     short = order_of_short_steps(runner.compiled, stated.order)

@@ -19,11 +19,13 @@ from codegen.errors import MethodError, SceneError
 from codegen.ir.domain import FloatDomain, SeriesDomain
 from codegen.ir.expr import Expr, evaluate
 from codegen.ir.number import Number
+from codegen.ir.selection import Kink
 from codegen.lab.number_types import Vector
 from codegen.lab.orders.local_error import local_error
 from codegen.lower import problem_for
 from codegen.method import Method
 from codegen.scene.problem import Problem, StateField
+from orderconds.errors import InputError
 from orderconds.ring.protocol import Ring
 
 DENOMINATOR = 64
@@ -74,7 +76,45 @@ class ExactLocalError:
             "initial_state": dict(zip(self.symbols, self.start, strict=True)),
             "leading_coefficients": dict(zip(self.symbols, self.coefficients, strict=False)),
             "verdict": self.verdict,
+            "failure": "",
         }
+
+
+@dataclass(frozen=True)
+class NotExact:
+    """A method whose local error has no exact coefficients on a scene, and the reason."""
+
+    scene: str
+    method: str
+    failure: str
+    verdict: str = "undecided"
+
+    def sentence(self) -> str:
+        """Return the verdict and the reason in one line."""
+        return f"{self.verdict}: {self.failure}"
+
+    def as_json(self) -> dict[str, object]:
+        """Return the JSON object of ``orderconds localerror``, without an order."""
+        return {
+            "scene": self.scene,
+            "method": self.method,
+            "stated_order": None,
+            "certificate": "none",
+            "order": None,
+            "at_least": False,
+            "initial_state": {},
+            "leading_coefficients": {},
+            "verdict": self.verdict,
+            "failure": self.failure,
+        }
+
+
+def local_error_or_reason(scene: Problem, method: Method) -> ExactLocalError | NotExact:
+    """Return the leading term of the local error of a method, or the reason why it is not known exactly."""
+    try:
+        return exact_local_error(scene, method)
+    except (InputError, ArithmeticError) as error:
+        return NotExact(scene.name, method.label, str(error))
 
 
 def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
@@ -100,6 +140,13 @@ def exact_local_error(scene: Problem, method: Method) -> ExactLocalError:
     try:
         error = local_error(optimised.program, problem, ring, highest)
         initial = tuple(ring.text(x.coefficients[0]) for x in problem.initial(domain))
+    except Kink as reason:
+        raise SceneError(
+            f"the local error has no series in h: {reason}",
+            where=scene.name,
+            expected="an initial state where the field is smooth",
+            hint="move the initial state",
+        ) from reason
     except ArithmeticError as reason:
         raise SceneError(
             f"the local error cannot be computed exactly: {reason}",

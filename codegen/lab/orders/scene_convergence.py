@@ -19,8 +19,13 @@ from codegen.method import Method, method_of
 from codegen.printers import DEFAULT
 from codegen.scene.classical_forms import PRINTED, ClassicalForm, find_form
 from codegen.scene.problem import Problem
+from orderconds.argument import CONDITION_ORDER, described, integer
 from orderconds.errors import InputError
 from orderconds.tableau import Tableau
+
+STEPS = (1, 10**9)
+DIGITS = (DOUBLE, 60)
+"""The precision of the interpreter in decimal digits."""
 
 
 @dataclass(frozen=True)
@@ -122,8 +127,17 @@ def converge(
     :class:`orderconds.Tableau`. A method that cannot be emitted for the scene has a result with the reason.
     Errors: SceneError, MethodError, UnknownName and TableauError for wrong arguments.
     """
+    if not methods:
+        raise InputError("no method", where="converge", expected="at least one method, such as cf4")
+    if isinstance(steps, int) or not isinstance(steps, Sequence):
+        raise InputError(
+            described(steps), where="steps", expected="a list of numbers of steps, such as [10, 20]"
+        )
+    steps = [integer(n, "steps", STEPS) for n in steps]
+    digits = integer(digits, "digits", DIGITS)
+    stated = None if stated is None else integer(stated, "stated", CONDITION_ORDER)
     test = ConvergenceTest.of(
-        scene, methods, target=target, form=form, steps=steps, digits=digits, stated=stated
+        scenes.problem_of(scene), methods, target=target, form=form, steps=steps, digits=digits, stated=stated
     )
     exact = test.reference()
     return Convergences(tuple(test.result(method, exact, progress) for method in test.methods))

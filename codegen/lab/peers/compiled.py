@@ -21,6 +21,7 @@ from codegen.lab.number_types import Scalar
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.peers.projection import projection_lines
 from codegen.lab.straight_line_field import velocity
+from codegen.printers.c.module import helper_texts
 from codegen.scene.problem import Problem
 from orderconds.tableau import Embedded, RungeKutta, Tableau, find
 
@@ -50,7 +51,12 @@ def source(template: str, scene: Problem) -> str:
         keep_trailing_newline=True,
         autoescape=False,
     )
-    values: dict[str, object] = {"size": len(scene.symbols), "field": velocity(scene).c()}
+    field = velocity(scene)
+    values: dict[str, object] = {
+        "size": len(scene.symbols),
+        "field": field.c(),
+        "helpers": helper_texts(field.functions),
+    }
     values["time"] = not scene.autonomous
     if template == "rk4.c.j2":
         values["projection"] = projection_lines(scene).c("z")

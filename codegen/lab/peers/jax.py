@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from codegen.ir.domain import FloatDomain
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.lab.number_functions import of_arrays
 from codegen.lab.number_types import Scalar
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.straight_line_field import velocity
@@ -25,7 +25,7 @@ def _prepare(scene: Problem, tolerance: float) -> Prepared:
     import jax.numpy as jnp
 
     jax.config.update("jax_enable_x64", True)
-    functions = {name: getattr(jnp, name) for name in MATHEMATICAL}
+    functions = of_arrays(jnp)
     compute = velocity(scene).python(float, functions)
     start = jnp.array(scene.initial(FloatDomain(0.0)))
     first, last = map(float, scene.span)

@@ -8,13 +8,13 @@ from functools import partial
 import numpy
 
 from codegen.ir.domain import FloatDomain
-from codegen.ir.elementary import MATHEMATICAL
+from codegen.lab.number_functions import of_scalars
 from codegen.lab.peers import Outcome, Peer, PeerFailed, Prepared
 from codegen.lab.peers.projection import projection
 from codegen.lab.straight_line_field import velocity
 from codegen.scene.problem import Problem
 
-FUNCTIONS = {name: getattr(math, name) for name in MATHEMATICAL}
+FUNCTIONS = of_scalars(math)
 
 
 def peer(name: str) -> Peer:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from codegen.ir.angle_depth import chain
 from codegen.ir.kernel import NEWTON, SIMPLIFIED_NEWTON, Kernel
 from codegen.ir.precision import DOUBLE
@@ -23,7 +25,7 @@ from codegen.run.sweeps import WIDE
 from codegen.run.terms import STATUSES
 from codegen.run.trajectory import is_looped
 from codegen.run.unit import unit_of
-from codegen.snippets.graph import needed, snippets
+from codegen.snippets.graph import LIBRARY, needed, snippets
 from codegen.templates import environment
 
 # -ffp-contract=off forbids fused multiply-adds, which round once and not twice: with them, results would
@@ -118,6 +120,11 @@ def _definitions(unit: Unit, printer: FunctionPrinter, interface: Interface) -> 
             )
         definitions.append(printer.definition(function))
     return definitions
+
+
+def helper_texts(functions: Sequence[str]) -> tuple[str, ...]:
+    """Return the definitions of functions that are not in the mathematical library."""
+    return needed("c", [name for name in functions if name not in LIBRARY]).texts
 
 
 def helpers(unit: Unit) -> list[str]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from codegen.snippets.graph import LIBRARY
+
 _WORDS = """
     auto break case char const continue default do double else enum extern float for goto if inline int long
     register restrict return short signed sizeof static struct switch typedef union unsigned void volatile
@@ -33,7 +35,11 @@ _CONSTANTS = """
 """
 _FORMATS = ("", "f", "l", "f32", "f32x", "f64", "f64x", "f128")
 
-RESERVED = frozenset(_WORDS.split()) | {f"{name}{kind}" for name in _CONSTANTS.split() for kind in _FORMATS}
+RESERVED = (
+    frozenset(_WORDS.split())
+    | {f"{name}{kind}" for name in _CONSTANTS.split() for kind in _FORMATS}
+    | {f"{name}{kind}" for name in LIBRARY for kind in ("", "f")}
+)
 """Words that are excluded as names of variables, besides the names of the run representation.
 
 Keywords of C and, since both read headers, of C++; macros of headers that the module or its caller is likely

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import keyword
 
+from codegen.snippets.graph import LIBRARY
+
 _WORDS = """
-    abs all max range float len list map reversed tuple zip ArithmeticError TypeError ValueError sqrt sin cos
-    exp log sinh cosh inf nan isfinite copysign quotient signed_stumpff0 signed_stumpff1 invert fabs slope2
-    slope3 signed_slope1 float32 errstate self OK NOT_CONVERGED NOT_FINITE BAD_STEP LIMIT TOO_FAR SINGULAR
-    TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
+    abs all max range float len list map reversed tuple zip ArithmeticError TypeError ValueError sqrt sin
+    cos exp log sinh cosh inf nan isfinite copysign quotient choose signed_stumpff0 signed_stumpff1
+    signed_stumpff2 signed_stumpff3 invert fabs slope2 slope3 curvature2 curvature3 signed_slope1
+    signed_slope2 signed_slope3 float32 errstate self OK NOT_CONVERGED NOT_FINITE BAD_STEP LIMIT TOO_FAR
+    SINGULAR TOO_SHORT StepFailed Statistics step run run_adaptive jacobian
 """
 
 # Builtins that a module calls are included: a parameter ``max`` would hide the function.
-RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split())
+RESERVED = frozenset(keyword.kwlist) | frozenset(_WORDS.split()) | frozenset(LIBRARY)
 """Keywords, and names that a module imports or defines."""
 
 _PUBLIC = """

@@ -201,3 +201,15 @@ def test_the_kept_modules_are_what_is_emitted_under_any_hash_seed(seed):
         env={**os.environ, "PYTHONHASHSEED": seed},
     )
     assert answer.returncode == 0, answer.stdout + answer.stderr
+
+
+def test_a_tableau_without_family_on_a_hamiltonian_scene_has_a_note():
+    def result(scene, method):
+        done = CliRunner().invoke(emit, [scene, "-m", method, "--json"], catch_exceptions=False)
+        return done.stderr, json.loads(done.stdout)[0]["family_chosen"]
+
+    note, chosen = result("linear_oscillator", "rk4")
+    assert note == ("note: rk4 names no family, and is emitted as vrkmk(2):rk4; another family is vcg:rk4\n")
+    assert chosen
+    assert result("linear_oscillator", "vcg:rk4") == ("", False)
+    assert result("free_rigid_body", "cf4") == ("", False)

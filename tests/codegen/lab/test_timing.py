@@ -88,3 +88,31 @@ def test_batches_that_never_agree_end(clock: Clock) -> None:
         clock.now += next(times)
 
     assert len(timing.samples(call, batch=1e-30)) == timing.MOST
+
+
+def test_a_short_run_is_timed_over_as_many_spans_as_the_clock_needs(clock: Clock) -> None:
+    assert timing.spans(lambda n: clock.run(4 * n), 4) == 32  # 64 spans would have more than 200 steps
+    clock.disturb = 1
+    assert timing.spans(lambda n: clock.run(4000 * n), 4) == 1
+    assert timing.spans(lambda n: clock.run(250 * n), 4) == 8  # 8 spans take 0.1 ms, 4 spans take half
+
+
+def test_a_long_run_of_few_steps_is_never_timed_over_several_spans(clock: Clock) -> None:
+    """A single step of many equations may take a second."""
+    asked: list[int] = []
+
+    def run(spans: int) -> None:
+        asked.append(spans)
+        clock.now += float(spans)
+
+    assert timing.spans(run, 1) == 1
+    assert set(asked) == {1}
+
+
+def test_a_solution_that_ends_soon_after_the_span_is_timed_over_the_spans_that_it_has(clock: Clock) -> None:
+    def run(spans: int) -> None:
+        if spans > 3:
+            raise ArithmeticError
+        clock.run(spans)
+
+    assert timing.spans(run, 1) == 2

@@ -353,12 +353,6 @@ def test_a_field_has_no_parts():
         problem_for(scenes.load("free_rigid_body"), Method("splitting", shipped("strang")))
 
 
-def test_parts_must_add_up_to_the_hamiltonian():
-    scene = particle(lambda q, p: p.dot(p), lambda q, p: q[0])
-    scene = replace(scene, parts={"T": scene.parts["T"]})
-    assert "the parts T do not add up to H; expected all summands of H" in refused(scene, "splitting:strang")
-
-
 def test_nystroem_reading_needs_no_names():
     """Parts called otherwise than the tableau's: V of the tableau is the kick."""
     scene = particle(lambda q, p: p[0] ** 2 / 2 + p[1] ** 2, lambda q, p: q[0] ** 3 + q[0] * q[1])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from pathlib import Path
 
+import numpy
 import pytest
 from sympy import Matrix, Rational, Symbol, symbols
 
@@ -123,11 +124,15 @@ def test_the_gallery_is_listed_with_titles(name):
     assert name in [row["name"] for row in scenes.listing()]
 
 
-def test_a_scene_of_a_user_has_its_title_or_the_name_of_its_file(tmp_path):
+def test_a_scene_of_a_user_has_its_title_or_the_first_line_of_its_docstring_or_the_name_of_its_file(tmp_path):
     text = (TESTS / "valid" / "scenes" / "pendulum.py").read_text(encoding="utf-8")
-    given, untitled = tmp_path / "given.py", tmp_path / "swing.py"
+    given, described, untitled = (tmp_path / f"{name}.py" for name in ("given", "described", "swing"))
     given.write_text(text, encoding="utf-8")
-    untitled.write_text(text.replace('    title="Pendulum with a moving support",\n', ""), encoding="utf-8")
+    text = text.replace('    title="Pendulum with a moving support",\n', "")
+    described.write_text(text, encoding="utf-8")
+    untitled.write_text(text.partition("\n")[2], encoding="utf-8")
+    first = "A spherical pendulum whose support moves, with everything that a scene may hold"
+    assert scenes.load(str(described)).title == first
     assert scenes.load(str(given)).title == "Pendulum with a moving support"
     assert scenes.load(str(untitled)).title == "swing"
 
@@ -283,3 +288,40 @@ def test_a_point_must_be_one_that_the_group_acts_on():
         sphere(action=LeftMultiplication())
     with pytest.raises(SceneError, match="a point with 3 coordinates"):
         sphere(group=Rn(2), action=LeftMultiplication(), f=[1, 2])
+
+
+@pytest.mark.parametrize(
+    "value", [0.1, numpy.float64(0.1), numpy.float32(0.1), "0.1", Fraction(1, 10), Rational(1, 10)]
+)
+def test_a_float_as_default_means_its_decimal(value):
+    assert param("a", value).default == (1, 10)
+
+
+def test_floats_mean_their_decimals_in_every_place():
+    scene = sphere(f=0.3 * y, y0=[0.6, 0, 0.8], span=(0, 0.1))
+    exact = sphere(f=Rational(3, 10) * y, y0=[Rational(3, 5), 0, Rational(4, 5)], span=(0, Rational(1, 10)))
+    assert [str(e) for e in scene.roots] == [str(e) for e in exact.roots]
+    assert [str(e) for e in scene.state[0].initial] == [str(e) for e in exact.state[0].initial]
+    assert scene.span == exact.span == (0, Fraction(1, 10))
+
+
+@pytest.mark.parametrize(
+    "q0", [numpy.eye(3), numpy.eye(3).tolist(), numpy.eye(3, dtype=int), Matrix.eye(3), list(Matrix.eye(3))]
+)
+def test_an_initial_matrix_is_an_array_a_list_of_rows_or_a_sympy_matrix(q0):
+    group = SO3()
+    q, mu = group.point("q"), group.dual("mu")
+    scene = HamiltonianScene(group=group, q=q, mu=mu, H=mu.dot(mu) / 2, q0=q0, mu0=[1, 0, 0], span=(0, 1))
+    assert [str(e) for e in scene.state[0].initial] == [*"100010001"]
+
+
+def test_a_rounded_initial_state_gets_a_hint():
+    group = SO3()
+    q, mu = group.point("q"), group.dual("mu")
+    turn = [
+        [0.9950041652780258, -0.09983341664682815, 0],
+        [0.09983341664682815, 0.9950041652780258, 0],
+        [0, 0, 1],
+    ]
+    with pytest.raises(SceneError, match="write exact ones"):
+        HamiltonianScene(group=group, q=q, mu=mu, H=mu.dot(mu), q0=turn, mu0=[1, 0, 0], span=(0, 1))

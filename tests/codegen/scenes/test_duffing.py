@@ -74,34 +74,39 @@ def test_the_exponential_of_a_traceless_matrix_has_determinant_one():
 
 @pytest.fixture(scope="module")
 def emitted_functions():
-    found = needed("python", ["signed_stumpff0", "signed_stumpff1", "signed_slope1"])
+    names = [*(f"signed_stumpff{k}" for k in range(4)), *(f"signed_slope{k}" for k in (1, 2, 3))]
+    found = needed("python", names)
     space = {name: getattr(math, name) for name in found.library}
     exec("\n\n".join(found.texts), space)
-    return space["signed_stumpff0"], space["signed_stumpff1"], space["signed_slope1"]
+    return {name: space[name] for name in names}
 
 
-SIGNED = [-700.0, -9.5, -1.0, -0.01, -1e-12, -5e-324, 0.0, 1e-9, 0.8, 30.0]
+SIGNED = [-700.0, -9.5, math.nextafter(-4, -5), -4.0, -1.0, -0.01, -1e-12, -5e-324, 0.0, 1e-9, 0.8, 30.0]
 
 
 @pytest.mark.parametrize("z", SIGNED)
 def test_stumpff_functions_continue_to_negative_arguments(z, emitted_functions):
     exact = PreciseDomain(Fraction(1), 40)
-    for k in (0, 1):
+    for k in range(4):
         expected = exact.call(f"signed_stumpff{k}", exact.context.mpf(z))
         close = float(4 * math.ulp(float(expected)) + abs(expected) * abs(z) ** 0.5 * 2.0**-52)
         assert FloatDomain(0.0).call(f"signed_stumpff{k}", z) == pytest.approx(float(expected), abs=close)
-        assert emitted_functions[k](z) == pytest.approx(float(expected), abs=close)
+        value = emitted_functions[f"signed_stumpff{k}"](z)
+        assert value == pytest.approx(float(expected), abs=close)
+        assert EmittedFloats().call(f"signed_stumpff{k}", z) == value
 
 
 @pytest.mark.parametrize("z", [*SIGNED, math.nextafter(-1, -2), math.nextafter(1, 2)])
-def test_the_derivative_of_sine_over_angle_continues_to_negative_arguments(z, emitted_functions):
-    exact = PreciseDomain(Fraction(1), 40)
-    expected = exact.call("signed_slope1", exact.context.mpf(z))
-    c0 = exact.call("signed_stumpff0", exact.context.mpf(z))
-    close = 8 * 2.0**-53 * float(abs(expected) + abs(c0) * (1 + abs(z) ** 0.5) / max(1, abs(z)))
-    assert FloatDomain(0.0).call("signed_slope1", z) == pytest.approx(float(expected), abs=close)
-    assert emitted_functions[2](z) == pytest.approx(float(expected), abs=close)
-    assert EmittedFloats().call("signed_slope1", z) == emitted_functions[2](z)
+@pytest.mark.parametrize("k", [1, 2, 3])
+def test_the_derivatives_of_stumpff_functions_continue_to_negative_arguments(z, k, emitted_functions):
+    exact, name = PreciseDomain(Fraction(1), 40), f"signed_slope{k}"
+    expected = exact.call(name, exact.context.mpf(z))
+    before = exact.call(f"signed_stumpff{k - 1}", exact.context.mpf(z))
+    close = 8 * 2.0**-53 * float(abs(expected) + abs(before) * (1 + abs(z) ** 0.5) / max(1, abs(z)))
+    assert FloatDomain(0.0).call(name, z) == pytest.approx(float(expected), abs=close)
+    value = emitted_functions[name](z)
+    assert value == pytest.approx(float(expected), abs=close)
+    assert EmittedFloats().call(name, z) == value
 
 
 def test_over_power_series_both_signs_are_one_function():

@@ -167,7 +167,7 @@ def test_written_out_conditions_have_the_values_of_the_engine(family: str, expli
         (["rk", "--order", "0"], "--order"),
         (["rk"], "--order"),
         (["rk", "--order", "2", "--format", "word"], "--format"),
-        (["cf", "--order", "2", "--stages", "2"], "--stages"),
+        (["cf", "--order", "2", "--stages", "2"], "stages: "),
         (["rk(1)", "--order", "2"], "rk"),
         (["rk", "--order", "2", "--explicit"], "--stages"),
         (["rk", "--order", "2", "--json", "--format", "latex"], "--json and --format latex"),
@@ -205,7 +205,7 @@ def test_an_order_with_more_trees_than_can_be_derived_is_refused_at_once(
     result = run(family, "--order", "20")
     assert (result.exit_code, result.stdout) == (2, "")
     assert result.stderr.startswith(f"orderconds: {family}: there are {trees} trees of order {order}, and")
-    assert f"lower --order to {order - 1}" in result.stderr
+    assert f"lower the order to {order - 1}" in result.stderr
 
 
 @pytest.mark.parametrize(("words", "said"), [("-s 6 --order 6", "about "), ("-s 4 --order 6", "")])
@@ -213,5 +213,5 @@ def test_more_terms_than_can_be_written_are_refused(words: str, said: str) -> No
     result = CliRunner().invoke(program, ["derive", "rkmk", "--all", *words.split()])
     assert result.exit_code == 2
     assert re.search(
-        rf"the conditions have {said}\d+ terms; expected at most \d+; lower --order", result.stderr
+        rf"the conditions have {said}\d+ terms; expected at most \d+; lower the order", result.stderr
     )

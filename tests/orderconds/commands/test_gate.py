@@ -162,6 +162,19 @@ def test_pytest_judges_every_file_rightly(folder: Path) -> None:
     assert "results.csv: no row is named A, b, ..." in result.stdout
 
 
+def test_pytest_fails_for_a_file_that_may_be_a_tableau(tmp_path: Path) -> None:
+    place = tmp_path / "tableaux"
+    place.mkdir()
+    (place / "semicolons.csv").write_text(HEUN + "order;2\n")
+    (place / "small_a.json").write_text('{"a": [[0]], "B": [1]}')
+    plugins = ["-p", "orderconds.pytest_plugin", "-p", "no:cacheprovider", "-p", "no:xdist"]
+    command = ["python", "-m", "pytest", *plugins, "-q", "--rootdir", ".", "-c", os.devnull, "."]
+    assert run([*command, "--orderconds"], place).returncode == 0
+    result = run([*command, "--orderconds-require-claims"], place)
+    assert result.returncode == 1
+    assert "1 failed, 1 passed" in result.stdout
+
+
 def test_the_action_judges_every_file_rightly(folder: Path) -> None:
     action = yaml.safe_load(ACTION.read_text(encoding="utf-8"))
     *_, step = action["runs"]["steps"]
@@ -174,6 +187,55 @@ def test_the_action_judges_every_file_rightly(folder: Path) -> None:
     result = run(["bash", "-e", "-c", step["run"]], folder, **variables)
     assert result.returncode == 1
     assert "24 tableaux: 20 holds, 3 fails, 1 unclaimed\n" in result.stdout
+
+
+HEUN = "c;a1;a2\n0;0;0\n1;1;0\n;1/2;1/2\n"
+DOUBTFUL = {
+    "semicolons.csv": HEUN,
+    "tabs.csv": HEUN.replace(";", "\t") + "order\t3\n",
+    "numbers.csv": "0,0,0\n1,1,0\n1/2,1/2,0\n",
+    "blanks.csv": "0 0\n 1\n",
+    "other_names.json": '{"butcher": [[0, 0], [1, 0]], "weights": [0.5, 0.5]}',
+    "rows.json": "[[0, 0], [1, 0]]",
+    "small_a.py": "a = [[0, 0], [1, 0]]\nweights = [1/2, 1/2]\n",
+    "without_b.py": "A = [[0, 0], [1, 0]]\n",
+    "damaged.py": "A = [[0, 0], [1, 0]\nb = [1/2, 1/2]\n",
+    "computed.py": "from mine import F\nA = [[0, 0], [F(1, 2), 0]]\nb = [0, 1]\norder = 2\n",
+}
+OTHER = {
+    "results.csv": "time,error\n1,0.5\n",
+    "indexed.csv": "run;error\n;0.5\n",
+    "empty.csv": "",
+    "package.json": '{"name": "x", "version": "1"}',
+    "names.json": '["x"]',
+    "script.py": "import sys\n\nprint(sys.argv)\n",
+    "setup.toml": "[tool]\n",
+}
+
+
+def judged(place: Path, *flags: str) -> int:
+    (place / "euler.toml").write_text('name = "euler"\nfamily = "rk"\nA = [[]]\nb = ["1"]\norder = 1\n')
+    return CliRunner().invoke(program, ["check", *flags, str(place)]).exit_code
+
+
+@pytest.mark.parametrize("name", DOUBTFUL)
+def test_a_file_that_may_be_a_tableau_never_passes_the_gate(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(DOUBTFUL[name])
+    assert judged(tmp_path, "--require-claims") != 0
+    (tmp_path / name).unlink()
+    assert judged(tmp_path, "--require-claims") == 0
+
+
+@pytest.mark.parametrize("name", OTHER)
+def test_other_data_beside_tableaux_pass_the_gate(name: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(OTHER[name])
+    assert judged(tmp_path, "--require-claims") == 0
+
+
+def test_an_archive_without_names_never_passes_the_gate(tmp_path: Path) -> None:
+    np.savez(tmp_path / "unnamed.npz", np.zeros((2, 2)), np.array([0.5, 0.5]))
+    assert judged(tmp_path) == 0
+    assert judged(tmp_path, "--require-claims") == 2
 
 
 def test_without_claims_nothing_holds(tmp_path: Path) -> None:

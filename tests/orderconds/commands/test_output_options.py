@@ -111,12 +111,13 @@ def test_the_script_of_a_shell_asks_this_program(shell: str) -> None:
 @pytest.mark.parametrize("line", [line for name in NAMES for line in examples(name)])
 def test_the_examples_run(line: str, tmp_path: Path) -> None:
     root = Path(__file__).parents[3]
-    for path in (root / "README.md", *root.glob("docs/library.md")):
-        (tmp_path / path.name).write_bytes(path.read_bytes())
-    (tmp_path / "tableaux").symlink_to(root / "tableaux")
-    subprocess.run(
-        [sys.executable, "-m", "orderconds", "convert", "rk4", "-o", "mine.toml"], cwd=tmp_path, check=True
-    )
+    for folder in ("tableaux", "docs"):
+        (tmp_path / folder).symlink_to(root / folder)
+    # ``refine`` needs decimals: those of a file with a [proof], and the binary floats of an archive.
+    name = "carpenter_kennedy4" if " refine " in line else "rk4"
+    for given, place in ((name, "mine.toml"), ("rk4", "mine.npz")):
+        words = [sys.executable, "-m", "orderconds", "convert", given, "-o", place]
+        subprocess.run(words, cwd=tmp_path, check=True)
     done = subprocess.run(
         [sys.executable, "-m", "orderconds", *shlex.split(line)[1:]],
         cwd=tmp_path,

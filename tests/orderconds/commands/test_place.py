@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import threading
 from pathlib import Path
@@ -88,3 +89,10 @@ def test_a_link_to_itself_is_bad_input(tmp_path: Path) -> None:
     loop.symlink_to("loop")
     with pytest.raises(InputError, match="loop: too many levels of symbolic links; expected a file"):
         put(str(loop), b"")
+
+
+def test_an_option_is_not_taken_for_the_name_of_a_file() -> None:
+    result = CliRunner().invoke(program, ["convert", "rk4", "--output", "--json"])
+    assert result.exit_code == 2
+    assert "the name of a file is missing before --json" in result.stderr
+    assert json.loads(result.stdout)["error"]["status"] == 2

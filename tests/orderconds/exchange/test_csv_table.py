@@ -58,6 +58,36 @@ def test_a_matrix_takes_a_line_a_row_and_names_may_come_in_any_order() -> None:
     }
 
 
+HEUN = b"0,0,0\n1,1,0\n,1/2,1/2\n"
+SAME = {
+    "semicolons": HEUN.replace(b",", b";"),
+    "tabs": HEUN.replace(b",", b"\t"),
+    "a comment": b"# Heun, 1900\n% its method\n" + HEUN + b"  # the end\n",
+    "a header": b"c,a1,a2\n" + HEUN,
+    "a header of words": b"node,first,second\n" + HEUN,
+    "a header with semicolons": b"c;a_1;a_2\r\n" + HEUN.replace(b",", b";").replace(b"\n", b"\r\n"),
+    "a mark of the byte order": b"\xef\xbb\xbf" + HEUN,
+    "weights with a name": HEUN.replace(b"\n,", b"\nb,"),
+    "blanks": HEUN.replace(b",", b" , "),
+    "no name": b"# named arrays\nA;0;0\nA;1;0\nb;1/2;1/2\n",
+}
+
+
+@pytest.mark.parametrize("form", SAME)
+def test_delimiters_comments_and_headers_do_not_change_a_table(form: str) -> None:
+    tableau = from_data(read_data(SAME[form], "csv", "heun.csv"))
+    assert tableau.method == from_data(read_data(HEUN, "csv", "heun.csv")).method
+
+
+def test_a_claim_with_semicolons_does_not_change_the_delimiter() -> None:
+    data = read_data(HEUN + b"claims,rk=2; explicit=true\n", "csv", "heun.csv")
+    assert data["claims"] == {"rk": 2, "explicit": True}
+
+
+def test_a_row_of_c_is_no_header() -> None:
+    assert read_data(b"c,0,1\nA,0,0\nA,1,0\nb,1/2,1/2\n", "csv", "x.csv")["c"] == ["0", "1"]
+
+
 def test_three_rows_of_weights_are_refused() -> None:
     with pytest.raises(InputError, match="3 rows of weights"):
         read_data(b"0,0\n,1\n,1\n,1\n", "csv", "x.csv")

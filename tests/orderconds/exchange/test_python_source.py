@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from orderconds import Tableau
 from orderconds.checking import check, read
 from orderconds.errors import TableauError
 from orderconds.exchange.python_source import read as parsed
@@ -131,3 +132,22 @@ def test_an_executed_module_that_fails_gives_one_message(tmp_path: Path, source:
 )
 def test_a_module_without_the_arrays_of_a_tableau_is_skipped(source: str, skipped: bool) -> None:
     assert bool(reason_to_skip(source.encode())) is skipped
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "from fractions import Fraction as F\nA = [[0, 0], [F(1), 0]]\nb = [F(1, 2), F('1/2')]",
+        "from sympy import Rational as R, Matrix as M\nA = M([[0, 0], [1, 0]])\nb = [R(1, 2), R(1, 2)]",
+        "from numpy import array as arr\nA = arr([[0, 0], [1, 0]])\nb = arr([1/2, 1/2])",
+    ],
+)
+def test_imported_functions_may_have_other_names(source: str) -> None:
+    assert parsed(source.encode(), "m.py")["A"] == HEUN["A"]
+    assert check(Tableau.rk(HEUN["A"], parsed(source.encode(), "m.py")["b"])).orders[0].order == 2
+
+
+def test_functions_of_other_modules_are_refused() -> None:
+    source = b"from mine import Fraction\nA = [[0, 0], [1, 0]]\nb = [Fraction(1, 2), Fraction(1, 2)]\n"
+    with pytest.raises(TableauError, match="a call of Fraction, which the module defines or imports"):
+        parsed(source, "m.py")

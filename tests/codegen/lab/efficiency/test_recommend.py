@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from codegen import scenes
+from codegen.commands.recommend import searched
 from codegen.emitter import compile_method
+from codegen.errors import SceneError
 from codegen.ir.program import Solve
+from codegen.lab import reference as references
+from codegen.lab import timing
 from codegen.lab.distance import distance
-from codegen.lab.efficiency import race
+from codegen.lab.efficiency import race, search
 from codegen.lab.efficiency.candidates import Recipe, candidates
 from codegen.lab.efficiency.equations import Equations
 from codegen.lab.efficiency.goal import Goal
@@ -21,10 +26,11 @@ from codegen.lab.efficiency.race import Racer, entry
 from codegen.lab.efficiency.recommend import Recommendation, Request, recommend
 from codegen.lab.efficiency.search import Search
 from codegen.lab.efficiency.task import Task
-from codegen.lab.reference import cached_reference
+from codegen.lab.reference import Reference, cached_reference, reference
 from codegen.lower import families_for, lower, problem_for
 from codegen.method import parse
 from codegen.scene.classical_forms import PRINTED
+from codegen.scene.problem import Problem
 from orderconds.errors import InputError
 
 SCENE = "linear_oscillator+u"
@@ -223,6 +229,77 @@ def test_a_racer_reaches_the_same_error_after_it_has_reached_larger_errors() -> 
     fresh = Racer(equations, exact, known).reach(1e-10)
     assert fresh.reached
     assert used.reach(1e-10).steps == fresh.steps
+
+
+class SlowReference:
+    """A clock that only the reference solution advances, by a part of the budget."""
+
+    def __init__(self, part: float, budget: float) -> None:
+        self.now, self.length = 100.0, part * budget
+        self.end = 0.0
+
+    def monotonic(self) -> float:
+        return self.now
+
+    def reference(self, problem: Problem, end: float) -> Reference:
+        self.now, self.end = self.now + self.length, end
+        return cached_reference(problem)
+
+
+@pytest.mark.parametrize("part", [0.01, 0.59])
+def test_the_budget_includes_the_reference_and_leaves_time_for_predictions(
+    monkeypatch: pytest.MonkeyPatch, part: float
+) -> None:
+    clock = SlowReference(part, 10.0)
+    monkeypatch.setattr(search, "time", clock)
+    monkeypatch.setattr(search, "cached_reference", clock.reference)
+    started = Search(Task(SCENE, budget=10.0, tableaux=("rk4", "dop853")), (Goal(1e-6),))
+    assert math.isclose(started.spent, part)
+    assert 100.0 < clock.end < 110.0
+    started.predict()
+    assert started.complete
+    assert len(started.predictions) > 1
+
+
+def test_a_reference_that_is_not_finished_in_time_is_one_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    times = iter(float(k) for k in range(10**6))
+    monkeypatch.setattr(references, "time", SimpleNamespace(monotonic=lambda: next(times)))
+    with pytest.raises(SceneError, match="not finished in time"):
+        reference(scenes.load(SCENE), 5.0)
+    assert next(times) < 8.0
+
+
+def test_a_long_reference_is_stated() -> None:
+    known = Recommendation(Request(SCENE, 1e-6), (), None, 2, 1, 10.0, referred=0.5)
+    assert "the reference solution took 50% of the budget" in searched(known)
+    assert "reference" not in searched(replace(known, referred=0.01))
+
+
+@pytest.mark.parametrize(("seconds", "most"), [(1e-6, 32), (1.0, 1)])
+@pytest.mark.parametrize("adaptive", [False, True])
+def test_only_short_races_are_timed_over_several_spans(
+    monkeypatch: pytest.MonkeyPatch, adaptive: bool, seconds: float, most: int
+) -> None:
+    """The clock advances by ``seconds`` for each span; the run has four steps."""
+    problem = scenes.load("free_rigid_body")
+    method = replace(parse("ambient:dormand_prince5", families_for(problem)), adaptive=adaptive)
+    recipe = Recipe("ambient:dormand_prince5", 5, 7, "dormand_prince5", adaptive)
+    racer = Racer(
+        Equations(problem), cached_reference(problem), entry(recipe, compile_method(problem, method))
+    )
+    clock, asked = SimpleNamespace(now=0.0), set[int]()
+
+    def run(control: float, spans: int = 1) -> tuple[tuple[float, ...], int]:
+        asked.add(spans)
+        clock.now += 1e-7 + seconds * spans
+        return (), 4 * spans
+
+    time = SimpleNamespace(process_time=lambda: clock.now, thread_time=lambda: clock.now)
+    monkeypatch.setattr(timing, "time", time)
+    monkeypatch.setattr(racer, "run", run)
+    racer.counts[4.0] = 4
+    racer.seconds(4.0)
+    assert max(asked) == most
 
 
 def test_named_methods_alone_are_searched() -> None:

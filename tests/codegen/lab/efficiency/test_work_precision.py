@@ -9,12 +9,14 @@ from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
 
 from codegen import scenes
 from codegen.commands.bench import command
+from codegen.integrator import Statistics
 from codegen.lab import timing
 from codegen.lab.default_methods import methods_for
 from codegen.lab.efficiency import adaptive_candidate, emitted_candidate, peer_candidate
@@ -305,6 +307,28 @@ def test_a_long_run_is_timed_though_no_short_one_was_before() -> None:
     (method,) = methods_for(scene, ["cf:cf4"])
     row = EmittedCandidate(scene, method, cached_reference(scene)).measure(65536.0)
     assert row.seconds
+
+
+@pytest.mark.parametrize(("seconds", "most"), [(1e-6, 32), (1.0, 1)])
+def test_only_short_runs_are_timed_over_several_spans(
+    monkeypatch: pytest.MonkeyPatch, seconds: float, most: int
+) -> None:
+    """The clock advances by ``seconds`` for each span."""
+    scene = scenes.load("free_rigid_body")
+    (method,) = methods_for(scene, ["cf:cf4"])
+    candidate = EmittedCandidate(scene, method, cached_reference(scene))
+    clock, final, asked = SimpleNamespace(now=0.0), candidate.runner.final, set[int]()
+
+    def run(steps: int, statistics: Statistics | None = None, spans: int = 1) -> tuple[float, ...]:
+        asked.add(spans)
+        clock.now += 1e-7 + seconds * spans
+        return final(steps, statistics, spans)
+
+    time = SimpleNamespace(process_time=lambda: clock.now, thread_time=lambda: clock.now)
+    monkeypatch.setattr(timing, "time", time)
+    monkeypatch.setattr(candidate.runner, "final", run)
+    candidate.measure(4.0)
+    assert max(asked) == most
 
 
 def test_a_contestant_and_a_peer_have_one_face(body: Bench) -> None:

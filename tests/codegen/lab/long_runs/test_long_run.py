@@ -6,6 +6,7 @@ import json
 import math
 import random
 from collections import Counter
+from pathlib import Path
 
 import numpy
 import pytest
@@ -510,3 +511,16 @@ def test_a_defect_that_is_not_measured_has_a_reason(monkeypatch):
         command, ["dipole", "-m", "vcg:midpoint", "--steps", "200", "--one-way", "--no-rounding"]
     )
     assert "symplectic defect: not measured: stage 1 did not converge" in done.output
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("method", "printed"), [("rkmk:rk4", "0.045"), ("rkmk(2):rk4", "0.13")])
+def test_the_energy_error_of_rkmk4_on_the_dipole_is_the_printed_one(method, printed):
+    words = ["dipole", "-m", method, "--h", "0.02", "--steps", "100000", "--one-way", "--json"]
+    (found,) = json.loads(CliRunner().invoke(command, words, standalone_mode=False).stdout)
+    text = (Path(__file__).parents[4] / "docs/reference/discoveries.md").read_text(encoding="utf-8")
+    assert f"{printed}" in text
+    assert f"`{method}`" in text
+    (energy,) = (q for q in found["kept"] if q["name"] == "energy")
+    assert f"{energy['largest']:.2g}" == printed
+    assert energy["law"] == "drift"

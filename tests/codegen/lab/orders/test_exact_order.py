@@ -94,4 +94,21 @@ def test_the_command_prints_the_orders_and_its_json_has_exact_coefficients() -> 
     (first, second) = json.loads(CliRunner().invoke(program, [*words, "--json"]).stdout)
     assert (first["order"], second["order"]) == (3, 4)
     assert any(Fraction(x) for x in first["leading_coefficients"].values())
-    assert CliRunner().invoke(program, ["localerror", "dipole", "-m", "cf:cf4"]).exit_code == 2
+
+
+def test_a_method_without_exact_coefficients_is_a_row_and_the_others_go_on() -> None:
+    words = ["localerror", "free_rigid_body", "-m", "cg:cg4a", "-m", "cg:cg3"]
+    done = CliRunner().invoke(program, words)
+    assert done.exit_code == 1, done.output
+    (line,) = (line for line in done.stdout.splitlines() if "undecided" in line)
+    assert "the coefficients of cg:cg4a are intervals" in line
+    assert "holds: order 3" in done.stdout
+    unknown, known = json.loads(CliRunner().invoke(program, [*words, "--json"]).stdout)
+    assert (unknown["verdict"], unknown["order"]) == ("undecided", None)
+    assert "intervals" in unknown["failure"]
+    assert (known["verdict"], known["order"], known["failure"]) == ("holds", 3, "")
+    assert known.keys() == unknown.keys()
+    (dipole,) = json.loads(
+        CliRunner().invoke(program, ["localerror", "dipole", "-m", "cf:cf4", "--json"]).stdout
+    )
+    assert (dipole["verdict"], "sqrt" in dipole["failure"]) == ("undecided", True)

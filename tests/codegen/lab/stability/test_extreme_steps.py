@@ -52,6 +52,18 @@ def test_each_answer_is_accurate_or_a_status(scene, method):
     assert usual.error < 1e-14
 
 
+@pytest.mark.parametrize("name", ["usual step", "backward", "angle pi"])
+def test_an_iteration_that_contracts_slowly_is_continued_to_the_solution(name):
+    """Each sweep of this step reduces the change by a third only, so a small change is no small error."""
+    made = compile_method("fast_heavy_top", "vcf:vcf_gauss2")
+    runner = Emitted(made, "c")
+    (case,) = (case for case in cases(made) if case.name == name)
+    found = answer(made, runner, case)
+    assert found.verdict == ACCURATE
+    assert found.error is not None
+    assert found.error < 1e-13
+
+
 FAULTS = {
     "a wrong last half": lambda sound, y, h, n, t: [x * (1 + 1e-8) for x in sound.run(y, h, n, t)],
     "the old state": lambda sound, y, h, n, t: list(y),

@@ -1,0 +1,81 @@
+"""Arguments of integrators: real numbers, counts, and times, each with a message that names the argument."""
+
+from __future__ import annotations
+
+import math
+import numbers
+from collections.abc import Iterable
+from itertools import pairwise
+
+MOST = 2**63 - 1
+"""The largest count that emitted C takes."""
+
+
+def real(x: object, name: str) -> float:
+    """Return a number as a float; TypeError for text, complex numbers, arrays and all other objects.
+
+    >>> real("0.1", "h")
+    Traceback (most recent call last):
+    TypeError: expected a real number for h, found '0.1' of type str
+    """
+    if type(x) is float:
+        return x
+    text = isinstance(x, str | bytes)
+    if not text and (isinstance(x, numbers.Real) or not isinstance(x, numbers.Complex)):
+        try:
+            return float(x)  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            pass
+        except OverflowError:
+            raise ValueError(f"expected a number of at most 1.8e308 for {name}") from None
+    raise TypeError(f"expected a real number for {name}, found {described(x)}")
+
+
+def count(x: object, name: str, least: int = 0) -> int:
+    """Return an integer; TypeError for other types, ValueError unless it is at least ``least``.
+
+    >>> count(2.0, "steps")
+    Traceback (most recent call last):
+    TypeError: expected an integer for steps, found 2.0 of type float
+    """
+    if not isinstance(x, numbers.Integral) or isinstance(x, bool):
+        raise TypeError(f"expected an integer for {name}, found {described(x)}")
+    number = int(x)
+    if not least <= number <= MOST:
+        bound = f"at least {least}" if number < least else f"at most {MOST}"
+        given = number if abs(number) < 10**30 else "a number of more than 30 digits"
+        raise ValueError(f"expected {name} of {bound}, found {given}")
+    return number
+
+
+def monotone(t: float, times: object) -> list[float]:
+    """Return the times ``t_eval`` as floats; ValueError unless they are finite and increase or decrease
+    from t.
+
+    >>> monotone(0.0, [0, 1])
+    [0.0, 1.0]
+    """
+    scalar = getattr(times, "ndim", 1) == 0
+    if isinstance(times, str | bytes) or not isinstance(times, Iterable) or scalar:
+        raise TypeError(f"expected a sequence of times for t_eval, found {described(times)}")
+    given = [real(x, "t_eval") for x in times]
+    steps = [b - a for a, b in pairwise([t, *given])]
+    one_way = all(x >= 0 for x in steps) or all(x <= 0 for x in steps)
+    if not one_way or not all(map(math.isfinite, given)):
+        raise ValueError(f"expected finite times in t_eval that increase or decrease from t = {t}")
+    return given
+
+
+def described(x: object) -> str:
+    """Return a value and its type for a message; the value only if it is a number or a text.
+
+    >>> described(1j), described(iter(()))
+    ('1j of type complex', 'an object of type tuple_iterator')
+    """
+    if not isinstance(x, numbers.Number | str | bytes):
+        return f"an object of type {type(x).__name__}"
+    try:
+        shown = str(x) if isinstance(x, numbers.Number) else repr(x)
+    except ValueError:  # an integer with thousands of digits
+        shown = "a number"
+    return f"{shown if len(shown) <= 60 else shown[:60] + ' ...'} of type {type(x).__name__}"

@@ -1,0 +1,66 @@
+"""Groups whose ad_x satisfies ad_x^3 = -z ad_x: functions of ad_x are quadratic polynomials in ad_x."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import ClassVar
+
+from codegen.groups.ad_polynomial import ad_polynomial
+from codegen.groups.capabilities import ClosedFormSeries, Term
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.ad_series import Factor
+from codegen.ir.domain import Domain
+
+DEXP = (Factor("dexp", Fraction(1)),)
+"""The word of dexp_x; on the dual, of dexp*_x."""
+
+
+class CubicAd(ClosedFormSeries):
+    """A group with ad_x^3 = -z ad_x for a quadratic form z of x.
+
+    dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2 with the Stumpff functions c_k. ``signed`` is true if z may be
+    negative.
+    """
+
+    signed: ClassVar[bool] = False
+
+    @abstractmethod
+    def squared_rate(self, d: Domain, x: Vector[S]) -> S:
+        """Return z: the non-zero eigenvalues of ad_x are the square roots of -z."""
+
+    def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return the product of functions of ad_x, or of ad*_x, applied to v, by two brackets."""
+        b, c = ad_polynomial(d, word, self.squared_rate(d, x), signed=self.signed)
+        bracket = self.adt if dual else self.ad
+        first = bracket(d, x, v)
+        second = bracket(d, x, first)
+        return tuple(p + b * q + c * r for p, q, r in zip(v, first, second, strict=True))
+
+    def series_sum(
+        self,
+        d: Domain,
+        terms: Sequence[Term[S]],
+        dual: bool,
+        x: Vector[S],
+        total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
+    ) -> Vector[S]:
+        """Return the sum of f W(ad_x) v over terms (f, W, v) in two brackets: A + ad_x (B + ad_x C)."""
+        z, bracket = self.squared_rate(d, x), self.adt if dual else self.ad
+        none: Vector[S] = (d.rational(0),) * self.dim
+        inner, innermost, plain = none, none, none
+        for f, word, v in terms:
+            b, c = ad_polynomial(d, word, z, signed=self.signed)
+            own = tuple(f * a for a in v)
+            inner = tuple(p + b * a for p, a in zip(inner, own, strict=True))
+            innermost = tuple(p + c * a for p, a in zip(innermost, own, strict=True))
+            plain = tuple(p + a for p, a in zip(plain, own, strict=True))
+        if total is not None:
+            plain = total(tuple(range(len(terms))))
+        inner = tuple(p + q for p, q in zip(inner, bracket(d, x, innermost), strict=True))
+        return tuple(p + q for p, q in zip(plain, bracket(d, x, inner), strict=True))
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
+        return self.series(d, DEXP, True, x, mu)

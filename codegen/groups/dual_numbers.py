@@ -1,0 +1,85 @@
+"""Dual numbers a + a' e with e^2 = 0 over the scalars of any domain, and the domain of dual numbers.
+
+A function f of dual numbers is f(a) + f'(a) a' e. An operation of a group over dual numbers therefore gives
+its derivative as well. The algebra of a group over dual numbers is the semidirect product of the algebra with
+itself: [x + u e, y + v e] = [x, y] + ([x, v] + [u, y]) e.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Generic
+
+from codegen.groups.linear_algebra import S, Vector
+from codegen.ir.domain import Domain, Scalar
+from codegen.ir.number import Number
+
+
+@dataclass(frozen=True)
+class Dual(Generic[S]):
+    """The dual number ``real`` + ``rate`` e."""
+
+    real: S
+    rate: S
+
+    def __add__(self, other: Dual[S]) -> Dual[S]:
+        return Dual(self.real + other.real, self.rate + other.rate)
+
+    def __sub__(self, other: Dual[S]) -> Dual[S]:
+        return Dual(self.real - other.real, self.rate - other.rate)
+
+    def __mul__(self, other: Dual[S]) -> Dual[S]:
+        return Dual(self.real * other.real, self.real * other.rate + self.rate * other.real)
+
+    def __truediv__(self, other: Dual[S]) -> Dual[S]:
+        quotient = self.real / other.real
+        return Dual(quotient, (self.rate - quotient * other.rate) / other.real)
+
+    def __neg__(self) -> Dual[S]:
+        return Dual(-self.real, -self.rate)
+
+
+def duals(real: Vector[S], rate: Vector[S]) -> tuple[Dual[S], ...]:
+    """Return the vector of dual numbers with the given parts."""
+    return tuple(Dual(a, b) for a, b in zip(real, rate, strict=True))
+
+
+class DualDomain:
+    """The dual numbers over a domain; Stumpff functions are the only functions of dual numbers."""
+
+    def __init__(self, domain: Domain) -> None:
+        self.domain = domain
+        self.zero: Scalar = domain.rational(0)
+        self.h = Dual(domain.h, self.zero)
+
+    def number(self, value: Number) -> Scalar:
+        """Return an exact number as a dual number with the rate 0."""
+        return Dual(self.domain.number(value), self.zero)
+
+    def rational(self, p: int, q: int = 1) -> Scalar:
+        """Return p/q as a dual number with the rate 0."""
+        return Dual(self.domain.rational(p, q), self.zero)
+
+    def call(self, function: str, *args: Scalar) -> Scalar:
+        """Return a Stumpff function of a dual number."""
+        d, (x,) = self.domain, args
+        name, k = function[:-1], int(function[-1])
+        if not name.endswith("stumpff"):
+            raise ArithmeticError(f"{function} of a dual number; expected a Stumpff function")
+        slope: Scalar
+        if k == 0:
+            slope = -(d.rational(1, 2) * d.call(f"{name}1", x.real))
+        elif function == "stumpff1":
+            slope = d.rational(1, 2) * (d.call("stumpff3", x.real) - d.call("stumpff2", x.real))
+        else:
+            slope = d.call(f"{name.removesuffix('stumpff')}slope{k}", x.real)
+        return Dual(d.call(function, x.real), slope * x.rate)
+
+    def vector(self, function: str, args: Sequence[Scalar]) -> tuple[Scalar, ...]:
+        """Raise ArithmeticError: groups with closed forms call no vector functions."""
+        raise ArithmeticError(f"{function} of dual numbers; expected a Stumpff function")
+
+    def settled(self, old: Sequence[Scalar], new: Sequence[Scalar], previous: Scalar) -> tuple[bool, Scalar]:
+        """Raise ArithmeticError, because no iteration runs over dual numbers."""
+        raise ArithmeticError("dual numbers are not iterated")

@@ -1,0 +1,33 @@
+"""Matrices that a user writes, as rows of exact rational numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+from codegen.errors import SceneError
+from codegen.ir.decimals import exact
+
+
+def rational_rows(name: str, matrix: object) -> tuple[tuple[Fraction, ...], ...]:
+    """Return the rows of a list of rows, a sympy matrix or a NumPy array.
+
+    A float means the shortest decimal that prints it. :class:`SceneError` is raised for anything else;
+    ``name`` is the name of the group in the message.
+
+    >>> rational_rows("A", [[0, 0.1], ["1/3", 0]])[0]
+    (Fraction(0, 1), Fraction(1, 10))
+    """
+    listed = matrix.tolist() if hasattr(matrix, "tolist") else matrix
+    if not isinstance(listed, Sequence) or not all(isinstance(row, Sequence) for row in listed):
+        raise SceneError(
+            f"a matrix {matrix}", where=name, expected="a list of rows, a sympy matrix or a NumPy array"
+        )
+    rows = []
+    for row in listed:
+        values = [exact(x) for x in row]
+        for x, value in zip(row, values, strict=True):
+            if value is None:
+                raise SceneError(f"the entry {x} of a matrix", where=name, expected="a rational number")
+        rows.append(tuple(value for value in values if value is not None))
+    return tuple(rows)

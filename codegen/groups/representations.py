@@ -1,0 +1,310 @@
+"""Linear representations of groups, from which semidirect products are built.
+
+A representation rho is a linear action of a group on a vector space V. A vector of V and a covector of its
+dual are flat tuples; <p, v> is their dot product. For x in the algebra, x.v is the derivative of rho(exp(eps
+x)) v at eps = 0.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from math import isqrt
+from typing import ClassVar
+
+from codegen.errors import SceneError
+from codegen.groups.ad_polynomial import ad_polynomial
+from codegen.groups.base import LieGroup
+from codegen.groups.capabilities import (
+    ClosedFormSeries,
+    Coadjoint,
+    LeftTranslation,
+    MatrixRepresentation,
+    Rotations,
+)
+from codegen.groups.cubic_ad import DEXP
+from codegen.groups.dual_numbers import DualDomain, duals
+from codegen.groups.linear_algebra import S, Vector, dot, invert, matvec, units
+from codegen.ir.ad_series import Factor
+from codegen.ir.domain import Domain, FloatDomain
+
+Pair = tuple[Vector[S], Vector[S]]
+"""An element of the algebra and a vector, or an element of its dual and a covector."""
+
+
+class Representation(ABC):
+    """A representation of a group on ``copies`` copies of a space, one after the other.
+
+    The methods act on one copy. ``needs`` is the capability that the formulas require of the group.
+    """
+
+    needs: type[LieGroup] = Coadjoint
+    of_algebra: ClassVar[bool] = False
+    """Whether rho is Ad, which covering groups share."""
+
+    def __init__(self, copies: int = 1) -> None:
+        if copies < 1:
+            raise SceneError(f"{copies} copies of a space", expected="one copy at least")
+        self.copies = copies
+
+    @abstractmethod
+    def dim(self, group: LieGroup) -> int:
+        """Return the dimension of one copy."""
+
+    @abstractmethod
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return rho(g) v."""
+
+    @abstractmethod
+    def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return rho(g)^-1 v."""
+
+    @abstractmethod
+    def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return rho(g)^T p: <rho(g)^T p, v> = <p, rho(g) v>."""
+
+    @abstractmethod
+    def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return rho(g)^-T p, the inverse of :meth:`dual`."""
+
+    @abstractmethod
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return x.v."""
+
+    @abstractmethod
+    def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return x^T p: <x^T p, v> = <p, x.v>."""
+
+    @abstractmethod
+    def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return the momentum map J(v, p) in the dual of the algebra: <J(v, p), x> = <p, x.v>."""
+
+    @abstractmethod
+    def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
+        """Return phi(x) u = sum of x^k.u/(k+1)!, the translation of exp(x, u)."""
+
+    def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
+        """Return the derivatives of <p, phi(x) u> with respect to x and u; needed if :meth:`closed` is
+        false."""
+        raise NotImplementedError
+
+    def closed(self, group: LieGroup) -> bool:
+        """Whether :meth:`series` has a closed form for this group."""
+        return False
+
+    def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
+        """Return a function of ad_(x, u) applied to (y, v), where (x, u) and (y, v) contain one copy."""
+        raise NotImplementedError
+
+    def dual_series(
+        self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
+    ) -> Pair[S]:
+        """Return a function of ad*_(x, u) applied to (m, p), where (x, u) and (m, p) contain one copy."""
+        raise NotImplementedError
+
+    def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
+        """Return the group if rho(g) v is the matrix of g times the column v; None otherwise."""
+        return None
+
+
+class AlgebraVectors(Representation):
+    """Copies of the Lie algebra, on which the group acts by Ad: for SO(3) these are vectors of R^3.
+
+    x.v = [x, v] and phi(x) = dexp_x. One copy with the algebra itself is the algebra over dual numbers x + u
+    e with e^2 = 0, so the functions of ad are those of the group over dual numbers.
+    """
+
+    of_algebra = True
+
+    needs = ClosedFormSeries
+
+    def dim(self, group: LieGroup) -> int:
+        """Return the dimension of the group."""
+        return group.dim
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return Ad_g v."""
+        return group.require(Coadjoint).Ad(d, g, v)
+
+    def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return Ad_{g^-1} v."""
+        return group.require(LeftTranslation).Adinv(d, g, v)
+
+    def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return Ad*_g p."""
+        return group.require(Coadjoint).Adt(d, g, p)
+
+    def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return Ad*_{g^-1} p."""
+        return group.require(Coadjoint).Adtinv(d, g, p)
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return [x, v]."""
+        return group.ad(d, x, v)
+
+    def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return ad*_x p."""
+        return group.require(Coadjoint).adt(d, x, p)
+
+    def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return -ad*_v p."""
+        return tuple(-a for a in group.require(Coadjoint).adt(d, v, p))
+
+    def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
+        """Return dexp_x u."""
+        return group.require(ClosedFormSeries).series(d, DEXP, False, x, u)
+
+    def closed(self, group: LieGroup) -> bool:
+        """Return True, because the group has closed forms for functions of ad."""
+        return True
+
+    def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
+        """Return the function of ad over dual numbers."""
+        closed = group.require(ClosedFormSeries)
+        result = closed.series(DualDomain(d), word, False, duals(*x), duals(*v))
+        return tuple(a.real for a in result), tuple(a.rate for a in result)
+
+    def dual_series(
+        self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
+    ) -> Pair[S]:
+        """Return the function of ad* over dual numbers.
+
+        <m, y> + <p, v> is the coefficient of e in <p + m e, y + v e>, so p is the real part.
+        """
+        closed = group.require(ClosedFormSeries)
+        result = closed.series(DualDomain(d), word, True, duals(*x), duals(p[1], p[0]))
+        return tuple(a.rate for a in result), tuple(a.real for a in result)
+
+    def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
+        """Return the rotations of R^3; for other groups Ad_g is not the matrix of g."""
+        rotations = group.offers(Rotations)
+        return rotations if rotations is not None and rotations.order == rotations.dim else None
+
+
+class MatrixColumns(Representation):
+    """Copies of the columns on which the matrices of a group act: rho(g) is the matrix of g."""
+
+    needs = MatrixRepresentation
+
+    def _matrices(self, group: LieGroup) -> MatrixRepresentation:
+        return group.require(MatrixRepresentation)
+
+    def dim(self, group: LieGroup) -> int:
+        """Return the number of rows of a matrix."""
+        matrices, d = self._matrices(group), FloatDomain(0.0)
+        return isqrt(len(matrices.matrix(d, matrices.identity(d))))
+
+    def act(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return the matrix of g times v."""
+        return matvec(self._matrices(group).matrix(d, g), v)
+
+    def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return the inverse matrix times v."""
+        return matvec(self._inverse(d, group, g), v)
+
+    def dual(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return the transposed matrix times p."""
+        return matvec(_transposed(self._matrices(group).matrix(d, g)), p)
+
+    def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return the transposed inverse times p."""
+        return matvec(_transposed(self._inverse(d, group, g)), p)
+
+    def _inverse(self, d: Domain, group: LieGroup, g: Vector[S]) -> Vector[S]:
+        return invert(d, self._matrices(group).matrix(d, g), self.dim(group))
+
+    def velocity(self, d: Domain, group: LieGroup, x: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return the matrix of x times v."""
+        return matvec(self._matrices(group).hat(d, x), v)
+
+    def dual_velocity(self, d: Domain, group: LieGroup, x: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return the transposed matrix of x times p."""
+        return matvec(_transposed(self._matrices(group).hat(d, x)), p)
+
+    def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return p.(x v) for each basis vector x of the algebra."""
+        basis: tuple[Vector[S], ...] = units(d, group.dim)
+        return tuple(dot(p, self.velocity(d, group, e, v)) for e in basis)
+
+    def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
+        """Return the last column of the exponential of the matrix [[x, u], [0, 0]], without its last
+        entry."""
+        n, bordered = self._bordered(d, group, x, u)
+        exponential: Vector[S] = d.vector(f"expm{n}", bordered)
+        return tuple(exponential[n * i + n - 1] for i in range(n - 1))
+
+    def gradient(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S], p: Vector[S]) -> Pair[S]:
+        """Return both derivatives from the derivative of the exponential.
+
+        The transpose of the derivative at a is the derivative at the transpose of a.
+        """
+        n, bordered = self._bordered(d, group, x, u)
+        zero: S = d.rational(0)
+        direction = (*(a for q in p for a in (*(zero,) * (n - 1), q)), *(zero,) * n)
+        both: Vector[S] = d.vector(f"expm{n}_d1", (*_transposed(bordered), *direction))
+        slope = both[n * n :]
+        block = tuple(slope[n * i + j] for i in range(n - 1) for j in range(n - 1))
+        basis: tuple[Vector[S], ...] = units(d, group.dim)
+        forces = tuple(dot(block, self._matrices(group).hat(d, e)) for e in basis)
+        return forces, tuple(slope[n * i + n - 1] for i in range(n - 1))
+
+    def _bordered(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> tuple[int, Vector[S]]:
+        """Return the number of rows of [[x, u], [0, 0]], and the matrix."""
+        n, hat = len(u), self._matrices(group).hat(d, x)
+        rows = (a for i in range(n) for a in (*hat[n * i : n * i + n], u[i]))
+        return n + 1, (*rows, *(d.rational(0),) * (n + 1))
+
+    def of_matrices(self, group: LieGroup) -> MatrixRepresentation | None:
+        """Return the group."""
+        return self._matrices(group)
+
+
+class PlaneVectors(MatrixColumns):
+    """Copies of R^2 with the rotations of SO(2): phi(w) = c_1(w^2) + c_2(w^2) w J with J(a, b) = (-b, a)."""
+
+    def inverse(self, d: Domain, group: LieGroup, g: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return the transposed matrix times v."""
+        return self.dual(d, group, g, v)
+
+    def dual_inverse(self, d: Domain, group: LieGroup, g: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return the matrix times p."""
+        return self.act(d, group, g, p)
+
+    def momentum(self, d: Domain, group: LieGroup, v: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return v_0 p_1 - v_1 p_0."""
+        return (v[0] * p[1] - v[1] * p[0],)
+
+    def translation(self, d: Domain, group: LieGroup, x: Vector[S], u: Vector[S]) -> Vector[S]:
+        """Return c_1 u + c_2 w J u."""
+        z = x[0] * x[0]
+        c1, turned = d.call("stumpff1", z), x[0] * d.call("stumpff2", z)
+        return (c1 * u[0] - turned * u[1], c1 * u[1] + turned * u[0])
+
+    def closed(self, group: LieGroup) -> bool:
+        """Return True: with one copy ad^3 = -w^2 ad."""
+        return True
+
+    def series(self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], v: Pair[S]) -> Pair[S]:
+        """Return y and v + (b + c w J)(w J v - y J u) for the function 1 + b ad + c ad^2."""
+        (w,), u = x
+        b, c = ad_polynomial(d, word, w * w)
+        first = (v[0][0] * u[1] - w * v[1][1], w * v[1][0] - v[0][0] * u[0])
+        turned = c * w
+        second = (b * first[0] - turned * first[1], b * first[1] + turned * first[0])
+        return v[0], tuple(p + q for p, q in zip(v[1], second, strict=True))
+
+    def dual_series(
+        self, d: Domain, group: LieGroup, word: Sequence[Factor], x: Pair[S], p: Pair[S]
+    ) -> Pair[S]:
+        """Return the transposed map of :meth:`series`."""
+        (w,), u = x
+        b, c = ad_polynomial(d, word, w * w)
+        turned = c * w
+        first = (b * p[1][0] + turned * p[1][1], b * p[1][1] - turned * p[1][0])
+        moment = p[0][0] + (u[1] * first[0] - u[0] * first[1])
+        return (moment,), (p[1][0] + w * first[1], p[1][1] - w * first[0])
+
+
+def _transposed(matrix: Vector[S]) -> Vector[S]:
+    n = round(len(matrix) ** 0.5)
+    return tuple(matrix[n * j + i] for i in range(n) for j in range(n))

@@ -1,0 +1,30 @@
+"""SE_2(3): the extended poses of a vehicle, with attitude, velocity and position."""
+
+from __future__ import annotations
+
+from codegen.groups.base import LieGroup
+from codegen.groups.representations import AlgebraVectors
+from codegen.groups.semidirect import Semidirect
+from codegen.groups.so3 import SO3
+
+
+class SE23(Semidirect):
+    """Attitude R, velocity v and position p with (R, v, p)(S, u, q) = (R S, v + R u, p + R q), R row by row.
+
+    An element of the algebra is (w, a, u), and exp(w, a, u) = (exp w, dexp_w a, dexp_w u). The matrices are
+    [[R, v, p], [0, 1, 0], [0, 0, 1]] (A. Barrau and S. Bonnabel, IEEE Transactions on Automatic Control 62
+    (2017), 1797-1812).
+    """
+
+    covering_formula = f"{SO3.covering_formula}; the vectors are equal"
+
+    def __init__(self, attitude: LieGroup | None = None) -> None:
+        attitude = SO3() if attitude is None else attitude
+        named = attitude.name == SO3.name
+        name = "SE_2(3)" if named else f"SE_2(3) over {attitude.name}"
+        super().__init__(attitude, AlgebraVectors(2), name)
+        self.layout = f": the attitude in {attitude.name}{attitude.layout}, the velocity, the position"
+
+    def with_linear(self, linear: LieGroup) -> SE23:
+        """Return SE_2(3) with another implementation of the rotations."""
+        return SE23(linear)

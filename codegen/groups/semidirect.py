@@ -1,0 +1,357 @@
+"""Semidirect products of a group with a vector space on which it acts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
+from typing import TYPE_CHECKING
+
+from codegen.groups.base import C, LieGroup
+from codegen.groups.capabilities import (
+    ClosedFormSeries,
+    Coadjoint,
+    Covered,
+    LeftTranslation,
+    MatrixRepresentation,
+    PointMotions,
+    Projection,
+    RightTrivialisation,
+    Term,
+)
+from codegen.groups.cubic_ad import DEXP
+from codegen.groups.linear_algebra import S, Vector
+from codegen.groups.representations import Pair, Representation
+from codegen.ir.ad_series import Factor
+from codegen.ir.domain import Domain
+from codegen.ir.normal_form import Relation
+
+if TYPE_CHECKING:
+    import sympy
+
+
+class Semidirect(
+    ClosedFormSeries,
+    LeftTranslation,
+    RightTrivialisation,
+    Projection,
+    PointMotions,
+    MatrixRepresentation,
+    Covered,
+):
+    """G x V with (g, a)(k, b) = (g k, a + rho(g) b): a linear factor G and a vector space V on which G acts.
+
+    ``representation`` is rho. (g, a) maps the point z of V to rho(g) z + a. The coordinates of g come before
+    the coordinates of a. An element of the algebra is (x, u): the velocity of the point z is x.z + u. The
+    brackets are [(x, u), (y, v)] = ([x, y], x.v - y.u), and exp(x, u) = (exp x, phi(x) u) with phi(x) = sum
+    of x^k/(k+1)!. The product has a capability if the linear factor has it and the formulas of the
+    representation permit it.
+    """
+
+    covering_formula = "the image of q in the linear factor; the vectors are those of q"
+
+    def __init__(self, linear: LieGroup, representation: Representation, name: str = "") -> None:
+        linear.require(representation.needs)
+        self.linear, self.representation = linear.require(Coadjoint), representation
+        self.width = representation.dim(linear)
+        self.point_size = self.width * representation.copies
+        self.name = name or f"{linear.name} |x R^{self.point_size}"
+        self.layout = f": {linear.name}{linear.layout}; {self.point_size} components of a vector"
+        self.dim, self.size = linear.dim + self.point_size, linear.size + self.point_size
+        self.abelian = False
+
+    def _split(self, x: Vector[S]) -> Pair[S]:
+        """Return the two parts of an element of the algebra or of its dual."""
+        return tuple(x[: self.linear.dim]), tuple(x[self.linear.dim :])
+
+    def _element(self, g: Vector[S]) -> Pair[S]:
+        """Return the two parts of an element of the group."""
+        return tuple(g[: self.linear.size]), tuple(g[self.linear.size :])
+
+    def _copies(self, v: Vector[S]) -> Iterator[Vector[S]]:
+        """Yield the copies of a vector."""
+        return (tuple(v[i : i + self.width]) for i in range(0, len(v), self.width))
+
+    def _each(self, operation: Callable[..., Vector[S]], *vectors: Vector[S]) -> Vector[S]:
+        """Return the results of an operation on all copies, joined to one tuple."""
+        rows = zip(*map(self._copies, vectors), strict=True)
+        return tuple(chain.from_iterable(operation(*row) for row in rows))
+
+    def offers(self, capability: type[C]) -> C | None:
+        """Return this product as a group with a capability; None if the linear factor or the representation
+        lacks its formulas."""
+        own = super().offers(capability)
+        if own is None or issubclass(Coadjoint, capability) or issubclass(PointMotions, capability):
+            return own
+        if issubclass(capability, ClosedFormSeries):
+            return own if self.representation.closed(self.linear) else None
+        if issubclass(capability, MatrixRepresentation):
+            return own if self.representation.of_matrices(self.linear) is not None else None
+        if issubclass(capability, Covered) and not self.representation.of_algebra:
+            return None
+        return own if self.linear.offers(capability) is not None else None
+
+    def variants(self) -> Sequence[Semidirect]:
+        """Return the products with the variants of the linear factor."""
+        return tuple(self.with_linear(variant) for variant in self.linear.variants())
+
+    def with_linear(self, linear: LieGroup) -> Semidirect:
+        """Return this product with another implementation of the linear factor."""
+        return Semidirect(linear, self.representation, self.name)
+
+    def identity(self, d: Domain) -> Vector[S]:
+        """Return (e, 0)."""
+        zeros: Vector[S] = (d.rational(0),) * self.point_size
+        return self.linear.identity(d) + zeros
+
+    def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
+        """Return (g k, a + rho(g) b)."""
+        (q, a), (r, b) = self._element(g), self._element(k)
+        moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), b)
+        return self.linear.mul(d, q, r) + _sum(a, moved)
+
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (exp x, phi(x) u)."""
+        y, u = self._split(x)
+        moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
+        return self.linear.exp(d, y) + moved
+
+    def expmul(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return (exp(x) g, rho(exp x) a + phi(x) u)."""
+        q, y = self._element(g)[0], self._split(x)[0]
+        # A variant of the linear factor may have a shorter formula for the first part.
+        return self.linear.expmul(d, y, q) + self.move(d, self.exp(d, x), self._element(g)[1])
+
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return ([x, y], x.v - y.u)."""
+        (a, u), (b, v) = self._split(x), self._split(y)
+        turned = self._each(lambda p, q: self._difference(d, a, q, b, p), u, v)
+        return self.linear.ad(d, a, b) + turned
+
+    def _difference(self, d: Domain, a: Vector[S], v: Vector[S], b: Vector[S], u: Vector[S]) -> Vector[S]:
+        """Return a.v - b.u."""
+        velocity = self.representation.velocity
+        pairs = zip(velocity(d, self.linear, a, v), velocity(d, self.linear, b, u), strict=True)
+        return tuple(p - q for p, q in pairs)
+
+    def _momentum(self, d: Domain, v: Vector[S], p: Vector[S]) -> Vector[S]:
+        """Return J(v, p), the sum over all copies."""
+        parts = zip(self._copies(v), self._copies(p), strict=True)
+        return _sum(*(self.representation.momentum(d, self.linear, a, b) for a, b in parts))
+
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return (ad*_x m - J(u, p), x^T p)."""
+        (y, u), (m, p) = self._split(x), self._split(mu)
+        turned = self._each(lambda a: self.representation.dual_velocity(d, self.linear, y, a), p)
+        return _difference(self.linear.adt(d, y, m), self._momentum(d, u, p)) + turned
+
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return (Ad_g x, rho(g) u - (Ad_g x).a)."""
+        (q, a), (y, u) = self._element(g), self._split(x)
+        turned = self.linear.Ad(d, q, y)
+        moved = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
+        return turned + _difference(moved, self.point_velocity(d, turned, a, translated=False))
+
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return (Ad_{g^-1} x, rho(g)^-1 (u + x.a))."""
+        (q, a), (y, _) = self._element(g), self._split(x)
+        back = self.linear.require(LeftTranslation).Adinv(d, q, y)
+        velocity = self.point_velocity(d, x, a)
+        return back + self._each(lambda v: self.representation.inverse(d, self.linear, q, v), velocity)
+
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return (Ad*_g (m - J(a, p)), rho(g)^T p)."""
+        (q, a), (m, p) = self._element(g), self._split(mu)
+        central = _difference(m, self._momentum(d, a, p))
+        turned = self._each(lambda v: self.representation.dual(d, self.linear, q, v), p)
+        return self.linear.Adt(d, q, central) + turned
+
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return (Ad*_{g^-1} m + J(a, p'), p') with p' = rho(g)^-T p."""
+        (q, a), (m, p) = self._element(g), self._split(mu)
+        turned = self._each(lambda v: self.representation.dual_inverse(d, self.linear, q, v), p)
+        return _sum(self.linear.Adtinv(d, q, m), self._momentum(d, a, turned)) + turned
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return dexp*_(x, u) (m, p).
+
+        With t = phi(x) u, dexp_(x, u) maps (y, 0) to dexp_x y and D phi(x)[y] u - (dexp_x y).t. Without a
+        closed form, the result is therefore dexp*_x (m - J(t, p)) + D_x <p, t> and D_u <p, t>.
+        """
+        if self.representation.closed(self.linear):
+            return self.series(d, DEXP, True, x, mu)
+        (y, u), (m, p) = self._split(x), self._split(mu)
+        moved = self._each(lambda v: self.representation.translation(d, self.linear, y, v), u)
+        pairs = zip(self._copies(u), self._copies(p), strict=True)
+        slopes = [self.representation.gradient(d, self.linear, y, a, b) for a, b in pairs]
+        central = self.linear.dexpt(d, y, _difference(m, self._momentum(d, moved, p)))
+        return _sum(central, *(first for first, _ in slopes)) + tuple(q for _, part in slopes for q in part)
+
+    def series(self, d: Domain, word: Sequence[Factor], dual: bool, x: Vector[S], v: Vector[S]) -> Vector[S]:
+        """Return the product of the functions of ad_(x, u) in ``word``, or of ad*, applied to v."""
+        rule = self.representation.dual_series if dual else self.representation.series
+        (y, u), (w, vectors) = self._split(x), self._split(v)
+        none: Vector[S] = tuple(d.rational(0) for _ in w)
+        ends: list[Vector[S]] = []
+        first = none
+        for k, (a, b) in enumerate(zip(self._copies(u), self._copies(vectors), strict=True)):
+            # On the dual, each copy adds to the momentum of the linear factor.
+            own = none if dual and k else w
+            head, tail = rule(d, self.linear, word, (y, a), (own, b))
+            first = _sum(first, head) if dual else head
+            ends.append(tail)
+        return first + tuple(chain.from_iterable(ends))
+
+    def series_sum(
+        self,
+        d: Domain,
+        terms: Sequence[Term[S]],
+        dual: bool,
+        x: Vector[S],
+        total: Callable[[tuple[int, ...]], Vector[S]] | None = None,
+    ) -> Vector[S]:
+        """Return the sum of f W(ad_(x, u)) v over terms (f, W, v), term by term."""
+        values = [self.series(d, word, dual, x, tuple(f * a for a in v)) for f, word, v in terms]
+        return _sum(*values)
+
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return (x.g, x.a + u)."""
+        q, a = self._element(g)
+        return self.linear.velocity(d, self._split(x)[0], q) + self.point_velocity(d, x, a)
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return (g.x, rho(g) u)."""
+        q, (y, u) = self._element(g)[0], self._split(x)
+        turned = self._each(lambda v: self.representation.act(d, self.linear, q, v), u)
+        return self.linear.require(LeftTranslation).left_velocity(d, q, y) + turned
+
+    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return (x, w - x.a) for the tangent vector (x.g, w)."""
+        (q, a), (first, w) = self._element(g), self._element(v)
+        x = self.linear.require(RightTrivialisation).rate(d, first, q)
+        return x + _difference(w, self.point_velocity(d, x, a, translated=False))
+
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return the relations of the linear factor."""
+        return self.linear.require(LeftTranslation).relations(q[: self.linear.size])
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the pair (g, a) with g projected."""
+        q, a = self._element(g)
+        return self.linear.require(Projection).project(d, q) + a
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return the equations of the linear factor."""
+        return self.linear.laws(d, self._element(g)[0])
+
+    def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
+        """Return rho(g) z + a."""
+        q, a = self._element(g)
+        return _sum(self._each(lambda v: self.representation.act(d, self.linear, q, v), z), a)
+
+    def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S], *, translated: bool = True) -> Vector[S]:
+        """Return x.z + u; without ``translated`` return x.z."""
+        y, u = self._split(x)
+        turned = self._each(lambda v: self.representation.velocity(d, self.linear, y, v), z)
+        return _sum(turned, u) if translated else turned
+
+    @property
+    def order(self) -> int:
+        """The number of rows of the matrices [[rho(g), a], [0, 1]]."""
+        return self.width + self.representation.copies
+
+    def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the matrix with the blocks rho(g), the copies of a as columns, 0 and 1."""
+        q, a = self._element(g)
+        return self._bordered(d, self._matrices().matrix(d, q), a, d.rational(1))
+
+    def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the matrix with the blocks of x, the copies of u as columns, and zeros."""
+        y, u = self._split(x)
+        return self._bordered(d, self._matrices().hat(d, y), u, d.rational(0))
+
+    def element(self, matrix: Vector[S]) -> Vector[S]:
+        """Return the coordinates of an element, given its matrix."""
+        block, a = self._blocks(matrix)
+        return self._matrices().element(block) + a
+
+    def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
+        """Return the coordinates of an element of the algebra, given its matrix."""
+        block, u = self._blocks(matrix)
+        return self._matrices().vee(d, block) + u
+
+    def _matrices(self) -> MatrixRepresentation:
+        return self.linear.require(MatrixRepresentation)
+
+    def _bordered(self, d: Domain, block: Vector[S], a: Vector[S], one: S) -> Vector[S]:
+        n, k, zero = self.width, self.representation.copies, d.rational(0)
+        columns = list(self._copies(a))
+        rows = [(*block[n * i : n * i + n], *(c[i] for c in columns)) for i in range(n)]
+        rows += [(*(zero,) * n, *(one if i == j else zero for j in range(k))) for i in range(k)]
+        return tuple(chain.from_iterable(rows))
+
+    def _blocks(self, matrix: Vector[S]) -> Pair[S]:
+        n, size = self.width, self.order
+        block = tuple(matrix[size * i + j] for i in range(n) for j in range(n))
+        return block, tuple(matrix[size * i + n + k] for k in range(size - n) for i in range(n))
+
+    @property
+    def cover(self) -> LeftTranslation:
+        """The semidirect product of the cover of the linear factor with the same vectors."""
+        return Semidirect(self._covered().cover, self.representation)
+
+    def _covered(self) -> Covered:
+        return self.linear.require(Covered)
+
+    def _over(self, q: Vector[S]) -> Pair[S]:
+        """Return the two parts of an element of the cover."""
+        size = self._covered().cover.size
+        return tuple(q[:size]), tuple(q[size:])
+
+    def covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the image of the linear factor, and the vector."""
+        g, a = self._over(q)
+        return self._covered().covering(d, g) + a
+
+    def projected_covering(self, d: Domain, q: Vector[S]) -> Vector[S]:
+        """Return the image of the projected linear factor, and the vector."""
+        g, a = self._over(q)
+        return self._covered().projected_covering(d, g) + a
+
+    def lifted_velocity(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the lifted velocity of the linear factor, and u."""
+        y, u = self._split(x)
+        return self._covered().lifted_velocity(d, y) + u
+
+    def pivots(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the pivots of the linear factor."""
+        return self._covered().pivots(d, self._element(g)[0])
+
+    def lift(self, d: Domain, g: Vector[S], formula: int) -> Vector[S]:
+        """Return an element of the cover of the linear factor, and the vector."""
+        q, a = self._element(g)
+        return self._covered().lift(d, q, formula) + a
+
+    def symbols(self, name: str) -> list[sympy.Symbol]:
+        """Return the symbols of the linear factor, and ``name`` with an index for each component of a.
+
+        If the linear factor has one of these symbols, the letter v precedes the index.
+        """
+        from sympy import Symbol
+
+        own = self.linear.symbols(name)
+        plain = {f"{name}{i}" for i in range(self.point_size)}
+        letter = "v" if any(s.name in plain for s in own) else ""
+        return [*own, *(Symbol(f"{name}{letter}{i}", real=True) for i in range(self.point_size))]
+
+
+def _sum(first: Vector[S], *others: Vector[S]) -> Vector[S]:
+    """Return the sum of vectors."""
+    total = first
+    for other in others:
+        total = tuple(a + b for a, b in zip(total, other, strict=True))
+    return total
+
+
+def _difference(a: Vector[S], b: Vector[S]) -> Vector[S]:
+    """Return a - b."""
+    return tuple(p - q for p, q in zip(a, b, strict=True))

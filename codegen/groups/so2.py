@@ -1,0 +1,135 @@
+"""SO(2): the rotations of the plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from codegen.groups.capabilities import (
+    LeftTranslation,
+    MatrixRepresentation,
+    PointMotions,
+    Projection,
+    RightTrivialisation,
+)
+from codegen.groups.linear_algebra import S, Vector, matvec, rescaled
+from codegen.ir.domain import Domain
+from codegen.ir.normal_form import Relation
+from codegen.ir.number import Number
+
+if TYPE_CHECKING:
+    import sympy
+
+
+class SO2(LeftTranslation, RightTrivialisation, Projection, PointMotions, MatrixRepresentation):
+    """Rotations of the plane as (c, s), the cosine and the sine of the angle.
+
+    An element of the algebra is the angular velocity w, and exp(w) = (c_0(w^2), w c_1(w^2)) with the Stumpff
+    functions c_k. The group is abelian, so Ad and dexp are the identity.
+    """
+
+    name = "SO(2)"
+    layout = ", cosine and sine of the angle"
+    dim, size, point_size = 1, 2, 2
+    abelian = True
+
+    def identity(self, d: Domain) -> Vector[S]:
+        """Return (1, 0)."""
+        return (d.rational(1), d.rational(0))
+
+    def mul(self, d: Domain, g: Vector[S], k: Vector[S]) -> Vector[S]:
+        """Return the product of two complex numbers c + i s."""
+        return (g[0] * k[0] - g[1] * k[1], g[1] * k[0] + g[0] * k[1])
+
+    def inverse(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return (c, -s)."""
+        return (g[0], -g[1])
+
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (cos w, sin w)."""
+        z = x[0] * x[0]
+        return (d.call("stumpff0", z), x[0] * d.call("stumpff1", z))
+
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return 0."""
+        return (d.rational(0),)
+
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return 0."""
+        return (d.rational(0),)
+
+    def Ad(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def Adinv(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return x."""
+        return x
+
+    def Adt(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def Adtinv(self, d: Domain, g: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return mu."""
+        return mu
+
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return w (-s, c)."""
+        return (-(x[0] * g[1]), x[0] * g[0])
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return w (-s, c)."""
+        return self.velocity(d, x, g)
+
+    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return c v_1 - s v_0."""
+        return (g[0] * v[1] - g[1] * v[0],)
+
+    def relations(self, q: Sequence[str]) -> tuple[Relation, ...]:
+        """Return c^2 + s^2 = 1 as a replacement of c^2."""
+        terms = ((Number.rational(1), ()), (Number.rational(-1), (q[1], q[1])))
+        return (((q[0], q[0]), terms),)
+
+    def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return (1 + e/2 + 3 e^2/8) g with e = 1 - c^2 - s^2; the error of the length is then O(e^3)."""
+        return rescaled(d, g, d.rational(1) - (g[0] * g[0] + g[1] * g[1]))
+
+    def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
+        """Return c^2 + s^2 = 1."""
+        return (("c^2 + s^2 = 1", g[0] * g[0] + g[1] * g[1] - d.rational(1)),)
+
+    def move(self, d: Domain, g: Vector[S], z: Vector[S]) -> Vector[S]:
+        """Return the rotated point."""
+        return matvec(self.matrix(d, g), z)
+
+    def point_velocity(self, d: Domain, x: Vector[S], z: Vector[S]) -> Vector[S]:
+        """Return w (-z_1, z_0)."""
+        return (-(x[0] * z[1]), x[0] * z[0])
+
+    def matrix(self, d: Domain, g: Vector[S]) -> Vector[S]:
+        """Return the rotation matrix."""
+        return (g[0], -g[1], g[1], g[0])
+
+    def element(self, matrix: Vector[S]) -> Vector[S]:
+        """Return the first column."""
+        return (matrix[0], matrix[2])
+
+    def hat(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return the skew matrix of w."""
+        zero = d.rational(0)
+        return (zero, -x[0], x[0], zero)
+
+    def vee(self, d: Domain, matrix: Vector[S]) -> Vector[S]:
+        """Return the entry below the diagonal."""
+        return (matrix[2],)
+
+    def symbols(self, name: str) -> list[sympy.Symbol]:
+        """Return the symbols of the cosine and the sine: ``name`` with c and s."""
+        from sympy import Symbol
+
+        return [Symbol(f"{name}{i}", real=True) for i in "cs"]

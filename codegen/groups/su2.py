@@ -1,0 +1,58 @@
+"""SU(2): unit quaternions with the basis -i sigma_k/2 of su(2), in which the bracket is the cross product."""
+
+from __future__ import annotations
+
+from codegen.groups.cubic_ad import DEXP
+from codegen.groups.linear_algebra import S, Vector, cross, dot
+from codegen.groups.s3 import S3
+from codegen.ir.domain import Domain
+
+
+class SU2(S3):
+    """Unitary 2 x 2 matrices [[a, b], [-b^c, a^c]] of determinant 1 as unit quaternions, real part first.
+
+    The quaternion (q0, q1, q2, q3) is the matrix q0 - i (q1 sigma_1 + q2 sigma_2 + q3 sigma_3) with Pauli's
+    matrices. The basis of the algebra is -i sigma_k/2, so [x, y] = x cross y, and exp(x) rotates vectors
+    about x by the angle |x|. The elements are those of S^3. The element x of this algebra is the quaternion
+    x/2 in the algebra of S^3. With z = x.x and the Stumpff functions c_k: exp(x) = (c_0(z/4), c_1(z/4) x/2),
+    dexp_x = 1 + c_2(z) ad_x + c_3(z) ad_x^2.
+    """
+
+    name = "SU(2)"
+
+    def squared_rate(self, d: Domain, x: Vector[S]) -> S:
+        """Return x.x."""
+        return dot(x, x)
+
+    def exp(self, d: Domain, x: Vector[S]) -> Vector[S]:
+        """Return (cos |x|/2, sin(|x|/2)/|x| x)."""
+        return S3.exp(self, d, _half(d, x))
+
+    def ad(self, d: Domain, x: Vector[S], y: Vector[S]) -> Vector[S]:
+        """Return x cross y."""
+        return cross(x, y)
+
+    def adt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return -x cross mu."""
+        return cross(mu, x)
+
+    def dexpt(self, d: Domain, x: Vector[S], mu: Vector[S]) -> Vector[S]:
+        """Return dexp*_x mu = mu + c_2 ad*_x mu + c_3 (ad*_x)^2 mu."""
+        return self.series(d, DEXP, True, x, mu)
+
+    def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return the quaternion product (0, x/2) g."""
+        return S3.velocity(self, d, _half(d, x), g)
+
+    def left_velocity(self, d: Domain, g: Vector[S], x: Vector[S]) -> Vector[S]:
+        """Return the quaternion product g (0, x/2)."""
+        return S3.left_velocity(self, d, g, _half(d, x))
+
+    def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
+        """Return x where v = x.g: twice the imaginary part of v times the conjugate of g."""
+        return tuple(d.rational(2) * a for a in S3.rate(self, d, v, g))
+
+
+def _half(d: Domain, x: Vector[S]) -> Vector[S]:
+    half: S = d.rational(1, 2)
+    return tuple(half * a for a in x)

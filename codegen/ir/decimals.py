@@ -1,0 +1,56 @@
+"""Floats in formulas: each means the shortest decimal that prints it, so 0.1 is 1/10.
+
+The binary value of a float is never used: 0.1 would be 3602879701896397/36028797018963968.
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import sympy
+
+DIGITS_OF_BITS = 0.30103
+"""Decimal digits of one bit."""
+
+
+def decimal(value: sympy.Float) -> Fraction:
+    """Return the shortest decimal that rounds to a float of sympy.
+
+    >>> import sympy
+    >>> decimal(sympy.Float(0.1)), decimal(sympy.Float("1e-5", 30))
+    (Fraction(1, 10), Fraction(1, 100000))
+    """
+    from mpmath.libmp import from_str, to_str
+
+    bits = int(value._prec)
+    for digits in range(1, int(bits * DIGITS_OF_BITS) + 3):
+        text = to_str(value._mpf_, digits)
+        if from_str(text, bits, "n") == value._mpf_:
+            break
+    return Fraction(text)
+
+
+def exact(value: object) -> Fraction | None:
+    """Return a rational number that a scene contains as an exact fraction; None for anything else.
+
+    Python integers, fractions, floats, numbers of NumPy, rational numbers of sympy and texts such as "1/10"
+    are accepted.
+
+    >>> exact(0.1), exact("1/3"), exact("x")
+    (Fraction(1, 10), Fraction(1, 3), None)
+    """
+    if isinstance(value, int | Fraction):
+        return Fraction(value)
+    import sympy
+
+    try:
+        number = sympy.Rational(value) if isinstance(value, str) else sympy.sympify(value, strict=True)
+    except (sympy.SympifyError, TypeError, ValueError):
+        return None
+    if isinstance(number, sympy.Float):
+        return decimal(number)
+    if not getattr(number, "is_Rational", False):
+        return None
+    return Fraction(int(number.p), int(number.q))

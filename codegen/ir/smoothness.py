@@ -1,0 +1,106 @@
+"""The selections in formulas: where a field is not smooth, and the smooth field on one side.
+
+A selection is a node of :mod:`codegen.ir.selection`. Its *side* is 1 or 0 for ``choose`` and ``fabs``
+(whether the argument is positive), and the number of an interval for a table. With the sides of all
+selections given, the formulas are smooth, and they continue beyond the region in which the sides are valid.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from codegen.ir.domain import ExprDomain
+from codegen.ir.elementary import ANGLE
+from codegen.ir.expr import Expr, evaluate, walk
+from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE, selects
+from codegen.ir.table import PiecewisePolynomial
+
+Sides = tuple[int, ...]
+"""The side of each selection, in the order of :func:`selections`."""
+
+
+def selections(roots: Sequence[Expr]) -> list[Expr]:
+    """Return the selections in expressions, arguments before users."""
+    return [node for node in walk(roots) if node.op == "call" and selects(node.payload)]
+
+
+def on_sides(roots: Sequence[Expr], nodes: Sequence[Expr], sides: Sides) -> tuple[list[Expr], list[Expr]]:
+    """Return the formulas on given sides of all selections, and the margins of these sides.
+
+    The sides are valid where all margins are positive.
+    """
+    (space,) = {node.space for node in roots}
+    domain = ExprDomain(space)
+    side = dict(zip((node.id for node in nodes), sides, strict=True))
+    done: dict[int, Expr] = {}
+    margins: list[Expr] = []
+    for node in walk(roots):
+        args = [done[a.id] for a in node.args]
+        if node.id in side:
+            value, more = _side(node.payload, args, side[node.id], domain)
+            margins += more
+        elif node.args:
+            names = [f"argument {k}" for k in range(len(args))]
+            copy = space._make(node.op, tuple(map(space.sym, names)), node.payload)
+            (value,) = evaluate([copy], domain, dict(zip(names, args, strict=True)))
+        else:
+            value = node
+        done[node.id] = value
+    return [done[root.id] for root in roots], margins
+
+
+def _side(function: str, args: Sequence[Expr], side: int, domain: ExprDomain) -> tuple[Expr, list[Expr]]:
+    """Return the value of a selection on one side, and the margins of this side."""
+    x = args[0]
+    if isinstance(function, PiecewisePolynomial):
+        knots = function.knots
+
+        def constant(k: int) -> Expr:
+            return domain.number(Number.rational(*knots[k].as_integer_ratio()))
+
+        margins = [x - constant(side - 1)] if side else []
+        margins += [constant(side) - x] if side < len(knots) else []
+        return function.on_interval(domain, x, side), margins
+    value = {ABSOLUTE: (-x, x), CHOOSE: tuple(reversed(args[1:]))}[function][side]
+    return value, [x if side else -x]
+
+
+def features(roots: Sequence[Expr]) -> str:
+    """Return the selections in expressions in words; an empty text if there are none.
+
+    >>> from codegen.ir.expr import Space
+    >>> s = Space()
+    >>> features([s.call("fabs", s.sym("x")) * s.sym("y")])
+    'abs(x)'
+    """
+    words = []
+    for node in walk(roots):
+        if node.op != "call":
+            continue
+        if isinstance(node.payload, PiecewisePolynomial):
+            words.append(f"a table at {len(node.payload.knots)} points")
+        elif node.payload == ANGLE:
+            words.append(f"{node} where it jumps from pi to -pi")
+        elif node.payload == ABSOLUTE:
+            words.append(f"abs({_argument(node)})")
+        elif node.payload == CHOOSE:
+            words.append(f"a choice at {_argument(node)} = 0")
+    unique = list(dict.fromkeys(words))
+    return ", ".join(unique[:SHOWN]) + (f" and {len(unique) - SHOWN} more" if len(unique) > SHOWN else "")
+
+
+SHOWN = 3
+"""The number of selections that a text lists."""
+
+
+def _argument(node: Expr) -> str:
+    """Return the text of an argument up to its sign, which does not matter where it vanishes."""
+    x = node.args[0]
+    if x.op == "neg":
+        (x,) = x.args
+    if x.op == "sub":
+        first, second = sorted(x.args, key=lambda e: (e.op == "const", e.id))
+        return f"{first} - {second}"
+    text = str(x)
+    return text[1:-1] if x.op in ("add", "mul", "div") else text

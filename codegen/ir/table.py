@@ -1,0 +1,87 @@
+"""Piecewise polynomials of one variable, the functions that tables of numbers define in formulas.
+
+A piecewise polynomial is a name of a function together with its data, so that expressions and domains treat
+it as they treat ``sin``. The name is a digest of the data: equal tables have equal names.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from hashlib import sha256
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from codegen.ir.domain import Domain, Scalar
+
+Sign = Callable[["Scalar"], "int | None"]
+"""The sign of a scalar: -1, 0 or 1, and None for a NaN."""
+
+PREFIX = "table_"
+"""The beginning of the name of every table."""
+
+
+class PiecewisePolynomial(str):
+    """The function that is sum_j rows[k][j] (x - bases[k])^j between knots[k - 1] and knots[k].
+
+    ``knots`` increase; there is one more row than knots. A knot belongs to the interval above it. The text of
+    the object is its name in emitted code.
+
+    >>> zero, one = Fraction(0), Fraction(1)
+    >>> ramp = PiecewisePolynomial((zero,), (zero, zero), ((zero,), (zero, one)))
+    >>> [str(c) for c in ramp.derivative().rows[1]]
+    ['1', '0']
+    """
+
+    __slots__ = ("bases", "knots", "rows")
+
+    knots: tuple[Fraction, ...]
+    bases: tuple[Fraction, ...]
+    rows: tuple[tuple[Fraction, ...], ...]
+
+    def __new__(
+        cls,
+        knots: tuple[Fraction, ...],
+        bases: tuple[Fraction, ...],
+        rows: tuple[tuple[Fraction, ...], ...],
+    ) -> PiecewisePolynomial:
+        """Return the function; rows are filled up with zeros to one length of at least two."""
+        # Two columns suffice that the value at NaN is NaN: c_0 + c_1 NaN.
+        width = max(2, *map(len, rows))
+        rows = tuple((*row, *(Fraction(0),) * (width - len(row))) for row in rows)
+        content = ";".join(",".join(map(str, row)) for row in (knots, bases, *rows))
+        table = super().__new__(cls, PREFIX + sha256(content.encode()).hexdigest()[:8])
+        table.knots, table.bases, table.rows = knots, bases, rows
+        return table
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return PiecewisePolynomial, (self.knots, self.bases, self.rows)
+
+    @property
+    def degree(self) -> int:
+        """The highest power of the rows that is not zero in every row."""
+        return max((j for row in self.rows for j, c in enumerate(row) if c), default=0)
+
+    def derivative(self) -> PiecewisePolynomial:
+        """Return the derivative; at a knot, it is the derivative from above."""
+        rows = tuple(tuple(j * c for j, c in enumerate(row))[1:] for row in self.rows)
+        return PiecewisePolynomial(self.knots, self.bases, rows)
+
+    def value(self, domain: Domain, x: Scalar, sign: Sign) -> Scalar:
+        """Return the value at x in any domain; ``sign`` compares x with the knots."""
+        first, last = 0, len(self.knots)
+        while first < last:
+            middle = (first + last) // 2
+            order = sign(x - domain.rational(*self.knots[middle].as_integer_ratio()))
+            if order is None:
+                return x
+            first, last = (first, middle) if order < 0 else (middle + 1, last)
+        return self.on_interval(domain, x, first)
+
+    def on_interval(self, domain: Domain, x: Scalar, place: int) -> Scalar:
+        """Return the value at x of the polynomial of one interval."""
+        *rest, total = (domain.rational(*c.as_integer_ratio()) for c in self.rows[place])
+        step = x - domain.rational(*self.bases[place].as_integer_ratio())
+        for c in reversed(rest):
+            total = c + step * total
+        return total

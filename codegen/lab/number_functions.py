@@ -1,0 +1,85 @@
+"""The functions of formulas for the number types of the lab: floats, mpmath numbers, balls, arrays."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable, Mapping
+
+from codegen.ir.elementary import ANGLE, MATHEMATICAL
+from codegen.ir.number import Number
+from codegen.ir.selection import ABSOLUTE, CHOOSE
+from codegen.ir.table import PiecewisePolynomial
+from codegen.lab.number_types import Scalar
+
+TABLES = "table"
+"""The key of the function that makes the function of a table."""
+
+Functions = Mapping[str, Scalar]
+"""Functions by name. The entry :data:`TABLES` returns the function of a table for a function that converts
+numbers."""
+
+
+def of_scalars(source: object) -> Functions:
+    """Return the functions of a module or type with the functions of mathematics, for comparable numbers."""
+    return {
+        **{name: getattr(source, name) for name in (*MATHEMATICAL, ANGLE)},
+        ABSOLUTE: abs,
+        CHOOSE: _choose,
+        TABLES: _scalar_table,
+    }
+
+
+def of_arrays(library: Scalar) -> Functions:
+    """Return the functions of NumPy, or of a library with the same interface."""
+
+    def choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
+        return library.where(x > 0, a, library.where(x <= 0, b, x))
+
+    def table(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> Scalar:
+        knots, bases, *columns = (library.array(x) for x in _converted(polynomial, constant))
+
+        def value(x: Scalar) -> Scalar:
+            place = library.searchsorted(knots, x, side="right")
+            total, step = 0.0, x - bases[place]
+            for column in reversed(columns):
+                total = column[place] + step * total
+            return total
+
+        return value
+
+    names = {name: getattr(library, name) for name in MATHEMATICAL}
+    return names | {ANGLE: library.arctan2, ABSOLUTE: abs, CHOOSE: choose, TABLES: table}
+
+
+def chosen(functions: Functions, name: str, constant: Callable[[Number], Scalar]) -> Callable[..., Scalar]:
+    """Return one of the functions; an ArithmeticError names a function that is missing."""
+    key = TABLES if isinstance(name, PiecewisePolynomial) else name
+    if key not in functions:
+        message = f"no function {key} for these numbers"
+        raise ArithmeticError(message)
+    function: Callable[..., Scalar] = functions[key](name, constant) if key == TABLES else functions[key]
+    return function
+
+
+def _choose(x: Scalar, a: Scalar, b: Scalar) -> Scalar:
+    return a if x > 0 else b if x <= 0 else x
+
+
+def _converted(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> list[list[Scalar]]:
+    """Return knots, bases, and the coefficients of each power."""
+    columns = (polynomial.knots, polynomial.bases, *zip(*polynomial.rows, strict=True))
+    return [[constant(Number.rational(*x.as_integer_ratio())) for x in column] for column in columns]
+
+
+def _scalar_table(polynomial: PiecewisePolynomial, constant: Callable[[Number], Scalar]) -> Scalar:
+    knots, bases, *columns = _converted(polynomial, constant)
+
+    def value(x: Scalar) -> Scalar:
+        place = bisect_right(knots, x)
+        *rest, total = (column[place] for column in columns)
+        step = x - bases[place]
+        for c in reversed(rest):
+            total = c + step * total
+        return total
+
+    return value

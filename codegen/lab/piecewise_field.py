@@ -1,0 +1,199 @@
+"""The ambient equation of a scene whose field is not smooth, as smooth equations between events.
+
+On given sides of all selections (:mod:`codegen.ir.smoothness`) the field is smooth. An integrator follows
+this field until a margin vanishes, and continues with the field on the other side.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from flint import arb
+
+from codegen.errors import SceneError
+from codegen.ir.domain import ExprDomain
+from codegen.ir.expr import Expr
+from codegen.ir.smoothness import Sides, on_sides, selections
+from codegen.ir.table import PiecewisePolynomial
+from codegen.lab.ambient_field import FUNCTIONS, ball
+from codegen.lab.number_types import Evaluate, Scalar, Vector
+from codegen.lab.straight_line_field import straight_line
+from codegen.scene.problem import TIME, Problem
+
+AHEAD = 1e-34
+"""The time after which the sides of selections are read; it is much longer than the error of
+the time of an event, and much shorter than every time scale."""
+
+NEAR = (1e-5, 1e-6)
+"""Times after an event at which the fields on both sides are compared."""
+
+VANISHING = 1e-30
+"""A margin of this size vanishes."""
+
+SUBSTEPS = 24
+"""The number of inner points of a step at which margins are tested."""
+
+MOST_EVENTS, MOST_SECANTS = 1000, 100
+
+MOST = 9
+"""The largest number of continuous derivatives that is determined."""
+
+
+@dataclass(frozen=True)
+class PiecewiseField:
+    """The smooth fields of a scene by sides; ``compiled`` stores them."""
+
+    scene: Problem
+    compiled: dict[Sides, tuple[Evaluate, Evaluate]] = field(default_factory=dict)
+
+    @cached_property
+    def roots(self) -> tuple[Expr, ...]:
+        """The components of f(y).y."""
+        domain = ExprDomain()
+        state = tuple(domain.space.sym(s) for s in self.scene.symbols)
+        return self.scene.velocity(domain, state, domain.space.sym(TIME))
+
+    @cached_property
+    def nodes(self) -> list[Expr]:
+        """The selections of the field."""
+        return selections(self.roots)
+
+    def on(self, sides: Sides) -> tuple[Evaluate, Evaluate]:
+        """Return the field on given sides, and the margins of these sides, as functions of (state, t)."""
+        if sides not in self.compiled:
+            pair = on_sides(self.roots, self.nodes, sides)
+            name, symbols = self.scene.name, self.scene.symbols
+            first, second = (straight_line(name, symbols, tuple(r)).python(ball, FUNCTIONS) for r in pair)
+            self.compiled[sides] = first, second
+        return self.compiled[sides]
+
+    def sides_at(self, y: Vector, t: Scalar, flow: Evaluate | None = None) -> Sides:
+        """Return the sides of all selections just after (y, t), on the solution through this point."""
+        whole = straight_line(self.scene.name, self.scene.symbols, self.roots).python(ball, FUNCTIONS)
+        ahead = arb(AHEAD)
+        slopes = (whole if flow is None else flow)(y, t)
+        point = tuple((a + ahead * b).mid() for a, b in zip(y, slopes, strict=True))
+        tests = tuple(node.args[0] for node in self.nodes)
+        values = straight_line(self.scene.name, self.scene.symbols, tests).python(ball, FUNCTIONS)
+        return tuple(
+            _side(node.payload, x) for node, x in zip(self.nodes, values(point, t + ahead), strict=True)
+        )
+
+    def beyond(self, sides: Sides, y: Vector, t: Scalar) -> tuple[Sides, int]:
+        """Return the sides after an event, and the number of continuous derivatives of the field there.
+
+        The number is -1 for a field that jumps. :class:`SceneError` is raised if the field on the other side
+        leads back, so that the solution would stay on the boundary.
+        """
+        before, _ = self.on(sides)
+        after = self.sides_at(y, t, before)
+        field_after, _ = self.on(after)
+        if self.sides_at(y, t, field_after) != after:
+            raise SceneError(
+                f"the solution stays where the field jumps, from t = {float(t):.6g}",
+                where=self.scene.name,
+                expected="a solution that crosses these points",
+                hint="replace sign(x) by tanh(x/w) for a small width w, or end the span before that time",
+            )
+        slopes = field_after(y, t)
+        gaps = []
+        for time in NEAR:
+            point = tuple((a + arb(time) * b).mid() for a, b in zip(y, slopes, strict=True))
+            pairs = zip(before(point, t + time), field_after(point, t + time), strict=True)
+            gaps.append(max(abs(float((a - b).mid())) for a, b in pairs))
+        if not min(gaps) > 0.0 or gaps[1] < 1e-50:
+            return after, MOST
+        return after, min(MOST, round(math.log(gaps[0] / gaps[1]) / math.log(NEAR[0] / NEAR[1])) - 1)
+
+
+Advance = Callable[..., tuple[Vector, float]]
+"""A step of an integrator: (field, y, t, length) -> (new state, error)."""
+
+
+class Sided:
+    """The field on the sides that are valid now, as a function of (state, t), and the events so far.
+
+    ``kinks`` contains the number of continuous derivatives at each event.
+    """
+
+    def __init__(self, fields: PiecewiseField) -> None:
+        self.fields = fields
+        self.kinks: list[int] = []
+        self.points: list[tuple[Vector, Scalar]] = []
+
+    def begin(self, y: Vector, t: Scalar, least: float) -> None:
+        """Begin at (y, t); ``least`` is the shortest step."""
+        self.sides, self.least = self.fields.sides_at(y, t), least
+
+    def __call__(self, y: Vector, t: Scalar) -> Vector:
+        """Return the field on the present sides."""
+        self.points.append((y, t))
+        return self.fields.on(self.sides)[0](y, t)
+
+    def margins(self, y: Vector, t: Scalar) -> Vector:
+        """Return the margins of the present sides."""
+        return self.fields.on(self.sides)[1](y, t)
+
+    def leaves(self, y: Vector, t: Scalar, new: Vector, length: Scalar) -> bool:
+        """Whether a margin is negative at the end of a step, or at an inner point of its last substeps."""
+        inner, self.points = self.points[-SUBSTEPS:], []
+        if any(x < 0 for x in self.margins(new, t + length)):
+            return True
+        return float(length) > self.least * 2 and any(x < 0 for p in inner for x in self.margins(*p))
+
+    def cross(self, y: Vector, t: Scalar, length: Scalar, advance: Advance) -> tuple[Scalar, Vector] | None:
+        """Move to the first event in a step and to its other side; None if a shorter step must be tried."""
+        start = self.margins(y, t)
+        end = self.margins(advance(self, y, t, length)[0], t + length)
+        crossed = [k for k, x in enumerate(end) if x < 0]
+        # A margin that vanishes at the beginning belongs to the last event, and gives no bracket.
+        if not crossed or any(abs(start[k]) < VANISHING for k in crossed):
+            return None
+
+        def margin(tau: Scalar) -> Scalar:
+            values = self.margins(advance(self, y, t, tau)[0], t + tau)
+            return min((values[k].mid() for k in crossed), key=float)
+
+        tau = _root(margin, min((start[k].mid() for k in crossed), key=float), margin(length), length)
+        place = advance(self, y, t, tau)[0]
+        now = (t + tau).mid()
+        self.sides, smooth = self.fields.beyond(self.sides, place, now)
+        self.kinks.append(smooth)
+        if len(self.kinks) > MOST_EVENTS:
+            raise SceneError(
+                f"more than {MOST_EVENTS} points where the field is not smooth",
+                where=self.fields.scene.name,
+                expected="a solution that crosses fewer of them",
+                hint="shorten the span",
+            )
+        self.points = []
+        return now, place
+
+
+def _root(margin: Callable[[Scalar], Scalar], low: Scalar, high: Scalar, length: Scalar) -> Scalar:
+    """Return the time at which a margin vanishes, from its values low > 0 and high < 0 at 0 and ``length``.
+
+    The Illinois form of the false position method.
+    """
+    a, b, moved = arb(0), length, 0
+    for _ in range(MOST_SECANTS):
+        tau = ((a * high - b * low) / (high - low)).mid()
+        value = margin(tau)
+        if abs(value) < VANISHING / 1e8 or abs(b - a) < VANISHING / 1e8:
+            break
+        if value < 0:
+            low = (low / 2).mid() if moved < 0 else low
+            b, high, moved = tau, value, -1
+        else:
+            high = (high / 2).mid() if moved > 0 else high
+            a, low, moved = tau, value, 1
+    return tau
+
+
+def _side(function: str, x: Scalar) -> int:
+    if isinstance(function, PiecewisePolynomial):
+        return sum(bool(x >= arb(k.numerator) / k.denominator) for k in function.knots)
+    return int(x > 0)

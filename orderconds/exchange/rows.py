@@ -1,0 +1,63 @@
+"""The rows of a text table: separated by commas, semicolons or tabs; comments and a header are left out."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import dataclass
+
+DELIMITERS = (",", ";", "\t")
+COMMENTS = ("#", "%")
+"""A line that begins with one of these characters is a comment."""
+
+_WORD = re.compile(r"[^\W\d][\w ()./^-]*")
+_COLUMN_OF_TABLEAU = re.compile(r"[aA]\w*")
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The rows of a table, whose cells have no blanks at the ends, and the header, if there is one."""
+
+    rows: tuple[tuple[str, ...], ...]
+    header: tuple[str, ...] = ()
+
+    @property
+    def plainly_other(self) -> bool:
+        """Whether the header names columns, but not c and the columns of A."""
+        return bool(self.header) and self.header[0] != "c"
+
+
+def read(text: str, names: tuple[str, ...]) -> Rows:
+    """Return the rows of a table.
+
+    The delimiter is the one that occurs in the most lines. A first row of words is a header, unless it begins
+    with one of ``names``; ``c`` followed by names of columns of A is a header as well. Raises
+    :class:`csv.Error` for wrong quotation marks.
+
+    >>> read("# Heun\\nc;a1;a2\\n0;0;0\\n1;1;0\\n;1/2;1/2\\n", ("c",)).rows
+    (('0', '0', '0'), ('1', '1', '0'), ('', '1/2', '1/2'))
+    >>> read("c,1/2\\n", ("c",)).header
+    ()
+    """
+    text = text.removeprefix("\ufeff")
+    lines = [line for line in text.splitlines() if not _is_comment(line)]
+    delimiter = max(DELIMITERS, key=lambda mark: sum(mark in line for line in lines))
+    table = csv.reader(io.StringIO(text), delimiter=delimiter, strict=True)
+    rows = [tuple(cell.strip() for cell in row) for row in table]
+    # A line of a quoted cell may begin with #, so comments are left out after the cells have been separated.
+    rows = [row for row in rows if any(row) and not _is_comment(row[0])]
+    if rows and _is_header(rows[0], names):
+        return Rows(tuple(rows[1:]), rows[0])
+    return Rows(tuple(rows))
+
+
+def _is_comment(line: str) -> bool:
+    return line.lstrip().startswith(COMMENTS)
+
+
+def _is_header(row: tuple[str, ...], names: tuple[str, ...]) -> bool:
+    cells = [cell for cell in row if cell]
+    if row[0] == "c":
+        return len(cells) > 1 and all(_COLUMN_OF_TABLEAU.fullmatch(cell) for cell in cells[1:])
+    return row[0] not in names and len(row) > 1 and all(_WORD.fullmatch(cell) for cell in cells)

@@ -1,8 +1,0 @@
-# 8: the float 0.1
-from sympy import Matrix, symbols
-
-from codegen.groups import SO3, Rotation
-from codegen.scene import FieldScene
-
-y = Matrix(symbols("y0:3", real=True))
-scene = FieldScene(group=SO3(), action=Rotation(), y=y, f=0.1 * y, y0=[1, 0, 0], span=(0, 1))
