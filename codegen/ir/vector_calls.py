@@ -8,6 +8,7 @@ matrices and ``commutator5`` their commutator.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,11 @@ from codegen.ir.vector_function import VectorFunction
 if TYPE_CHECKING:
     from codegen.ir.expr import Expr
 
-_OF_MATRICES = {"inverse": MatrixInverse, "product": MatrixProduct, "commutator": MatrixCommutator}
+_OF_MATRICES: dict[str, Callable[[int], VectorFunction]] = {
+    "inverse": MatrixInverse,
+    "product": MatrixProduct,
+    "commutator": MatrixCommutator,
+}
 _NAME = re.compile(r"(expm|inverse|product|commutator)(\d+)(?:_d(\d+))?")
 
 

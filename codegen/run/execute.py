@@ -21,6 +21,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from itertools import chain
 from types import SimpleNamespace
 from typing import Any
 
@@ -458,7 +459,9 @@ def _library(function: str, domain: Domain) -> Callable[..., Sequence[Any]] | No
         return lambda n, matrix: [_inverted(n, matrix)]
     if vector_function(function) is not None:
         # A domain has the same operations as the function of the unit, and is faster.
-        return lambda *x: operator.setitem(x[-1], slice(None), domain.vector(function, sum(x[:-1], []))) or ()
+        return lambda *x: (
+            operator.setitem(x[-1], slice(None), domain.vector(function, [*chain(*x[:-1])])) or ()
+        )
     if function.startswith("stumpff_"):
         orders = [int(k) for k in function.removeprefix("stumpff_")]
         together = getattr(domain, "together", None)
