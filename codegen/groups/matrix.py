@@ -11,7 +11,7 @@ from fractions import Fraction
 
 from codegen.errors import SceneError
 from codegen.groups.capabilities import Coadjoint, MatrixElements, Projection, RightTrivialisation, Rotations
-from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, matvec, product, transposed
+from codegen.groups.linear_algebra import LOOPED, S, Vector, invert, matmul, matvec, product, transposed
 from codegen.groups.matrix_algebra import Sparse, matrix_algebra, sparse
 from codegen.groups.rational_rows import rational_rows
 from codegen.ir.domain import Domain
@@ -183,8 +183,8 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
         return self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return hat(x) g."""
-        return product(d, self.hat(d, x), g, self.n)
+        """Return hat(x) g. The product is written out, because velocities are part of formulas of scenes."""
+        return matmul(self.hat(d, x), g, self.n)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:
         """Return the coordinates of v g^-1."""
@@ -216,17 +216,17 @@ class IsometryGroup(MatrixGroup, Projection):
     def project(self, d: Domain, g: Vector[S]) -> Vector[S]:
         """Return g (3 - J^-1 g^T J g)/2: one Newton step towards the polar factor of g."""
         half, three = d.rational(1, 2), d.rational(3)
-        gram = product(d, self.inverse(d, g), g, self.n)
+        gram = matmul(self.inverse(d, g), g, self.n)
         defect: Vector[S] = tuple(
             half * ((three - x) if k % (self.n + 1) == 0 else -x) for k, x in enumerate(gram)
         )
-        return product(d, g, defect, self.n)
+        return matmul(g, defect, self.n)
 
     def laws(self, d: Domain, g: Vector[S]) -> tuple[tuple[str, S], ...]:
         """Return the equations g^-1 g = 1, where g^-1 is the transpose of the form."""
         name = "g^T g = 1" if all(p == (i, 1) for i, p in enumerate(self.form)) else "g^T J g = J"
         unit: Vector[S] = self.identity(d)
-        pairs = zip(product(d, self.inverse(d, g), g, self.n), unit, strict=True)
+        pairs = zip(matmul(self.inverse(d, g), g, self.n), unit, strict=True)
         return tuple((name, x - e) for x, e in pairs)
 
 
