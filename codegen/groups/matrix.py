@@ -183,7 +183,7 @@ class MatrixGroup(MatrixElements, RightTrivialisation, Coadjoint):
         return self.dual_vee(d, transposed(result, self.n))
 
     def velocity(self, d: Domain, x: Vector[S], g: Vector[S]) -> Vector[S]:
-        """Return hat(x) g. The product is written out, because velocities are part of formulas of scenes."""
+        """Return hat(x) g, without a vector function: velocities are part of the formulas of scenes."""
         return matmul(self.hat(d, x), g, self.n)
 
     def rate(self, d: Domain, v: Vector[S], g: Vector[S]) -> Vector[S]:

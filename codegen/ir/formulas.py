@@ -11,7 +11,8 @@ from codegen.ir.vector_calls import named
 
 
 class Formulas(ExprDomain):
-    """The expressions of a domain, in which products and commutators of matrices are written out.
+    """The expressions of a domain, in which sums of terms replace products and commutators of
+    matrices.
 
     The formulas of a scene are differentiated, expanded in series, and evaluated by functions of other
     libraries, none of which calls vector functions for them.
